@@ -1,0 +1,58 @@
+# make          set up .venv, then run the whole study with the paper's parameters
+# make quick    the same figures from small ensembles
+# make test     set up .venv, then check and test the code
+# make lock     renew environment.lock, for instance after changing a dependency in pyproject.toml
+# make clean    remove .venv and caches; results/ stays
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+INSTALL := $(PIP) install --quiet --no-user --compile --no-build-isolation
+
+# Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
+unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
+
+.PHONY: all quick test setup lock clean
+
+all: setup
+	$(BIN)/snakemake
+
+quick: setup
+	$(BIN)/snakemake --configfile config/quick.yaml
+
+test: setup
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/mypy
+	$(BIN)/pytest
+
+setup: $(VENV)/installed
+
+# Both stamps are written last, so an interrupted setup is done again.
+# setuptools comes first because one of the packages is built with it.
+$(VENV)/locked: environment.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	    { echo "Python 3.11 or newer is needed; name one with: make PYTHON=/path/to/python3" >&2; exit 1; }
+	rm -rf $(VENV)
+	$(PYTHON) -m venv $(VENV)
+	sed -n '/^setuptools==/,/[^\\]$$/p' $< | $(INSTALL) --require-hashes -r /dev/stdin
+	$(INSTALL) --require-hashes -r $<
+	touch $@
+
+$(VENV)/installed: $(VENV)/locked pyproject.toml
+	$(INSTALL) --no-deps --editable .
+	touch $@
+
+# One set of versions for every platform and every Python from 3.11 on.
+lock:
+	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
+	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv && \
+	"$$dir/bin/uv" pip compile pyproject.toml --group dev --output-file environment.lock \
+	    --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
+	    --no-config --no-emit-index-url --custom-compile-command "make lock" --quiet
+
+clean:
+	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache
+	find src tests workflow -name __pycache__ -type d -prune -exec rm -rf {} +

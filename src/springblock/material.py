@@ -1,0 +1,92 @@
+"""The elastic layer, its loading and its surface: every constant of the paper, in SI units."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+
+
+def _positive(value: float) -> bool:
+    return value > 0.0
+
+
+def _not_negative(value: float) -> bool:
+    return value >= 0.0
+
+
+#: Fields that may be zero; all others must be positive.
+_MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+
+
+@dataclass(frozen=True)
+class Material:
+    """Constants of the spring-block model (Costagliola et al. 2022, section 2).
+
+    The defaults are the paper's values. The spring constants and the block mass follow from
+    them: the lattice is equivalent to an isotropic sheet with Poisson's ratio 1/3 in plane
+    stress (Absi & Prager 1975, doi:10.1016/0045-7825(75)90013-2).
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a field is not a number, not finite, negative, or zero where it may not be.
+    """
+
+    youngs_modulus: float = 1e7  #: E, Pa
+    density: float = 1200.0  #: rho, kg/m³
+    pressure: float = 5e4  #: P, Pa, over the whole nominal area
+    slider_velocity: float = 5e-4  #: v, m/s
+    spacing: float = 1e-5  #: l, m, distance between blocks
+    thickness: float = 1e-5  #: l_z, m, of the layer
+    gamma: float = 5e3  #: damping frequency, 1/s (the paper's 5 ms⁻¹)
+    mu_static: float = 1.0  #: mean of the microscopic static coefficient
+    mu_static_std: float = 0.1  #: its standard deviation
+    mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
+    mu_dynamic_std: float = 0.05  #: its standard deviation
+
+    def __post_init__(self) -> None:
+        for name, value in self.items():
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise TypeError(f"Material.{name} must be a number, not {value!r}")
+            allowed = _not_negative if name in _MAY_VANISH else _positive
+            if not (math.isfinite(value) and allowed(value)):
+                bound = "zero or positive" if name in _MAY_VANISH else "positive"
+                raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
+            object.__setattr__(self, name, float(value))
+
+    def items(self) -> Iterator[tuple[str, float]]:
+        """Yield (name, value) of every constant."""
+        return ((field.name, getattr(self, field.name)) for field in fields(self))
+
+    @property
+    def k_int(self) -> float:
+        """Stiffness of an axial spring, N/m: K_int = 3/4 E l_z; a diagonal one has half."""
+        return 0.75 * self.youngs_modulus * self.thickness
+
+    @property
+    def k_s(self) -> float:
+        """Stiffness between a block and the slider, N/m: K_s = K_int l²/l_z²."""
+        return self.k_int * (self.spacing / self.thickness) ** 2
+
+    @property
+    def mass(self) -> float:
+        """Mass of a block, kg: m = rho l² l_z."""
+        return self.density * self.spacing**2 * self.thickness
+
+    @property
+    def block_load(self) -> float:
+        """Normal force on one block of a flat surface, N: P l²."""
+        return self.pressure * self.spacing**2
+
+    @property
+    def omega_min(self) -> float:
+        """Lowest angular frequency of the free lattice, rad/s: all blocks on their K_s."""
+        return math.sqrt(self.k_s / self.mass)
+
+    @property
+    def omega_max(self) -> float:
+        """Highest angular frequency of the lattice, rad/s, at wave vector (π, 0).
+
+        There an axial pair along x and four diagonals are strained in full:
+        m ω² = K_s + 6 K_int.
+        """
+        return math.sqrt((self.k_s + 6.0 * self.k_int) / self.mass)

@@ -1,0 +1,151 @@
+"""Contact masks of flat, pillared and hierarchically grooved surfaces.
+
+Every level cuts the surface along x, along y or along both, independently of the other axis, so
+a pattern is the product of two one-dimensional profiles. A profile is a list of segments in
+contact, each given by its first block and its length.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Segments = list[tuple[int, int]]
+
+
+def _count(name: str, value: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise TypeError(f"{name} must be a whole number of blocks, not {value!r}")
+    if value < 1:
+        raise ValueError(f"{name} must be at least 1 block, not {value}")
+    return int(value)
+
+
+@dataclass(frozen=True)
+class Level:
+    """One level of the hierarchy: contact of `size` blocks, then a gap of `spacing` blocks.
+
+    `axes` names the coordinates that are cut: ("x", "y") gives pillars, ("y",) grooves that
+    run along x, ("x",) grooves that run along y.
+    """
+
+    size: int
+    spacing: int
+    axes: tuple[str, ...]
+
+    @property
+    def along(self) -> str | None:
+        """Axis that the grooves of this level run along; None for pillars."""
+        if len(self.axes) == 2:
+            return None
+        return "x" if self.axes == ("y",) else "y"
+
+
+def _cut_surface(n: int, level: Level) -> Segments:
+    """Lay the first level over n blocks, with margins of half a spacing (section 3.2)."""
+    period = level.size + level.spacing
+    if n % period:
+        raise ValueError(
+            f"the period n_p + n_s = {level.size} + {level.spacing} = {period} "
+            f"must divide N = {n}; it leaves {n % period} blocks over"
+        )
+    return [(start, level.size) for start in range(level.spacing // 2, n, period)]
+
+
+def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
+    """Cut one segment; contact begins and ends at the segment's own edges."""
+    start, length = segment
+    period = level.size + level.spacing
+    if level.spacing >= length:
+        raise ValueError(
+            f"a groove of {level.spacing} blocks does not fit into a pillar of {length} blocks"
+        )
+    if (length + level.spacing) % period:
+        raise ValueError(
+            f"pawls of {level.size} and grooves of {level.spacing} blocks do not fill a pillar of "
+            f"{length} blocks from edge to edge: {length} + {level.spacing} must be a multiple "
+            f"of {period}"
+        )
+    return [(s, level.size) for s in range(start, start + length, period)]
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A hierarchy of any depth on a surface of N x N blocks.
+
+    Build it from `flat` or `pillars` and refine it with `grooved` and `pillared`. The first
+    level keeps a margin of n_s/2 to the edges of the surface (of floor and ceil of n_s/2 where
+    n_s is odd); deeper levels fill their pillar from edge to edge, since the edge of a pillar is
+    where its contact ends.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a length is not a positive whole number, the first period does not divide N, or a
+        level does not fit into the one above it.
+    """
+
+    n_blocks: int
+    levels: tuple[Level, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "n_blocks", _count("N", self.n_blocks))
+        self.profile("x"), self.profile("y")  # a level that does not fit is refused here
+
+    @classmethod
+    def flat(cls, n_blocks: int) -> "Pattern":
+        """All N x N blocks in contact."""
+        return cls(n_blocks)
+
+    @classmethod
+    def pillars(cls, n_blocks: int, n_p: int, n_s: int) -> "Pattern":
+        """Square pillars of n_p blocks, n_s blocks apart."""
+        return cls(n_blocks).pillared(n_p, n_s)
+
+    def pillared(self, n_p: int, n_s: int) -> "Pattern":
+        """Add a level of pillars of n_p blocks, n_s blocks apart."""
+        return self._refined(Level(_count("n_p", n_p), _count("n_s", n_s), ("x", "y")))
+
+    def grooved(self, n_p2: int, n_s2: int, along: str = "x") -> "Pattern":
+        """Add a level of pawls of n_p2 blocks between grooves of n_s2 blocks that run `along`."""
+        if along not in ("x", "y"):
+            raise ValueError(f"grooves run along 'x' or 'y', not {along!r}")
+        across = ("y",) if along == "x" else ("x",)
+        return self._refined(Level(_count("n_p2", n_p2), _count("n_s2", n_s2), across))
+
+    def _refined(self, level: Level) -> "Pattern":
+        return replace(self, levels=(*self.levels, level))
+
+    def profile(self, axis: str, depth: int | None = None) -> Segments:
+        """Return the contact segments (first block, length) along `axis`.
+
+        `depth` counts the levels that are looked at, all of them by default; levels that do not
+        cut this axis leave it whole.
+        """
+        segments = [(0, self.n_blocks)]
+        for level in self.levels[:depth]:
+            if axis not in level.axes:
+                continue
+            if segments == [(0, self.n_blocks)]:
+                segments = _cut_surface(self.n_blocks, level)
+            else:
+                segments = [cut for s in segments for cut in _cut_segment(s, level)]
+        return segments
+
+    @cached_property
+    def contact(self) -> NDArray[np.bool_]:
+        """Blocks in contact with the substrate, (N, N) bool, indexed [y, x]; read-only."""
+        along = {axis: np.zeros(self.n_blocks, bool) for axis in "xy"}
+        for axis, mask in along.items():
+            for start, length in self.profile(axis):
+                mask[start : start + length] = True
+        contact = np.outer(along["y"], along["x"])
+        contact.flags.writeable = False
+        return contact
+
+    @property
+    def origins(self) -> NDArray[np.intp]:
+        """First block (y, x) of each first-level pillar, (pillars, 2)."""
+        starts = [[start for start, _ in self.profile(axis, depth=1)] for axis in "yx"]
+        return np.array([(y, x) for y in starts[0] for x in starts[1]], dtype=np.intp)

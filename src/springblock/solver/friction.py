@@ -1,0 +1,32 @@
+"""The substrate: Amontons-Coulomb friction with a static threshold, in one step of time.
+
+While a block is at rest, friction balances F_mot = F_int + F_s up to mu_s F_n; beyond, the block
+detaches, and mu_d F_n opposes its velocity until it comes to rest and sticks again (section 2 of
+the paper).
+"""
+
+import math
+
+from numba import njit
+
+
+@njit(inline="always")
+def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
+    """Return the share of the trial velocity w that friction leaves, 0 for a block at rest.
+
+    w is the velocity after a step under all forces but friction, v the one before, and f the
+    velocity that F_mot alone would add; `static` and `dynamic` are what mu_s F_n and mu_d F_n
+    would take away. Two cases end in rest:
+
+    - friction at mu_d F_n takes away all of w (Moreau's step, exact for a block that stops);
+    - w points back from v, or v is zero: the block is at rest at an instant of this step, and
+      static friction holds it if F_mot is within mu_s F_n.
+
+    A block at rest therefore needs more than both coefficients to move: one with
+    mu_s < mu_d lets go at mu_d, once, without a flicker.
+    """
+    speed2 = wx * wx + wy * wy
+    turned = wx * vx + wy * vy <= 0.0
+    held = turned & (fx * fx + fy * fy <= static * static)
+    left = 1.0 - dynamic / math.sqrt(speed2)
+    return left if (speed2 > dynamic * dynamic) & (not held) else 0.0

@@ -1,0 +1,150 @@
+"""What an integrator works on: the state of all blocks and the constants of one run.
+
+Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the two columns beside
+a row hold what makes the springs across the edge strain-free. Lengths are in l, velocities in l
+per step, times in steps, forces in the velocity that they add in one step.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from springblock.material import Material
+from springblock.solver.compilation import JIT_SUM
+from springblock.solver.springs import ONE, SCRATCH_SIZE, coefficients
+
+Array = NDArray[np.float64]
+
+
+class State(NamedTuple):
+    """State of the lattice; every array has N rows of `pitch` numbers."""
+
+    ux: Array  #: displacement
+    uy: Array
+    wx: Array  #: velocity
+    wy: Array
+    t_det: Array  #: first detachment; infinite before
+    static: Array  #: mu_s F_n; 0 where there is no contact
+    dynamic: Array  #: mu_d F_n
+    scratch: Array  #: rows of springs, see `springs`
+    work: Array  #: lattice-sized fields of the integrator's own
+    ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
+
+
+class Constants(NamedTuple):
+    """Constants of one run."""
+
+    n: np.uint64  #: N
+    pitch: np.uint64
+    kappa: float  #: K_int l
+    axial: tuple[float, ...]  #: polynomials of the springs
+    diagonal: tuple[float, ...]
+    k_s: float  #: K_s
+    damping: float  #: gamma h
+    slider_x: float  #: slider's displacement in one step
+    slider_y: float
+
+
+class Samples(NamedTuple):
+    """What one call of an integrator records, one entry per sample interval."""
+
+    force_x: Array  #: sum of F_s at the end of the interval
+    force_y: Array
+    switches: NDArray[np.int64]  #: blocks that went from rest to sliding within it
+
+    @classmethod
+    def empty(cls, count: int) -> "Samples":
+        """Room for `count` samples."""
+        return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
+
+
+#: Threshold of a contact block whose mu_s is zero: it lets go at once, and is seen to.
+_NO_THRESHOLD = 1e-300
+
+
+def prepare(
+    contact: NDArray[np.bool_],
+    mu_static: Array,
+    mu_dynamic: Array,
+    material: Material,
+    heading: tuple[float, float],
+    step: float,
+    force_time: float,
+    work_fields: int,
+) -> tuple[State, Constants]:
+    """Lay out one run, at rest and free of strain, in the kernels' units.
+
+    `heading` is the unit vector of the slider's motion, `force_time` the time in s for which the
+    integrator lets a force act in one step.
+    """
+    n = contact.shape[0]
+    pitch = n + 2
+    compliance = step * force_time / material.mass  # m per step, per N
+    velocity_per_force = compliance / material.spacing
+    load = material.block_load * n * n / np.count_nonzero(contact)  # F_n, N
+
+    def padded(field: Array) -> Array:
+        return np.pad(field, 1)[1:-1].ravel()
+
+    def field() -> Array:
+        return np.zeros(n * pitch)
+
+    static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
+    state = State(
+        ux=field(),
+        uy=field(),
+        wx=field(),
+        wy=field(),
+        t_det=np.full(n * pitch, np.inf),
+        static=padded(static),
+        dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
+        scratch=np.zeros(SCRATCH_SIZE),
+        work=np.zeros((work_fields, n * pitch)),
+        ledger=np.zeros(3),
+    )
+    kappa = material.k_int * compliance
+    axial, diagonal = coefficients(kappa)
+    slide = material.slider_velocity * step / material.spacing
+    constants = Constants(
+        n=np.uint64(n),
+        pitch=np.uint64(pitch),
+        kappa=kappa,
+        axial=axial,
+        diagonal=diagonal,
+        k_s=material.k_s * compliance,
+        damping=material.gamma * step,
+        slider_x=slide * heading[0],
+        slider_y=slide * heading[1],
+    )
+    return state, constants
+
+
+def unpadded(field: Array, n: int) -> Array:
+    """View of a flat field as (N, N), [y, x], without its border."""
+    return field.reshape(n, -1)[:, 1 : n + 1]
+
+
+@njit(**JIT_SUM)
+def total_displacement(ux, uy, pitch, n):
+    """Sum the displacement of all blocks."""
+    sum_x, sum_y = 0.0, 0.0
+    for row in range(n):
+        for x in range(ONE, n + ONE):
+            sum_x += ux[row * pitch + x]
+            sum_y += uy[row * pitch + x]
+    return sum_x, sum_y
+
+
+@njit(**JIT_SUM)
+def row_sums(ux, uy, wx, wy, scratch, i, heat, n):
+    """Sum displacement, friction's heat (a row of scratch) and squared velocity over one row."""
+    sum_x, sum_y, sum_heat, squares = 0.0, 0.0, 0.0, 0.0
+    for x in range(ONE, n + ONE):
+        b = i + x
+        sum_x += ux[b]
+        sum_y += uy[b]
+        sum_heat += scratch[heat + x]
+        squares += wx[b] * wx[b] + wy[b] * wy[b]
+    return sum_x, sum_y, sum_heat, squares

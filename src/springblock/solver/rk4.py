@@ -1,0 +1,169 @@
+"""Fourth-order Runge-Kutta, the paper's method, in a form that converges.
+
+Taken literally, with friction opposite to the velocity of each *stage*, the method does not
+converge: the stage velocities of a slow block alternate in sign, and it creeps instead of coming
+to rest. Here friction keeps through all four stages the direction that it has at the start of
+the step: against the velocity of a moving block, against F_mot of one that has just let go. A
+block whose velocity has turned back at the end of the step stops there; a block at rest stays
+through all stages. Without friction the method is of fourth order; releases and stops fall on
+step boundaries, which makes it first order across them.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from springblock.solver.compilation import JIT
+from springblock.solver.lattice import Array, Constants, State, total_displacement
+from springblock.solver.springs import BANK, FIRST_BANK, ONE, clear_bank, spring_force, spring_row
+
+FORCE_EVALUATIONS = 4
+#: Lattice-sized fields in `State.work`: displacement and velocity of the stage, their weighted
+#: sums over the stages, and the direction of friction, two components each.
+WORK_FIELDS = 10
+
+WEIGHTS = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
+NODES = (0.0, 0.5, 0.5, 1.0)  #: of the stages; also how far each one goes from the step's start
+
+
+def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
+    """Whether no mode of angular frequency `omega` grows: |R(λh)| ≤ 1 for λ² + γλ + ω² = 0."""
+    root = np.sqrt(np.asarray(gamma * gamma / 4.0 - omega * omega, dtype=complex))
+    z = step * np.concatenate([-gamma / 2.0 + root, -gamma / 2.0 - root])
+    growth = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
+    return bool(np.all(growth <= 1.0 + 1e-12))
+
+
+def force_time(step: float, gamma: float) -> float:
+    """Time for which a force acts in one step, s: damping is a force of its own here."""
+    return step
+
+
+def velocity_now(state: State, constants: Constants, steps: int) -> Array:
+    """Velocity after `steps` steps, (2, lattice), in l per step."""
+    return np.stack([state.wx, state.wy])
+
+
+@njit(inline="always")
+def _friction_direction(fx, fy, wx, wy, static, dynamic):
+    """Unit vector that friction opposes in this step; zero for a block that stays at rest."""
+    speed = math.sqrt(wx * wx + wy * wy)
+    if speed > 0.0:
+        return wx / speed, wy / speed
+    force = math.sqrt(fx * fx + fy * fy)
+    # With mu_s < mu_d the block needs more than mu_d F_n to move at all.
+    if force > static and force > dynamic:
+        return fx / force, fy / force
+    return 0.0, 0.0
+
+
+@njit(**JIT)
+def _stage_row(state, fields, stage, i, n, north, south, damping, k_s, sx, sy, now):
+    """One stage on one row; returns the switches from rest to sliding, and the squared speed."""
+    ux, uy, wx, wy, t_det, static, dynamic, s = state
+    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
+    weight, reach = WEIGHTS[stage], NODES[stage + 1] if stage < 3 else 0.0
+    switches, squares = 0, 0.0
+    for x in range(ONE, n + ONE):
+        b = i + x
+        fx, fy = spring_force(s, x, north, south)
+        fx += k_s * (sx - su[b])
+        fy += k_s * (sy - sv[b])
+        if stage == 0:
+            ex[b], ey[b] = 1.0, 0.0
+            if static[b] > 0.0:
+                ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
+                if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
+                    switches += 1
+                    t_det[b] = min(t_det[b], now)
+            du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
+        moves = 1.0 if (ex[b] != 0.0 or ey[b] != 0.0) else 0.0
+        ax = moves * (fx - damping * pu[b] - dynamic[b] * ex[b])
+        ay = moves * (fy - damping * pv[b] - dynamic[b] * ey[b])
+        du[b] += weight * pu[b]
+        dv[b] += weight * pv[b]
+        qu[b] += weight * ax
+        qv[b] += weight * ay
+        squares += weight * (pu[b] * pu[b] + pv[b] * pv[b])
+        su[b] = ux[b] + reach * pu[b]
+        sv[b] = uy[b] + reach * pv[b]
+        pu[b] = wx[b] + reach * ax
+        pv[b] = wy[b] + reach * ay
+    return switches, squares
+
+
+@njit(**JIT)
+def _finish_row(state, fields, i, n):
+    """Complete the step on one row; returns friction's heat."""
+    ux, uy, wx, wy, _, static, dynamic, _ = state
+    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
+    heat = 0.0
+    for x in range(ONE, n + ONE):
+        b = i + x
+        ux[b] += du[b]
+        uy[b] += dv[b]
+        wx[b] += qu[b]
+        wy[b] += qv[b]
+        heat += dynamic[b] * (du[b] * ex[b] + dv[b] * ey[b])
+        if static[b] > 0.0 and wx[b] * ex[b] + wy[b] * ey[b] <= 0.0:
+            heat += 0.5 * (wx[b] * wx[b] + wy[b] * wy[b])  # what it still had when it turned back
+            wx[b], wy[b] = 0.0, 0.0
+        su[b], sv[b], pu[b], pv[b] = ux[b], uy[b], wx[b], wy[b]
+    return heat
+
+
+@njit(inline="always")
+def _close_edge(u, v, i, n):
+    """Let the spring across the eastern edge be free of strain."""
+    u[i + n + ONE] = u[i + n]
+    v[i + n + ONE] = v[i + n]
+
+
+@njit(**JIT)
+def advance(state, constants, first, steps, every, samples):
+    """Take `steps` steps from step `first`; returns (steps taken, row, column).
+
+    The row is -1 if all went well, else that of the spring which no longer holds.
+    """
+    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger = state
+    n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
+    fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
+    su, sv, pu, pv = fields[:4]
+    su[:], sv[:], pu[:], pv[:] = ux, uy, wx, wy
+    north, south = FIRST_BANK, FIRST_BANK + BANK
+    switches, sample = 0, 0
+    clear_bank(s, south, n)
+    for k in range(first, first + steps):
+        heat, squares = 0.0, 0.0
+        for stage in range(4):
+            sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
+            for row in range(n):
+                beyond = spring_row(su, sv, row, pitch, n, s, north, kappa, axial, diagonal)
+                if beyond > 0:
+                    return k - first, np.int64(row), np.int64(beyond) - 1
+                i = row * pitch
+                row_switches, row_squares = _stage_row(
+                    blocks, fields, stage, i, n, north, south, damping, k_s, sx, sy, k
+                )
+                _close_edge(su, sv, i, n)
+                switches += row_switches
+                squares += row_squares
+                north, south = south, north
+        for row in range(n):
+            heat += _finish_row(blocks, fields, row * pitch, n)
+            _close_edge(ux, uy, row * pitch, n)
+            _close_edge(su, sv, row * pitch, n)
+        total_x, total_y = total_displacement(ux, uy, pitch, n)
+        force_x = k_s * (n * n * slider_x * (k + 1) - total_x)
+        force_y = k_s * (n * n * slider_y * (k + 1) - total_y)
+        ledger[0] += force_x * slider_x + force_y * slider_y
+        ledger[1] += heat
+        ledger[2] += squares
+        if (k + 1) % every == 0:
+            samples.force_x[sample] = force_x
+            samples.force_y[sample] = force_y
+            samples.switches[sample] = switches
+            switches, sample = 0, sample + 1
+    return steps, np.int64(-1), np.int64(-1)
