@@ -163,11 +163,8 @@ def simulate(
     if not isinstance(material, Material):
         raise TypeError(f"material must be a Material, not {material!r}")
     towards = heading(direction)
-    if integrator not in INTEGRATORS:
-        raise ValueError(f"integrator must be one of {', '.join(INTEGRATORS)}, not {integrator!r}")
+    every = check_times(material, integrator, step, sample_interval)
     method = INTEGRATORS[integrator]
-    _check_step(method, step, material)
-    every = _whole_multiple("sample_interval", sample_interval, "step", step)
     stops = [
         _whole_multiple("snapshot_times", time, "sample_interval", sample_interval)
         for time in snapshot_times
@@ -331,8 +328,16 @@ def _checked_surface(
     return mask, fields[0], fields[1]
 
 
-def _check_step(method: ModuleType, step: float, material: Material) -> None:
+def check_times(material: Material, integrator: str, step: float, sample_interval: float) -> int:
+    """Return the steps per sample; raise ValueError or TypeError where a run could not be made."""
+    if integrator not in INTEGRATORS:
+        raise ValueError(f"integrator must be one of {', '.join(INTEGRATORS)}, not {integrator!r}")
     _check_positive("step", step)
+    _check_stability(INTEGRATORS[integrator], step, material)
+    return _whole_multiple("sample_interval", sample_interval, "step", step)
+
+
+def _check_stability(method: ModuleType, step: float, material: Material) -> None:
     omega = np.linspace(material.omega_min, material.omega_max, 33)
     if method.is_stable(step, omega, material.gamma):
         return

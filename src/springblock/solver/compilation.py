@@ -1,13 +1,12 @@
 """How the kernels are compiled, and where their machine code is kept."""
 
-import hashlib
 import os
 import sysconfig
 from pathlib import Path
 
 import numba
 
-_HERE = Path(__file__).parent
+from springblock.sources import digest
 
 
 def _default_cache() -> Path:
@@ -15,18 +14,11 @@ def _default_cache() -> Path:
     return Path(base) / "springblock"
 
 
-def sources_digest() -> str:
-    """Digest of the solver's sources, all of which are compiled into each kernel."""
-    digest = hashlib.sha256(sysconfig.get_python_version().encode())
-    for source in sorted(_HERE.glob("*.py")):
-        digest.update(source.name.encode() + source.read_bytes())
-    return digest.hexdigest()[:16]
-
-
 # Numba finds stale machine code by the time stamp of the file that holds the function, and does
 # not see that a function inlined from another file has changed. One folder per digest does.
 numba.config.CACHE_DIR = str(
-    Path(os.environ.get("NUMBA_CACHE_DIR") or _default_cache()) / sources_digest()
+    Path(os.environ.get("NUMBA_CACHE_DIR") or _default_cache())
+    / f"{digest('springblock.solver')}-{sysconfig.get_python_version()}"
 )
 
 #: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.

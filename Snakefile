@@ -1,0 +1,24 @@
+# Slip precursors and topological length scales at the onset of frictional sliding:
+# from a grid of surfaces to realisations, tables and figures.
+
+from snakemake.utils import min_version
+
+min_version("9.3")
+
+
+configfile: "config/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/figures.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.aggregate.output,
+        [figure_files(name) for name in FIGURES],
+    localrule: True
+    message:
+        f"The study is complete; its tables and figures are in {RESULTS}"

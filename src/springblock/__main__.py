@@ -1,0 +1,5 @@
+"""python -m springblock"""
+
+from springblock.cli import main
+
+main(prog_name="springblock")

@@ -1,0 +1,33 @@
+"""The command line. Commands are imported when they are called: a job loads what it needs."""
+
+from importlib import import_module
+
+import click
+
+COMMANDS = {
+    "compile": "springblock.commands.simulate:compile_kernels",
+    "simulate": "springblock.commands.simulate:simulate_batch",
+    "aggregate": "springblock.commands.aggregate:aggregate",
+    "figure_1": "springblock.figures.figure_1:command",
+    "figure_2": "springblock.figures.figure_2:command",
+    "figure_3": "springblock.figures.figure_3:command",
+    "figure_4": "springblock.figures.figure_4:command",
+    "figure_8": "springblock.figures.figure_8:command",
+}
+
+
+class _LazyGroup(click.Group):
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        module, name = COMMANDS[cmd_name].split(":")
+        return getattr(import_module(module), name)
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="springblock")
+def main() -> None:
+    """Spring-block model of the onset of sliding on patterned surfaces."""

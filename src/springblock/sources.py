@@ -1,0 +1,57 @@
+"""Digests of the package's own sources: which code made a result, and whether it has changed."""
+
+import ast
+import hashlib
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+_PACKAGE = "springblock"
+_ROOT = Path(__file__).parent
+
+
+def _file(module: str) -> Path | None:
+    """Source file of a module of this package; None if there is no such module."""
+    path = _ROOT.joinpath(*module.split(".")[1:])
+    for candidate in (path.with_suffix(".py"), path / "__init__.py"):
+        if candidate.is_file():
+            return candidate
+    return None
+
+
+@cache
+def _imports(file: Path) -> frozenset[str]:
+    """Names of this package that a source file imports, at its top or inside a function."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_bytes())):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names.update(f"{node.module}.{alias.name}" for alias in node.names)
+            names.add(node.module)
+    return frozenset(name for name in names if name.split(".")[0] == _PACKAGE)
+
+
+def files(*modules: str) -> list[Path]:
+    """Source files of modules of this package and of all that they import from it."""
+    found: set[Path] = set()
+    waiting = list(modules)
+    while waiting:
+        file = _file(waiting.pop())
+        if file and file not in found:
+            found.add(file)
+            waiting.extend(_imports(file))
+    return sorted(found)
+
+
+def digest(*modules: str) -> str:
+    """Digest of the sources that these modules consist of; 16 hexadecimal digits."""
+    content = hashlib.sha256()
+    for file in files(*modules):
+        content.update(file.relative_to(_ROOT).as_posix().encode() + file.read_bytes())
+    return content.hexdigest()[:16]
+
+
+def code_version(*modules: str) -> str:
+    """Version of the package with the digest of these modules, as 0.1.0+1234567890abcdef."""
+    return f"{version(_PACKAGE)}+{digest(*modules)}"

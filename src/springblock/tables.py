@@ -1,0 +1,190 @@
+"""Parquet files: their columns, and writing them whole or not at all."""
+
+import contextlib
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from springblock.realisation import Realisation
+from springblock.scene import Scene
+
+
+def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
+    """Return a column that carries its unit and meaning in its metadata."""
+    return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
+
+
+#: One row per realisation; t_* and *_friction in the paper's names.
+SUMMARY = pa.schema(
+    [
+        column("level", pa.int8(), "1", "levels of the pattern: 0 flat, 1 pillars, 2 grooved"),
+        column("n_p", pa.int32(), "blocks", "side of a pillar; 0 on a flat surface"),
+        column("n_s", pa.int32(), "blocks", "distance between pillars; 0 on a flat surface"),
+        column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove, along x; 0 without grooves"),
+        column("direction", pa.string(), "x, y or degrees", "sliding direction"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+        column("seed", pa.int64(), "1", "seed of the friction coefficients"),
+        column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
+        column(
+            "dynamic_friction",
+            pa.float64(),
+            "1",
+            "mean force over P l² N² from the first minimum after the peak to the end of the run; "
+            "settled only where the scene has a duration well past t_max; NaN without a minimum",
+        ),
+        column("t_max", pa.float64(), "s", "time of the force maximum"),
+        column("t_avg", pa.float64(), "s", "mean first detachment time of the contact blocks"),
+        column("t_first", pa.float64(), "s", "time of the first detachment of all"),
+        column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
+        column("steps", pa.int64(), "1", "integration steps"),
+    ]
+)
+
+#: A batch of realisations also holds what the figures draw.
+BATCH = pa.schema(
+    [
+        *SUMMARY,
+        column("sample_interval", pa.float64(), "s", "time between two samples"),
+        column("force", pa.list_(pa.float64()), "N", "|ΣF_s|, one per sample from t = 0"),
+        column(
+            "detachments",
+            pa.list_(pa.int32()),
+            "blocks",
+            "blocks that detached for the first time since the sample before",
+        ),
+        column(
+            "switches",
+            pa.list_(pa.int32()),
+            "blocks",
+            "switches from rest to sliding since the sample before",
+        ),
+        column(
+            "t_det",
+            pa.list_(pa.float64()),
+            "s",
+            "first detachment time of each block, row by row from y = 0; NaN where none",
+        ),
+        column("normal_force", pa.float64(), "N", "P l² N²"),
+    ]
+)
+
+
+def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
+    """One row of a batch."""
+    return {
+        **asdict(scene),
+        "level": scene.level,
+        "seed": seed,
+        "static_friction": run.static_friction,
+        "dynamic_friction": run.dynamic_friction,
+        "t_max": run.t_max,
+        "t_avg": run.t_avg,
+        "t_first": run.t_first,
+        "energy_error": run.energy.relative_residual,
+        "steps": run.steps,
+        "sample_interval": sample_interval,
+        "force": run.force,
+        "detachments": run.detachments,
+        "switches": run.switches,
+        "t_det": run.t_det.ravel(),
+        "normal_force": run.normal_force,
+    }
+
+
+@contextlib.contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Yield a temporary path beside `path`, and rename it to `path` once it is complete."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        yield partial
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
+    """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
+
+    Raises
+    ------
+    ValueError
+        Where the table has no row.
+    """
+    if not table.num_rows:
+        raise ValueError(f"there is nothing to write to {path}")
+    described = table.replace_schema_metadata(dict(metadata))
+    with whole_file(path) as partial:
+        pq.write_table(described, partial, compression="zstd")
+
+
+def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
+    """Build a table of exactly the columns of `schema`."""
+    return pa.Table.from_pylist([dict(row) for row in rows], schema=schema)
+
+
+def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
+    """Read the columns of `schema` from several files, one after another.
+
+    Raises
+    ------
+    ValueError
+        Where a file lacks a column, naming both.
+    """
+    tables = []
+    for path in paths:
+        present = pq.read_schema(path)
+        missing = [name for name in schema.names if name not in present.names]
+        if missing:
+            raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present.names}")
+        tables.append(pq.read_table(path, columns=schema.names, partitioning=None).cast(schema))
+    return pa.concat_tables(tables)
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """One realisation as it was stored; the fields are those of `Realisation`."""
+
+    seed: int
+    time: NDArray[np.float64]
+    force: NDArray[np.float64]
+    normal_force: float
+    detachments: NDArray[np.int32]
+    switches: NDArray[np.int32]
+    t_det: NDArray[np.float64]
+    t_max: float
+    t_avg: float
+    static_friction: float
+
+
+def read_records(paths: Iterable[Path]) -> list[Record]:
+    """Read stored realisations in order of their seeds."""
+    table = read(paths, BATCH)
+    records = []
+    for i in range(table.num_rows):
+        row = table.slice(i, 1)
+        n = row["n_blocks"][0].as_py()
+        force = row["force"][0].values.to_numpy()
+        records.append(
+            Record(
+                seed=row["seed"][0].as_py(),
+                time=np.arange(len(force)) * row["sample_interval"][0].as_py(),
+                force=force,
+                normal_force=row["normal_force"][0].as_py(),
+                detachments=row["detachments"][0].values.to_numpy(),
+                switches=row["switches"][0].values.to_numpy(),
+                t_det=row["t_det"][0].values.to_numpy(zero_copy_only=False).reshape(n, n),
+                t_max=row["t_max"][0].as_py(),
+                t_avg=row["t_avg"][0].as_py(),
+                static_friction=row["static_friction"][0].as_py(),
+            )
+        )
+    return sorted(records, key=lambda record: record.seed)

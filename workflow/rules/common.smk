@@ -1,0 +1,37 @@
+import sys
+
+import yaml
+from snakemake.exceptions import WorkflowError
+
+from springblock import sources, study
+from springblock.scene import Scene
+
+with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
+    SCHEMA = yaml.safe_load(file)
+
+try:
+    study.check(config, SCHEMA)
+except (TypeError, ValueError) as error:
+    raise WorkflowError(f"The configuration cannot be used: {error}.") from None
+
+RESULTS = config["results"]
+FIGURES = [f"figure_{number}" for number in (1, 2, 3, 4, 8)]
+#: Groups of scenes, each a list of ensembles.
+ENSEMBLES = study.ensembles(config)
+#: The ensemble in each folder of realisations.
+ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
+SPRINGBLOCK = f"{sys.executable} -m springblock"
+
+
+def realisations(*groups):
+    """Files that hold the realisations of these groups of scenes."""
+    return [
+        f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
+        for group in groups
+        for ensemble in ENSEMBLES[group]
+        for batch in ensemble.batches(config["realisations_per_job"])
+    ]
+
+
+def figure_files(name):
+    return expand(f"{RESULTS}/figures/{name}.{{suffix}}", suffix=["pdf", "png"])

@@ -1,0 +1,130 @@
+def pattern_options(figure):
+    """The pattern that a figure draws, as options of its command."""
+    lengths = config["figures"][figure]
+    return Scene(config["n_blocks"], **lengths).arguments
+
+
+rule figure_1:
+    output:
+        pdf=f"{RESULTS}/figures/figure_1.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_1.png",
+            caption="../report/figure_1.rst",
+            category="Figures",
+            labels={"figure": "1", "shows": "The model"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_1.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_1.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.figures.figure_1"),
+    message:
+        "Drawing figure 1: the model"
+    shell:
+        "{SPRINGBLOCK} figure_1 --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_2:
+    input:
+        realisations("flat"),
+    output:
+        pdf=f"{RESULTS}/figures/figure_2.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_2.png",
+            caption="../report/figure_2.rst",
+            category="Figures",
+            labels={"figure": "2", "shows": "Force and detachments, flat surface"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_2.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_2.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.figures.figure_2"),
+    message:
+        "Drawing figure 2: force and detachments over time"
+    shell:
+        "{SPRINGBLOCK} figure_2 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_3:
+    input:
+        realisations("flat")[0],
+    output:
+        pdf=f"{RESULTS}/figures/figure_3.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_3.png",
+            caption="../report/figure_3.rst",
+            category="Figures",
+            labels={"figure": "3", "shows": "First detachment times, flat surface"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_3.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_3.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.figures.figure_3"),
+    message:
+        "Drawing figure 3: first detachment times"
+    shell:
+        "{SPRINGBLOCK} figure_3 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_4:
+    output:
+        pdf=f"{RESULTS}/figures/figure_4.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_4.png",
+            caption="../report/figure_4.rst",
+            category="Figures",
+            labels={"figure": "4", "shows": "Square pillars"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_4.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_4.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.figures.figure_4"),
+        pattern=pattern_options("figure_4"),
+    message:
+        "Drawing figure 4: square pillars"
+    shell:
+        "{SPRINGBLOCK} figure_4 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_8:
+    output:
+        pdf=f"{RESULTS}/figures/figure_8.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_8.png",
+            caption="../report/figure_8.rst",
+            category="Figures",
+            labels={"figure": "8", "shows": "Grooved pillars"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_8.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_8.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.figures.figure_8"),
+        pattern=pattern_options("figure_8"),
+    message:
+        "Drawing figure 8: grooved pillars"
+    shell:
+        "{SPRINGBLOCK} figure_8 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
