@@ -6,6 +6,7 @@ import click
 
 COMMANDS = {
     "compile": "springblock.commands.simulate:compile_kernels",
+    "prelude": "springblock.commands.simulate:compute_prelude",
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
     "figure_1": "springblock.figures.figure_1:command",

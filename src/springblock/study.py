@@ -77,8 +77,7 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """Expand each group of scenes into its grid, by the group's name."""
     return {
-        group: list(_expand(configuration, grid))
-        for group, grid in configuration["scenes"].items()
+        group: list(_expand(configuration, grid)) for group, grid in configuration["scenes"].items()
     }
 
 

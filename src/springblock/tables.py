@@ -1,8 +1,6 @@
-"""Parquet files: their columns, and writing them whole or not at all."""
+"""Parquet files: their columns, what they mean, and reading them back."""
 
-import contextlib
-import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from springblock.files import whole_file
 from springblock.realisation import Realisation
 from springblock.scene import Scene
 
@@ -97,18 +96,6 @@ def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float)
         "t_det": run.t_det.ravel(),
         "normal_force": run.normal_force,
     }
-
-
-@contextlib.contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`, and rename it to `path` once it is complete."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        yield partial
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:

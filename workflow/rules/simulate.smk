@@ -1,6 +1,24 @@
+def scene(wildcards):
+    return ENSEMBLE[wildcards.scene].scene.arguments
+
+
 def duration(wildcards):
     seconds = ENSEMBLE[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
+
+
+#: How every scene is computed, as options of the command line.
+HOW = " ".join(
+    [
+        f"--integrator {config['integrator']} --step {config['step']}",
+        f"--sample-interval {config['sample_interval']}",
+        *(f"--material {name}={value}" for name, value in config["material"].items()),
+    ]
+)
+
+
+wildcard_constraints:
+    scene="|".join(ENSEMBLE),
 
 
 rule compile:
@@ -21,9 +39,31 @@ rule compile:
         "{SPRINGBLOCK} compile > {log} 2>&1"
 
 
-rule simulate:
+rule prelude:
     input:
         ancient(rules.compile.output),
+    output:
+        f"{RESULTS}/preludes/{{scene}}.npz",
+    log:
+        f"{RESULTS}/logs/{{scene}}/prelude.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/{{scene}}/prelude.tsv"
+    resources:
+        mem_mb=400,
+        runtime=10,
+    params:
+        code=sources.digest("springblock.commands.simulate"),
+        scene=scene,
+        how=HOW,
+    message:
+        "Loading {wildcards.scene} up to its first detachment"
+    shell:
+        "{SPRINGBLOCK} prelude {params.scene} {params.how} --output {output} > {log} 2>&1"
+
+
+rule simulate:
+    input:
+        rules.prelude.output,
     output:
         f"{RESULTS}/realisations/{{scene}}/seeds={{first}}-{{last}}.parquet",
     log:
@@ -31,27 +71,21 @@ rule simulate:
     benchmark:
         f"{RESULTS}/benchmarks/{{scene}}/seeds={{first}}-{{last}}.tsv"
     wildcard_constraints:
-        scene="|".join(ENSEMBLE),
         first=r"\d+",
         last=r"\d+",
     resources:
-        mem_mb=400,
+        mem_mb=500,
         runtime=30,
     params:
         code=sources.digest("springblock.commands.simulate"),
-        scene=lambda wildcards: ENSEMBLE[wildcards.scene].scene.arguments,
-        integrator=config["integrator"],
-        step=config["step"],
-        sample_interval=config["sample_interval"],
+        scene=scene,
+        how=HOW,
         duration=duration,
-        material=" ".join(f"--material {k}={v}" for k, v in config["material"].items()),
     message:
         "Simulating {wildcards.scene}, seeds {wildcards.first} to {wildcards.last}"
     shell:
-        "{SPRINGBLOCK} simulate {params.scene} {params.duration} {params.material} "
-        "--integrator {params.integrator} --step {params.step} "
-        "--sample-interval {params.sample_interval} "
-        "--first-seed {wildcards.first} --last-seed {wildcards.last} "
+        "{SPRINGBLOCK} simulate {params.scene} {params.how} {params.duration} "
+        "--prelude {input} --first-seed {wildcards.first} --last-seed {wildcards.last} "
         "--output {output} > {log} 2>&1"
 
 

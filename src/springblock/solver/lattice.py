@@ -31,6 +31,11 @@ class State(NamedTuple):
     scratch: Array  #: rows of springs, see `springs`
     work: Array  #: lattice-sized fields of the integrator's own
     ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
+    peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
+
+    def copy(self) -> "State":
+        """Return a state that shares no memory with this one."""
+        return State._make(None if field is None else field.copy() for field in self)
 
 
 class Constants(NamedTuple):
@@ -73,6 +78,7 @@ def prepare(
     step: float,
     force_time: float,
     work_fields: int,
+    keep_peak: bool = False,
 ) -> tuple[State, Constants]:
     """Lay out one run, at rest and free of strain, in the kernels' units.
 
@@ -103,6 +109,7 @@ def prepare(
         scratch=np.zeros(SCRATCH_SIZE),
         work=np.zeros((work_fields, n * pitch)),
         ledger=np.zeros(3),
+        peak=field() if keep_peak else None,
     )
     kappa = material.k_int * compliance
     axial, diagonal = coefficients(kappa)

@@ -47,14 +47,15 @@ def velocity_now(state: State, constants: Constants, steps: int) -> Array:
 
     The mean of the half steps before and after; the one after is taken on a copy.
     """
-    ahead = State(*(np.copy(field) for field in state))
+    ahead = state.copy()
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
     return np.stack([state.wx + ahead.wx, state.wy + ahead.wy]) / 2.0
 
 
 @njit(**JIT)
-def _move_row(ux, uy, wx, wy, static, dynamic, t_det, i, n, s, north, south, a, k_s, sx, sy, now):
+def _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, now):
     """Kick and drift one row; returns how many blocks went from rest to sliding."""
+    ux, uy, wx, wy, static, dynamic, t_det = blocks
     switches = np.int64(0)
     for x in range(ONE, n + ONE):
         b = i + x
@@ -77,6 +78,8 @@ def _move_row(ux, uy, wx, wy, static, dynamic, t_det, i, n, s, north, south, a, 
         switches += np.int64(slides & was_at_rest)
         first = t_det[b]
         t_det[b] = now if slides & (first > now) else first
+        if peak is not None:
+            peak[b] = max(peak[b], fx * fx + fy * fy)
     return switches
 
 
@@ -86,8 +89,9 @@ def advance(state, constants, first, steps, every, samples):
 
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
-    ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger = state
+    ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak = state
     n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    blocks = (ux, uy, wx, wy, static, dynamic, t_det)
     a = math.exp(-damping)
     north, south = FIRST_BANK, FIRST_BANK + BANK
     clear_bank(s, south, n)
@@ -100,9 +104,7 @@ def advance(state, constants, first, steps, every, samples):
             if beyond > 0:
                 return k - first, np.int64(row), np.int64(beyond) - 1
             i = row * pitch
-            switches += _move_row(
-                ux, uy, wx, wy, static, dynamic, t_det, i, n, s, north, south, a, k_s, sx, sy, k
-            )
+            switches += _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, k)
             ux[i + n + ONE] = ux[i + n]
             uy[i + n + ONE] = uy[i + n]
             row_x, row_y, row_heat, row_squares = row_sums(ux, uy, wx, wy, s, i, HEAT, n)

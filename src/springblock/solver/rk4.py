@@ -59,9 +59,9 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _stage_row(state, fields, stage, i, n, north, south, damping, k_s, sx, sy, now):
+def _stage_row(blocks, peak, fields, stage, i, n, north, south, damping, k_s, sx, sy, now):
     """One stage on one row; returns the switches from rest to sliding, and the squared speed."""
-    ux, uy, wx, wy, t_det, static, dynamic, s = state
+    ux, uy, wx, wy, t_det, static, dynamic, s = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
     weight, reach = WEIGHTS[stage], NODES[stage + 1] if stage < 3 else 0.0
     switches, squares = 0, 0.0
@@ -78,6 +78,8 @@ def _stage_row(state, fields, stage, i, n, north, south, damping, k_s, sx, sy, n
                     switches += 1
                     t_det[b] = min(t_det[b], now)
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
+            if peak is not None:
+                peak[b] = max(peak[b], fx * fx + fy * fy)
         moves = 1.0 if (ex[b] != 0.0 or ey[b] != 0.0) else 0.0
         ax = moves * (fx - damping * pu[b] - dynamic[b] * ex[b])
         ay = moves * (fy - damping * pv[b] - dynamic[b] * ey[b])
@@ -94,9 +96,9 @@ def _stage_row(state, fields, stage, i, n, north, south, damping, k_s, sx, sy, n
 
 
 @njit(**JIT)
-def _finish_row(state, fields, i, n):
+def _finish_row(blocks, fields, i, n):
     """Complete the step on one row; returns friction's heat."""
-    ux, uy, wx, wy, _, static, dynamic, _ = state
+    ux, uy, wx, wy, _, static, dynamic, _ = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
     heat = 0.0
     for x in range(ONE, n + ONE):
@@ -126,7 +128,7 @@ def advance(state, constants, first, steps, every, samples):
 
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
-    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger = state
+    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak = state
     n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
@@ -145,7 +147,7 @@ def advance(state, constants, first, steps, every, samples):
                     return k - first, np.int64(row), np.int64(beyond) - 1
                 i = row * pitch
                 row_switches, row_squares = _stage_row(
-                    blocks, fields, stage, i, n, north, south, damping, k_s, sx, sy, k
+                    blocks, peak, fields, stage, i, n, north, south, damping, k_s, sx, sy, k
                 )
                 _close_edge(su, sv, i, n)
                 switches += row_switches

@@ -1,0 +1,160 @@
+"""A tiny study from end to end, and when the workflow runs what again."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+import yaml
+
+from springblock import Material
+from springblock.tables import BATCH, SUMMARY
+
+ROOT = Path(__file__).parents[1]
+
+TINY = {
+    "n_blocks": 12,
+    "realisations_per_job": 2,
+    "scenes": {
+        "flat": {"seeds": 3},
+        "pillars": {"n_p": [3], "seeds": 2},
+        "grooves": {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1], "seeds": 1},
+    },
+    "figures": {
+        "figure_4": {"n_p": 3, "n_s": 3},
+        "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
+    },
+}
+
+
+def snakemake(study: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    """Run Snakemake on a copy of the study with the copy's own package."""
+    return subprocess.run(
+        [sys.executable, "-m", "snakemake", "--configfile", "tiny.yaml", *options],
+        cwd=study,
+        env={**os.environ, "PYTHONPATH": str(study / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def planned(study: Path, *options: str) -> dict[str, int]:
+    """Jobs that a dry run announces, by rule."""
+    outcome = snakemake(study, "--dry-run", *options)
+    assert outcome.returncode == 0, outcome.stderr
+    table = re.search(r"job +count\n-+  -+\n(.*?)\n\n", outcome.stdout + outcome.stderr, re.DOTALL)
+    rows = table.group(1).splitlines() if table else []
+    return {name: int(count) for name, count in map(str.split, rows) if name != "total"}
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished tiny study in a folder of its own."""
+    folder = tmp_path_factory.mktemp("study")
+    for part in ("src", "workflow", "config"):
+        shutil.copytree(ROOT / part, folder / part)
+    shutil.copy(ROOT / "Snakefile", folder)
+    (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
+    outcome = snakemake(folder)
+    assert outcome.returncode == 0, outcome.stderr
+    return folder
+
+
+@pytest.fixture
+def edited(study: Path, request: pytest.FixtureRequest):
+    """Append a line to a file of the study for the time of one test."""
+    file = study / request.param
+    content = file.read_bytes()
+    file.write_bytes(content + b"\n# another line\n")
+    yield request.param
+    file.write_bytes(content)
+
+
+def test_every_figure_is_drawn_in_both_formats(study):
+    names = {file.name for file in (study / "results/figures").iterdir()}
+    assert names == {f"figure_{k}.{suffix}" for k in (1, 2, 3, 4, 8) for suffix in ("pdf", "png")}
+
+
+def test_the_table_holds_every_realisation_once(study):
+    table = pq.read_table(study / "results/tables/realisations.parquet")
+    assert table.schema.names == SUMMARY.names
+    scenes = [(row["level"], row["direction"], row["seed"]) for row in table.to_pylist()]
+    flat = [(0, "x", seed) for seed in (0, 1, 2)]
+    assert scenes == [*flat, (1, "x", 0), (1, "x", 1), (2, "x", 0), (2, "y", 0)]
+
+
+def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
+    files = sorted((study / "results").rglob("*.parquet"))
+    assert len(files) == 6
+    for file in files:
+        schema = pq.read_schema(file)
+        assert {b"code_version", b"configuration_digest"} <= set(schema.metadata)
+        assert all({b"unit", b"meaning"} == set(field.metadata) for field in schema)
+
+
+def test_batches_hold_the_curves_that_the_figures_draw(study):
+    (file, *_) = sorted((study / "results/realisations").rglob("seeds=0-1.parquet"))
+    assert pq.read_schema(file).names == BATCH.names
+
+
+def test_each_job_leaves_a_log_and_a_benchmark(study):
+    jobs = {"compile", "aggregate"} | {f"figure_{k}" for k in (1, 2, 3, 4, 8)}
+    for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
+        files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
+        assert files == jobs
+
+
+def test_a_finished_study_has_nothing_to_do(study):
+    assert planned(study) == {}
+
+
+@pytest.mark.parametrize("edited", ["src/springblock/solver/leapfrog.py"], indirect=True)
+def test_an_edited_solver_runs_the_simulations_again(study, edited):
+    assert planned(study)["simulate"] == 5
+
+
+@pytest.mark.parametrize("edited", ["src/springblock/figures/figure_3.py"], indirect=True)
+def test_an_edited_figure_draws_that_figure_again(study, edited):
+    assert set(planned(study)) == {"figure_3", "all"}
+
+
+@pytest.mark.parametrize("edited", ["config/README.md"], indirect=True)
+def test_an_edited_text_runs_nothing_again(study, edited):
+    assert planned(study) == {}
+
+
+def test_one_figure_needs_only_its_own_simulations(study):
+    jobs = planned(study, "--config", "results=elsewhere", "--", "figure_3")
+    assert jobs == {"compile": 1, "simulate": 1, "figure_3": 1}
+
+
+def test_a_changed_constant_runs_the_simulations_again(study):
+    material = dict(Material().items()) | {"gamma": 4e3}
+    (study / "damped.yaml").write_text(yaml.safe_dump({"material": material}))
+    assert planned(study, "damped.yaml")["simulate"] == 5
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"stepp": 1e-8}, "unknown key 'stepp'"),
+        ({"scenes": {"pillars": {"n_p": [5]}}}, r"scenes.pillars.*5 \+ 5 = 10 must divide N = 12"),
+        ({"scenes": {"flat": {"seeds": "many"}}}, "scenes.flat.seeds.*'many'.*integer"),
+        ({"step": 1e-6}, "step = 1e-06 s is unstable"),
+        ({"sample_interval": 3e-8}, "sample_interval must be a multiple of step"),
+        ({"material": {"density": -1.0}}, "material.density.*-1.0"),
+        ({"scenes": {"grooves": {"n_s2": [6]}}}, "groove of 6 blocks.*pillar of 5"),
+    ],
+)
+def test_a_wrong_configuration_is_refused_in_one_sentence(study, change, sentence):
+    (study / "wrong.yaml").write_text(yaml.safe_dump(change))
+    outcome = snakemake(study, "wrong.yaml", "--dry-run")
+    message = outcome.stdout + outcome.stderr
+    assert outcome.returncode == 1
+    assert re.search(sentence, message), message
+    assert "Traceback" not in message
