@@ -56,7 +56,7 @@ def planned(study: Path, *options: str) -> dict[str, int]:
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A finished tiny study in a folder of its own."""
     folder = tmp_path_factory.mktemp("study")
-    for part in ("src", "workflow", "config"):
+    for part in ("src", "workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, folder / part)
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
