@@ -9,11 +9,11 @@ COMMANDS = {
     "prelude": "springblock.commands.simulate:compute_prelude",
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
-    "figure_1": "springblock.figures.figure_1:command",
-    "figure_2": "springblock.figures.figure_2:command",
-    "figure_3": "springblock.figures.figure_3:command",
-    "figure_4": "springblock.figures.figure_4:command",
-    "figure_8": "springblock.figures.figure_8:command",
+    "figure_1": "springblock.commands.figures:figure_1",
+    "figure_2": "springblock.commands.figures:figure_2",
+    "figure_3": "springblock.commands.figures:figure_3",
+    "figure_4": "springblock.commands.figures:figure_4",
+    "figure_8": "springblock.commands.figures:figure_8",
 }
 
 

@@ -1,3 +1,8 @@
+def figure_code(figure):
+    """Digest of all that is run to draw a figure."""
+    return sources.digest("springblock.commands.figures", f"springblock.figures.{figure}")
+
+
 def pattern_options(figure):
     """The pattern that a figure draws, as options of its command."""
     lengths = config["figures"][figure]
@@ -21,7 +26,7 @@ rule figure_1:
         mem_mb=500,
         runtime=5,
     params:
-        code=sources.digest("springblock.figures.figure_1"),
+        code=figure_code("figure_1"),
     message:
         "Drawing figure 1: the model"
     shell:
@@ -47,7 +52,7 @@ rule figure_2:
         mem_mb=500,
         runtime=5,
     params:
-        code=sources.digest("springblock.figures.figure_2"),
+        code=figure_code("figure_2"),
     message:
         "Drawing figure 2: force and detachments over time"
     shell:
@@ -73,7 +78,7 @@ rule figure_3:
         mem_mb=500,
         runtime=5,
     params:
-        code=sources.digest("springblock.figures.figure_3"),
+        code=figure_code("figure_3"),
     message:
         "Drawing figure 3: first detachment times"
     shell:
@@ -97,7 +102,7 @@ rule figure_4:
         mem_mb=500,
         runtime=5,
     params:
-        code=sources.digest("springblock.figures.figure_4"),
+        code=figure_code("figure_4"),
         pattern=pattern_options("figure_4"),
     message:
         "Drawing figure 4: square pillars"
@@ -122,7 +127,7 @@ rule figure_8:
         mem_mb=500,
         runtime=5,
     params:
-        code=sources.digest("springblock.figures.figure_8"),
+        code=figure_code("figure_8"),
         pattern=pattern_options("figure_8"),
     message:
         "Drawing figure 8: grooved pillars"
