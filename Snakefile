@@ -12,6 +12,7 @@ configfile: "config/config.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/accuracy.smk"
 
 
 rule all:
@@ -19,6 +20,7 @@ rule all:
     input:
         rules.aggregate.output,
         [figure_files(name) for name in FIGURES],
+        [rules.work_precision.output, rules.stability.output] if config["accuracy"] else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"

@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
+    "accuracy": False,
     "scenes": {
         "flat": {"seeds": 3},
         "pillars": {"n_p": [3], "seeds": 2},
@@ -56,7 +57,7 @@ def planned(study: Path, *options: str) -> dict[str, int]:
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A finished tiny study in a folder of its own."""
     folder = tmp_path_factory.mktemp("study")
-    for part in ("src", "workflow", "config", "profiles"):
+    for part in ("src", "workflow", "config", "profiles", "tests/validation"):
         shutil.copytree(ROOT / part, folder / part)
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))

@@ -14,6 +14,8 @@ COMMANDS = {
     "figure_3": "springblock.commands.figures:figure_3",
     "figure_4": "springblock.commands.figures:figure_4",
     "figure_8": "springblock.commands.figures:figure_8",
+    "work_precision": "springblock.commands.figures:work_precision",
+    "stability": "springblock.commands.figures:stability",
 }
 
 

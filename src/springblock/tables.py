@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 from springblock.files import whole_file
 from springblock.realisation import Realisation
 from springblock.scene import Scene
+
+if TYPE_CHECKING:  # simulation jobs do without pandas
+    import pandas as pd
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
@@ -150,6 +153,11 @@ class Record:
     t_max: float
     t_avg: float
     static_friction: float
+
+
+def read_frame(path: Path) -> "pd.DataFrame":
+    """Read a table as a data frame."""
+    return pq.read_table(path, partitioning=None).to_pandas()
 
 
 def read_records(paths: Iterable[Path]) -> list[Record]:

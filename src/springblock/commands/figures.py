@@ -13,7 +13,7 @@ import click
 from springblock.commands.options import INPUT, OUTPUT, one_sentence, scene_options
 from springblock.figures.style import save
 from springblock.scene import Scene
-from springblock.tables import read_records
+from springblock.tables import read_frame, read_records
 
 _outputs = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -66,3 +66,19 @@ def figure_4(scene: Scene, outputs: tuple[Path, ...]) -> None:
 def figure_8(scene: Scene, outputs: tuple[Path, ...]) -> None:
     """Draw pillars with grooves."""
     _draw("figure_8", outputs, lambda: (scene.pattern,))
+
+
+@click.command("work_precision")
+@click.argument("table", type=INPUT)
+@_outputs
+def work_precision(table: Path, outputs: tuple[Path, ...]) -> None:
+    """Draw error against run time from TABLE."""
+    _draw("work_precision", outputs, lambda: (read_frame(table),))
+
+
+@click.command("stability")
+@click.argument("table", type=INPUT)
+@_outputs
+def stability(table: Path, outputs: tuple[Path, ...]) -> None:
+    """Draw the stiff and extreme cases in TABLE."""
+    _draw("stability", outputs, lambda: (read_frame(table),))

@@ -7,7 +7,7 @@ An integrator is a module with
     is_stable(step, omega, gamma)           whether no mode of these frequencies grows
     force_time(step, gamma)                 how long a force acts in one step
     advance(state, constants, first, steps, every, samples)
-    velocity_now(state, constants, steps)   at the end of the last step
+    at_step(state, constants, steps)        velocity and friction's heat at the last step
 """
 
 from springblock.solver import leapfrog, rk4

@@ -42,14 +42,15 @@ def force_time(step: float, gamma: float) -> float:
     return -math.expm1(-gamma * step) / gamma if gamma > 0.0 else step
 
 
-def velocity_now(state: State, constants: Constants, steps: int) -> Array:
-    """Velocity after `steps` steps, (2, lattice), in l per step.
+def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
+    """Velocity (2, lattice) after `steps` steps, in l per step, and friction's heat until then.
 
-    The mean of the half steps before and after; the one after is taken on a copy.
+    Means of the half steps before and after; the one after is taken on a copy.
     """
     ahead = state.copy()
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
-    return np.stack([state.wx + ahead.wx, state.wy + ahead.wy]) / 2.0
+    velocity = np.stack([state.wx + ahead.wx, state.wy + ahead.wy]) / 2.0
+    return velocity, float(state.ledger[1] + ahead.ledger[1]) / 2.0
 
 
 @njit(**JIT)

@@ -1,0 +1,76 @@
+"""Scenes that several tests share, and ways to drive the compiled kernels by hand."""
+
+import numpy as np
+
+from springblock import Material, Pattern, draw_friction
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import Samples, prepare, unpadded
+from springblock.solver.springs import (
+    BANK,
+    FIRST_BANK,
+    SCRATCH_SIZE,
+    coefficients,
+    spring_force,
+    spring_row,
+)
+
+UNDAMPED = Material(gamma=0.0)
+
+
+def uniform(n, mu_static, mu_dynamic):
+    """Contact and coefficients of a flat surface without scatter."""
+    return np.ones((n, n), bool), np.full((n, n), mu_static), np.full((n, n), mu_dynamic)
+
+
+def drawn(pattern, seed):
+    """Contact and coefficients of a pattern with the paper's scatter."""
+    return pattern.contact, *draw_friction(pattern.n_blocks, seed)
+
+
+def flat(n, seed):
+    """Contact and coefficients of a flat surface with the paper's scatter."""
+    return drawn(Pattern.flat(n), seed)
+
+
+def nailed(n):
+    """One contact block in a corner, which never lets go: all other motion is smooth."""
+    contact = np.zeros((n, n), bool)
+    contact[0, 0] = True
+    return contact, np.full((n, n), 1e9), np.zeros((n, n))
+
+
+def with_border(displacement):
+    """Lay a displacement (2, N, N) out as the kernels want it, its edges free of strain."""
+    return [np.pad(u, 1, mode="edge")[1:-1].ravel() for u in displacement]
+
+
+def spring_forces(displacement):
+    """Return F_int/(K_int l), (2, N, N), by the compiled rows, for displacements in units of l."""
+    n = displacement.shape[-1]
+    ux, uy = with_border(displacement)
+    columns = np.arange(1, n + 1, dtype=np.uint64)
+    scratch, springs = np.zeros(SCRATCH_SIZE), (1.0, *coefficients(1.0))
+    north, south = FIRST_BANK, FIRST_BANK + BANK
+    rows = []
+    for row in map(np.uint64, range(n)):
+        beyond = spring_row(ux, uy, row, np.uint64(n + 2), np.uint64(n), scratch, north, *springs)
+        assert beyond == 0
+        rows.append(spring_force.py_func(scratch, columns, north, south))
+        north, south = south, north
+    return np.stack(rows, axis=1)
+
+
+def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
+    """Let a frictionless lattice go from `displacement` (2, N, N), in l, under a resting slider.
+
+    Returns its displacement after so many steps.
+    """
+    method, n = INTEGRATORS[integrator], displacement.shape[-1]
+    force_time = method.force_time(step, material.gamma)
+    state, constants = prepare(
+        *uniform(n, 0.0, 0.0), material, (0.0, 0.0), step, force_time, method.WORK_FIELDS
+    )
+    state.static[:] = 0.0
+    state.ux[:], state.uy[:] = with_border(displacement)
+    assert method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0] == steps
+    return np.stack([unpadded(u, n) for u in (state.ux, state.uy)])

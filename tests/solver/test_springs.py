@@ -1,0 +1,163 @@
+"""The springs of the lattice against exact arithmetic and the laws that any spring obeys."""
+
+import mpmath
+import numpy as np
+import pytest
+
+from scenes import spring_forces, with_border
+from springblock.solver.springs import (
+    FIRST_BANK,
+    Q_MAX,
+    Q_MIN,
+    SCRATCH_SIZE,
+    SERIES_RANGE,
+    coefficients,
+    g,
+    series,
+    spring_row,
+)
+
+EPS = np.finfo(float).eps
+N = 5
+
+
+@pytest.fixture(autouse=True)
+def _forty_digits():
+    with mpmath.workdps(40):
+        yield
+
+
+def exact_g(q):
+    """g(q) = (1 - (1 + q)^(-1/2))/q."""
+    q = mpmath.mpf(q)
+    return (1 - 1 / mpmath.sqrt(1 + q)) / q
+
+
+def exact_pull(d, e, k):
+    """F = k (1 - L/r) (e + d), of a spring with rest vector e whose ends have moved d apart."""
+    rest, now = mpmath.matrix(e), mpmath.matrix(e) + d
+    return k * (1 - mpmath.norm(rest) / mpmath.norm(now)) * now
+
+
+def exact_forces(u):
+    """F_int/(K_int l), (2, N, N), pair by pair, rounded at the very end."""
+    n = u.shape[-1]
+    total = [[mpmath.matrix([0, 0]) for _ in range(n)] for _ in range(n)]
+    for y, x in np.ndindex(n, n):
+        for dx, dy in ((1, 0), (0, 1), (1, 1), (-1, 1)):
+            if 0 <= x + dx < n and y + dy < n:
+                here, there = (mpmath.matrix(u[:, b, a]) for a, b in ((x, y), (x + dx, y + dy)))
+                k = mpmath.mpf(1) / (1 if dx * dy == 0 else 2)
+                pull = exact_pull(there - here, [dx, dy], k)
+                total[y][x] += pull
+                total[y + dy][x + dx] -= pull
+    return np.array([[[float(f[i]) for f in row] for row in total] for i in range(2)])
+
+
+def check_row(u, row=0):
+    """Column, from one, of the first spring that `spring_row` finds beyond its range; else 0."""
+    n = u.shape[-1]
+    size = np.uint64(n), np.zeros(SCRATCH_SIZE), FIRST_BANK, 1.0, *coefficients(1.0)
+    return spring_row(*with_border(u), np.uint64(row), np.uint64(n + 2), *size)
+
+
+def test_the_series_is_exact_to_rounding_over_its_range():
+    q = np.linspace(-SERIES_RANGE, SERIES_RANGE, 101)[np.arange(101) != 50]
+    polynomial = np.polynomial.polynomial.polyval(q, series())
+    exact = np.array([float(exact_g(x)) for x in q])
+    np.testing.assert_allclose(polynomial, exact, rtol=2e-15)  # as its definition promises
+
+
+@pytest.mark.parametrize("q", [Q_MIN, -0.5, -SERIES_RANGE, 1e-300, SERIES_RANGE, 1.0, Q_MAX])
+def test_the_closed_form_is_exact_to_rounding_at_any_strain(q):
+    """1 + q loses up to 1/(1 + q) units in the last place; a root and two more operations."""
+    exact = 0.5 if q == 1e-300 else float(exact_g(q))
+    assert g(q) == pytest.approx(exact, rel=EPS * (3 + 1 / (1 + q)))
+
+
+@pytest.mark.parametrize("amplitude", [1e-12, 1e-6, 1e-2, 0.1, 0.2])
+def test_forces_are_exact_to_the_rounding_of_differences(amplitude, rng):
+    """Displacements of size a round by a·eps in each difference; eight springs meet in a block.
+
+    No digit depends on the strain: 1 - L/r would leave but four of them at a strain of 1e-12.
+    """
+    u = amplitude * rng.uniform(-1.0, 1.0, (2, N, N))
+    np.testing.assert_allclose(
+        spring_forces(u), exact_forces(u), rtol=0, atol=8 * 4 * EPS * amplitude
+    )
+
+
+@pytest.mark.parametrize("beside", [-1e-6, 1e-6])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_series_and_closed_form_meet_at_the_border(side, beside):
+    """A single axial pair with q = 2 d + d² on either side of the series' range."""
+    u = np.zeros((2, 2, 2))
+    u[0, :, 1] = np.sqrt(1.0 + side * SERIES_RANGE * (1.0 + beside)) - 1.0
+    np.testing.assert_allclose(spring_forces(u), exact_forces(u), rtol=0, atol=4 * EPS)
+
+
+@pytest.mark.parametrize("amplitude", [1e-9, 1e-2, 0.2])
+def test_forces_between_blocks_cancel(amplitude, rng):
+    """Newton's third law: what remains is the rounding of the sums of eight."""
+    forces = spring_forces(amplitude * rng.uniform(-1.0, 1.0, (2, N, N)))
+    total = forces.sum(axis=(1, 2))
+    assert np.abs(total).max() <= 8 * EPS * np.abs(forces).sum()
+
+
+def test_a_translation_strains_nothing_at_all():
+    shift = np.array([0.1, -7.3])[:, None, None]
+    assert not spring_forces(np.broadcast_to(shift, (2, N, N))).any()
+
+
+@pytest.mark.parametrize("angle", [1e-9, 1e-3, 0.1, -0.5])
+def test_a_rotation_strains_nothing_beyond_rounding(angle):
+    """The springs are exact in the angle; linear ones would pull with angle²/2."""
+    x, y = np.meshgrid(np.arange(N), np.arange(N))
+    cosine, sine = -2.0 * np.sin(angle / 2.0) ** 2, np.sin(angle)  # cos - 1, without cancellation
+    u = np.stack([cosine * x - sine * y, sine * x + cosine * y])
+    assert np.abs(spring_forces(u)).max() <= 8 * 4 * EPS * np.abs(u).max()
+
+
+def test_forces_of_a_mirror_image_are_the_mirror_image(rng):
+    """To the last bit along either axis, while no row is strained beyond the series' range."""
+    u = 1e-3 * rng.uniform(-1.0, 1.0, (2, N, N))
+    flip_x, flip_y = np.array([-1.0, 1.0])[:, None, None], np.array([1.0, -1.0])[:, None, None]
+    forces = spring_forces(u)
+    np.testing.assert_array_equal(spring_forces(flip_y * u[:, ::-1]), flip_y * forces[:, ::-1])
+    np.testing.assert_array_equal(
+        spring_forces(flip_x * u[:, :, ::-1]), flip_x * forces[:, :, ::-1]
+    )
+
+
+@pytest.mark.parametrize(
+    ("case", "move"),
+    [
+        ("collapsed", (-0.51, 0.0)),
+        ("burst", (1.01, 0.0)),
+        ("no number", (np.nan, 0.0)),
+        ("infinite", (0.0, np.inf)),
+    ],
+)
+def test_a_spring_that_no_longer_holds_is_found(case, move):
+    """Blocks 2 to 4 of every row move away from block 1: its east spring is the first to go."""
+    u = np.zeros((2, N, N))
+    u[0, :, 2:], u[1, :, 2:] = move
+    assert check_row(u) == 2, case
+
+
+@pytest.mark.parametrize("move", [-0.49, 0.99])
+def test_a_spring_short_of_half_or_double_its_length_holds(move):
+    u = np.zeros((2, N, N))
+    u[0, :, 2:] = move
+    assert check_row(u) == 0
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_lattice_cut_in_two_by_a_stretch_is_pulled_together(axis):
+    """The pull across the cut, from one axial and two diagonal springs, stops at the edges."""
+    u = np.zeros((2, N, N))
+    np.moveaxis(u, axis + 1, 0)[3:, 1 - axis] = 0.25
+    forces = spring_forces(u)
+    np.testing.assert_allclose(forces, exact_forces(u), rtol=0, atol=8 * EPS)
+    strained = np.abs(forces).sum(axis=(0, 2 - axis)) > 0.0
+    assert strained.tolist() == [False, False, True, True, False]

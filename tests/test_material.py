@@ -1,0 +1,75 @@
+"""The paper's constants, and what follows from them (section 2)."""
+
+import math
+from dataclasses import FrozenInstanceError, fields, replace
+
+import pytest
+
+from springblock import Material
+
+PAPER = Material()
+MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+NAMES = [field.name for field in fields(Material)]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("k_int", 75.0), ("k_s", 75.0), ("mass", 1.2e-12), ("block_load", 5e-6)],
+)
+def test_derived_constants_are_the_papers(name, value):
+    """K_int = 3/4 E l_z, K_s = K_int l²/l_z², m = rho l² l_z, F_n = P l²."""
+    assert getattr(PAPER, name) == pytest.approx(value, rel=1e-15)  # a handful of roundings
+
+
+def test_frequencies_bound_the_stable_steps():
+    """The largest stable steps are 2/omega_max for leapfrog and 2√2/omega_max for Runge-Kutta."""
+    assert PAPER.omega_min == pytest.approx(7.906e6, abs=500)  # given to four digits
+    assert 2 / PAPER.omega_max == pytest.approx(9.56e-8, abs=5e-11)
+    assert math.sqrt(8) / PAPER.omega_max == pytest.approx(1.35e-7, abs=5e-10)
+    assert PAPER.omega_max == pytest.approx(math.sqrt(7) * PAPER.omega_min, rel=1e-15)
+
+
+def test_a_layer_twice_as_thick_hangs_on_springs_half_as_stiff():
+    thick = replace(PAPER, thickness=2e-5)
+    assert thick.k_int == 2 * PAPER.k_int
+    assert thick.k_s == PAPER.k_s / 2
+    assert thick.mass == 2 * PAPER.mass
+    assert thick.block_load == PAPER.block_load
+
+
+def test_whole_numbers_count_as_numbers():
+    assert Material(youngs_modulus=10_000_000) == PAPER
+    assert type(Material(density=1200).density) is float
+
+
+def test_items_name_every_constant():
+    assert Material(**dict(PAPER.items())) == PAPER
+    assert [name for name, _ in PAPER.items()] == NAMES
+
+
+def test_a_material_does_not_change():
+    with pytest.raises(FrozenInstanceError):
+        PAPER.density = 1.0
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("value", ["1", None, True, 1j])
+def test_what_is_no_number_is_refused_by_name(name, value):
+    with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
+        replace(PAPER, **{name: value})
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
+def test_impossible_numbers_are_refused_by_name(name, value):
+    with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
+        replace(PAPER, **{name: value})
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_only_damping_and_friction_may_vanish(name):
+    if name in MAY_VANISH:
+        assert getattr(replace(PAPER, **{name: 0}), name) == 0.0
+    else:
+        with pytest.raises(ValueError, match=rf"Material\.{name} must be finite and positive"):
+            replace(PAPER, **{name: 0})

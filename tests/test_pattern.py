@@ -1,0 +1,132 @@
+"""Contact masks against the paper's definitions (sections 3.2 and 3.3)."""
+
+import numpy as np
+import pytest
+
+from springblock import Pattern
+
+GROOVED = Pattern.pillars(120, 58, 62).grooved(8, 2, along="x")
+
+
+def runs(line):
+    """First index and length of each run of contact along a line."""
+    starts = np.flatnonzero(np.diff(line.astype(int), prepend=0) == 1)
+    ends = np.flatnonzero(np.diff(line.astype(int), append=0) == -1) + 1
+    return list(zip(starts.tolist(), (ends - starts).tolist(), strict=True))
+
+
+def test_a_flat_surface_touches_everywhere():
+    assert Pattern.flat(7).contact.all()
+    assert Pattern.flat(7).origins.tolist() == [[0, 0]]
+
+
+@pytest.mark.parametrize("n_p", [2, 6, 20, 60])
+def test_pillars_of_the_paper_bear_on_a_quarter_of_the_surface(n_p):
+    """With n_s = n_p, pillars and gaps take turns, and half a gap remains at every edge."""
+    contact = Pattern.pillars(120, n_p, n_p).contact
+    expected = [(start, n_p) for start in range(n_p // 2, 120, 2 * n_p)]
+    for line in (contact[n_p // 2], contact[:, n_p // 2]):
+        assert runs(line) == expected
+    assert not contact[0].any()
+    assert contact.mean() == 0.25
+
+
+@pytest.mark.parametrize(("n", "n_p", "n_s"), [(12, 4, 2), (12, 2, 4), (20, 3, 2), (15, 4, 1)])
+def test_pillars_repeat_with_their_period_and_cover_its_square(n, n_p, n_s):
+    period = n_p + n_s
+    contact = Pattern.pillars(n, n_p, n_s).contact
+    np.testing.assert_array_equal(contact, np.roll(contact, period, axis=0))
+    np.testing.assert_array_equal(contact, np.roll(contact, period, axis=1))
+    assert contact.sum() == (n // period * n_p) ** 2
+
+
+def test_an_odd_gap_leaves_its_larger_half_at_the_far_edge():
+    assert runs(Pattern.pillars(14, 4, 3).contact[2]) == [(1, 4), (8, 4)]
+
+
+@pytest.mark.parametrize(
+    "pattern", [Pattern.pillars(12, 4, 2), GROOVED, GROOVED.grooved(10, 2, along="y")]
+)
+def test_even_gaps_make_a_pattern_its_own_mirror_image(pattern):
+    np.testing.assert_array_equal(pattern.contact, pattern.contact[::-1])
+    np.testing.assert_array_equal(pattern.contact, pattern.contact[:, ::-1])
+
+
+def test_origins_are_the_first_blocks_of_the_pillars():
+    pattern = Pattern.pillars(12, 4, 2).grooved(1, 2)
+    assert pattern.origins.tolist() == [[1, 1], [1, 7], [7, 1], [7, 7]]
+    for y, x in pattern.origins:
+        assert pattern.contact[y, x]
+        assert not pattern.contact[y - 1, x]
+        assert not pattern.contact[y, x - 1]
+
+
+@pytest.mark.parametrize(("n_p2", "pawls"), [(8, 6), (10, 5)])
+def test_pawls_fill_their_pillar_from_edge_to_edge(n_p2, pawls):
+    """Grooves along x cut the pillar's y axis: 58 = 6·8 + 5·2 = 5·10 + 4·2."""
+    contact = Pattern.pillars(120, 58, 62).grooved(n_p2, 2, along="x").contact
+    assert runs(contact[:, 60]) == [(31 + k * (n_p2 + 2), n_p2) for k in range(pawls)]
+    assert runs(contact[31]) == [(31, 58)]
+
+
+def test_grooves_along_y_are_the_transpose_of_grooves_along_x():
+    turned = Pattern.pillars(120, 58, 62).grooved(8, 2, along="y")
+    np.testing.assert_array_equal(turned.contact, GROOVED.contact.T)
+    assert (GROOVED.levels[-1].along, turned.levels[-1].along) == ("x", "y")
+    assert GROOVED.levels[0].along is None
+
+
+def test_grooves_on_a_flat_surface_are_stripes():
+    contact = Pattern.flat(12).grooved(4, 2, along="x").contact
+    assert runs(contact[:, 0]) == [(1, 4), (7, 4)]
+    assert (contact == contact[:, :1]).all()
+
+
+def test_crossed_grooves_are_pillars_upon_pillars():
+    base = Pattern.pillars(16, 11, 5)
+    crossed = base.grooved(5, 1, along="x").grooved(5, 1, along="y")
+    np.testing.assert_array_equal(crossed.contact, base.pillared(5, 1).contact)
+
+
+def test_a_third_level_cuts_the_second():
+    third = Pattern.pillars(16, 11, 5).pillared(5, 1).grooved(2, 1, along="x").contact
+    assert runs(third[:, 3]) == [(2, 2), (5, 2), (8, 2), (11, 2)]
+    assert runs(third[2]) == [(2, 5), (8, 5)]
+
+
+def test_contact_is_read_only():
+    with pytest.raises(ValueError, match="read-only"):
+        Pattern.flat(3).contact[0, 0] = False
+
+
+@pytest.mark.parametrize(
+    ("build", "message"),
+    [
+        (lambda: Pattern.pillars(120, 7, 4), r"n_p \+ n_s = 7 \+ 4 = 11 must divide N = 120"),
+        (lambda: Pattern.pillars(12, 4, 2).grooved(1, 4), "groove of 4 .* pillar of 4 blocks"),
+        (lambda: Pattern.pillars(12, 4, 2).grooved(2, 1), "do not fill a pillar of 4 blocks"),
+        (lambda: Pattern.flat(0), "N must be at least 1"),
+        (lambda: Pattern.pillars(12, 0, 2), "n_p must be at least 1"),
+        (lambda: Pattern.pillars(12, 2, -2), "n_s must be at least 1"),
+        (lambda: Pattern.flat(12).grooved(0, 2), "n_p2 must be at least 1"),
+        (lambda: Pattern.flat(12).grooved(2, 0), "n_s2 must be at least 1"),
+        (lambda: Pattern.flat(12).grooved(4, 2, along="z"), "along 'x' or 'y', not 'z'"),
+    ],
+)
+def test_a_level_that_does_not_fit_is_refused(build, message):
+    with pytest.raises(ValueError, match=message):
+        build()
+
+
+@pytest.mark.parametrize("length", [4.0, "4", None, True])
+def test_lengths_count_whole_blocks(length):
+    with pytest.raises(TypeError, match="N must be a whole number"):
+        Pattern.flat(length)
+    with pytest.raises(TypeError, match="n_p must be a whole number"):
+        Pattern.pillars(12, length, 2)
+    with pytest.raises(TypeError, match="n_s2 must be a whole number"):
+        Pattern.flat(12).grooved(4, length)
+
+
+def test_whole_numbers_of_numpy_will_do():
+    assert Pattern.pillars(np.int64(12), np.int32(4), np.uint8(2)) == Pattern.pillars(12, 4, 2)

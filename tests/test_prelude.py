@@ -1,0 +1,77 @@
+"""The loading before the first detachment: shared by all seeds, and exact to the bit."""
+
+import numpy as np
+import pytest
+
+from scenes import drawn
+from springblock import Material, Pattern, simulate
+from springblock.prelude import Prelude
+from springblock.realisation import load
+
+PILLARS = Pattern.pillars(12, 4, 2)
+
+
+@pytest.fixture(scope="module")
+def prelude():
+    return load(PILLARS.contact)
+
+
+def answer(run):
+    fields = (run.time, run.force, run.detachments, run.switches, run.t_det, run.displacement)
+    return [field.tobytes() for field in fields], run.energy, run.steps
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_run_from_the_prelude_is_the_run_from_zero(prelude, seed):
+    scene = drawn(PILLARS, seed)
+    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize("direction", ["y", 30.0])
+def test_so_it_is_for_every_direction_and_integrator(direction, integrator):
+    how = {"direction": direction, "integrator": integrator}
+    scene, prelude = drawn(PILLARS, seed=1), load(PILLARS.contact, **how)
+    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+
+
+def test_a_weak_block_makes_the_run_start_earlier_not_differently(prelude):
+    contact, mu_static, mu_dynamic = drawn(PILLARS, seed=1)
+    mu_static[2, 2], mu_dynamic[2, 2] = 0.1, 0.05
+    scene = contact, mu_static, mu_dynamic
+    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
+
+
+def test_no_more_is_skipped_than_the_first_snapshot_allows(prelude):
+    scene, times = drawn(PILLARS, seed=1), [4e-6, 1e-4]
+    skipping = simulate(*scene, duration=1.2e-4, snapshot_times=times, prelude=prelude)
+    plain = simulate(*scene, duration=1.2e-4, snapshot_times=times)
+    assert skipping.snapshots.tobytes() == plain.snapshots.tobytes()
+
+
+def test_a_prelude_survives_its_file(prelude, tmp_path):
+    prelude.save(tmp_path / "prelude.npz")
+    stored = Prelude.read(tmp_path / "prelude.npz")
+    assert vars(stored).keys() == vars(prelude).keys()
+    for name, value in vars(prelude).items():
+        np.testing.assert_array_equal(getattr(stored, name), value)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"direction": "y"},
+        {"integrator": "rk4"},
+        {"step": 1e-8},
+        {"sample_interval": 4e-7},
+        {"material": Material(gamma=0.0)},
+    ],
+)
+def test_a_prelude_of_another_scene_is_refused(prelude, change):
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*drawn(PILLARS, seed=1), prelude=prelude, **change)
+
+
+def test_a_prelude_of_another_pattern_is_refused(prelude):
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*drawn(Pattern.flat(12), seed=1), prelude=prelude)

@@ -1,0 +1,92 @@
+# Error against run time, and stability; the programs stand beside the tests that they share.
+
+VALIDATION = f"PYTHONPATH=tests {sys.executable} -m validation"
+COMPARISONS = expand(
+    f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
+    comparison=["reference", "paired", "twin"],
+    scene=["flat", "pillared", "grooved"],
+)
+
+
+rule compare:
+    input:
+        ancient(rules.compile.output),
+        code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
+    output:
+        f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
+    log:
+        f"{RESULTS}/logs/accuracy/{{comparison}}-{{scene}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/accuracy/{{comparison}}-{{scene}}.tsv"
+    wildcard_constraints:
+        comparison="[a-z]+",
+        scene="[a-z]+",
+    resources:
+        mem_mb=600,
+        runtime=20,
+    params:
+        code=sources.digest("springblock.realisation"),
+    message:
+        "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
+    shell:
+        "{VALIDATION}.work_precision compare --comparison {wildcards.comparison} "
+        "--scene {wildcards.scene} --output {output} > {log} 2>&1"
+
+
+rule work_precision:
+    input:
+        COMPARISONS,
+    output:
+        table=f"{RESULTS}/tables/work_precision.parquet",
+        pdf=f"{RESULTS}/figures/work_precision.pdf",
+        png=report(
+            f"{RESULTS}/figures/work_precision.png",
+            caption="../report/work_precision.rst",
+            category="Accuracy",
+            labels={"figure": "work_precision", "shows": "Error against run time"},
+        ),
+    log:
+        f"{RESULTS}/logs/work_precision.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/work_precision.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=figure_code("work_precision"),
+    message:
+        "Drawing error against run time"
+    shell:
+        "({VALIDATION}.work_precision collect {input} --output {output.table} && "
+        "{SPRINGBLOCK} work_precision {output.table} --output {output.pdf} --output {output.png}"
+        ") > {log} 2>&1"
+
+
+rule stability:
+    input:
+        ancient(rules.compile.output),
+        code="tests/validation/stability.py",
+    output:
+        table=f"{RESULTS}/tables/stability.parquet",
+        pdf=f"{RESULTS}/figures/stability.pdf",
+        png=report(
+            f"{RESULTS}/figures/stability.png",
+            caption="../report/stability.rst",
+            category="Accuracy",
+            labels={"figure": "stability", "shows": "Stiff and extreme cases"},
+        ),
+    log:
+        f"{RESULTS}/logs/stability.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/stability.tsv"
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        code=[sources.digest("springblock.realisation"), figure_code("stability")],
+    message:
+        "Trying stiff and extreme cases"
+    shell:
+        "({VALIDATION}.stability --output {output.table} && "
+        "{SPRINGBLOCK} stability {output.table} --output {output.pdf} --output {output.png}"
+        ") > {log} 2>&1"
