@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 import click
 
 from springblock.material import Material
+from springblock.realisation import STEP
 from springblock.scene import Scene
 from springblock.solver import INTEGRATORS
 
@@ -57,7 +58,7 @@ _HOW = [
         "--material", multiple=True, callback=_constants, help="A constant: youngs_modulus=1e7."
     ),
     click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog"),
-    click.option("--step", type=float, default=2e-8, show_default=True, help="h, s."),
+    click.option("--step", type=float, default=STEP, show_default=True, help="h, s."),
     click.option("--sample-interval", type=float, default=2e-7, show_default=True, help="s."),
 ]
 
