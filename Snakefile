@@ -20,7 +20,9 @@ rule all:
     input:
         rules.aggregate.output,
         [figure_files(name) for name in FIGURES],
-        [rules.work_precision.output, rules.stability.output] if config["accuracy"] else [],
+        [rules.work_precision.output, rules.stability.output, rules.accuracy.output]
+        if config["accuracy"]
+        else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"

@@ -9,6 +9,7 @@ COMMANDS = {
     "prelude": "springblock.commands.simulate:compute_prelude",
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
+    "accuracy": "springblock.commands.accuracy:write_page",
     "figure_1": "springblock.commands.figures:figure_1",
     "figure_2": "springblock.commands.figures:figure_2",
     "figure_3": "springblock.commands.figures:figure_3",

@@ -90,3 +90,25 @@ rule stability:
         "({VALIDATION}.stability --output {output.table} && "
         "{SPRINGBLOCK} stability {output.table} --output {output.pdf} --output {output.png}"
         ") > {log} 2>&1"
+
+
+rule accuracy:
+    input:
+        rules.work_precision.output.table,
+        rules.stability.output.table,
+        rules.aggregate.output,
+    output:
+        f"{RESULTS}/accuracy.md",
+    log:
+        f"{RESULTS}/logs/accuracy.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/accuracy.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.accuracy"),
+    message:
+        "Writing down what to trust"
+    shell:
+        "{SPRINGBLOCK} accuracy {input} --output {output} > {log} 2>&1"

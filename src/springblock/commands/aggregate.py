@@ -5,12 +5,13 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
+from springblock.accuracy import suspects
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.sources import code_version
 from springblock.tables import SUMMARY, read, write
 
-#: A realisation whose energy residual exceeds this is reported.
-ENERGY_TOLERANCE = 5e-4
+#: What tells one scene from another.
+SCENE = ["n_blocks", "level", "n_p", "n_s", "n_p2", "n_s2", "direction"]
 
 
 @click.command("aggregate")
@@ -21,13 +22,11 @@ def aggregate(batches: tuple[Path, ...], configuration: str, output: Path) -> No
     """Collect the summaries of all BATCHES into one table, a row per realisation."""
     with one_sentence():
         table = read(batches, SUMMARY)
-        keys = [name for name in SUMMARY.names if name in KEYS]
-        table = table.sort_by([(name, "ascending") for name in keys])
-        _refuse_duplicates(table, keys)
-        for row in table.to_pylist():
-            if not abs(row["energy_error"]) <= ENERGY_TOLERANCE:
-                scene = ", ".join(f"{key} = {row[key]}" for key in keys)
-                click.echo(f"warning: energy residual {row['energy_error']:.1e} at {scene}")
+        table = table.sort_by([(name, "ascending") for name in [*SCENE, "seed"]])
+        _refuse_duplicates(table)
+        for row in suspects(table.to_pylist(), SCENE):
+            which = ", ".join(f"{key} = {row[key]}" for key in [*SCENE, "seed"])
+            click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
         write(
             table,
             output,
@@ -35,12 +34,8 @@ def aggregate(batches: tuple[Path, ...], configuration: str, output: Path) -> No
         )
 
 
-#: What tells one realisation from another.
-KEYS = ("n_blocks", "level", "n_p", "n_s", "n_p2", "n_s2", "direction", "seed")
-
-
-def _refuse_duplicates(table: pa.Table, keys: list[str]) -> None:
-    counts = table.group_by(keys).aggregate([([], "count_all")])
+def _refuse_duplicates(table: pa.Table) -> None:
+    counts = table.group_by([*SCENE, "seed"]).aggregate([([], "count_all")])
     repeated = [row for row in counts.to_pylist() if row["count_all"] > 1]
     if repeated:
         raise ValueError(f"the batches hold this realisation more than once: {repeated[0]}")

@@ -1,0 +1,24 @@
+"""springblock accuracy: the page that says what to trust."""
+
+from pathlib import Path
+
+import click
+import pyarrow.parquet as pq
+
+from springblock.accuracy import page
+from springblock.commands.options import INPUT, OUTPUT
+from springblock.files import whole_file
+
+
+@click.command("accuracy")
+@click.argument("precision", type=INPUT)
+@click.argument("stability", type=INPUT)
+@click.argument("realisations", type=INPUT)
+@click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
+def write_page(precision: Path, stability: Path, realisations: Path, output: Path) -> None:
+    """Write the page from the tables PRECISION, STABILITY and REALISATIONS."""
+    text = page(
+        *(pq.read_table(table).to_pylist() for table in (precision, stability, realisations))
+    )
+    with whole_file(output) as partial:
+        partial.write_text(text, encoding="utf-8")
