@@ -73,3 +73,17 @@ def test_only_damping_and_friction_may_vanish(name):
     else:
         with pytest.raises(ValueError, match=rf"Material\.{name} must be finite and positive"):
             replace(PAPER, **{name: 0})
+
+
+@pytest.mark.parametrize(
+    ("constants", "derived"),
+    [
+        ({"density": 1e-320}, "mass"),
+        ({"pressure": 1e308, "spacing": 1e10, "thickness": 1e10}, "block_load"),
+        ({"spacing": 1e200, "thickness": 1e200, "density": 1e-300}, "k_int|mass|block_load|k_s"),
+        ({"youngs_modulus": 1e308, "thickness": 1e3}, "k_int"),
+    ],
+)
+def test_constants_that_overflow_together_are_refused(constants, derived):
+    with pytest.raises(ValueError, match=f"Material.({derived}) beyond floating point"):
+        Material(**constants)

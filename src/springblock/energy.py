@@ -1,5 +1,6 @@
 """The energy ledger of a run: where the slider's work has gone."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,9 @@ class Energy:
 
     @property
     def relative_residual(self) -> float:
-        """What is missing from the balance, as a share of `work_in`; the integrator's error."""
+        """What is missing from the balance, as a share of `work_in`; NaN where there is none."""
+        if self.work_in == 0.0:
+            return math.nan
         spent = self.elastic + self.kinetic + self.friction + self.viscous
         return (self.work_in - spent) / self.work_in
 

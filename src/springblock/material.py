@@ -28,7 +28,8 @@ class Material:
     Raises
     ------
     TypeError, ValueError
-        Where a field is not a number, not finite, negative, or zero where it may not be.
+        Where a field is not a number, not finite, negative, or zero where it may not be; or
+        where what follows from them is beyond floating point.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -52,6 +53,16 @@ class Material:
                 bound = "zero or positive" if name in _MAY_VANISH else "positive"
                 raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
             object.__setattr__(self, name, float(value))
+        self._check_derived()
+
+    def _check_derived(self) -> None:
+        for name in ("k_int", "k_s", "mass", "block_load", "omega_max"):
+            try:
+                derived = getattr(self, name)
+            except (OverflowError, ZeroDivisionError):
+                derived = math.nan
+            if not (math.isfinite(derived) and derived > 0.0):
+                raise ValueError(f"these constants take Material.{name} beyond floating point")
 
     def items(self) -> Iterator[tuple[str, float]]:
         """Yield (name, value) of every constant."""
