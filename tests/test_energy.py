@@ -102,14 +102,18 @@ def test_once_a_surface_is_at_rest_the_ledger_closes_to_second_order(integrator)
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("step", [2e-8, 5e-9])
-def test_in_the_midst_of_sliding_no_more_is_missing_than_one_step_of_friction(integrator, step):
-    """Half a period of the slip lasts 4e-7 s; it is interrupted after about half of that."""
-    run = simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.336e-4)
-    speed = float(np.hypot(*run.velocity[:, 0, 0]))
-    assert speed > 0.1
-    missing = abs(run.energy.relative_residual) * run.energy.work_in
-    assert missing < 0.6 * PAPER.block_load * speed * step
+def test_in_the_midst_of_sliding_the_ledger_closes_to_second_order_too(integrator):
+    """Half a period of the slip lasts 4e-7 s; it is interrupted after about half of that.
+
+    Of the friction's heat, the last half step counts as well: without it, the order is one.
+    """
+    coarse, fine = (
+        simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.336e-4)
+        for step in (2e-8, 5e-9)
+    )
+    assert np.hypot(*fine.velocity[:, 0, 0]) > 0.1
+    assert abs(coarse.energy.relative_residual) < (PAPER.omega_min * 2e-8) ** 2
+    assert abs(fine.energy.relative_residual) < abs(coarse.energy.relative_residual) / 15
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

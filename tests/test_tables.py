@@ -4,12 +4,12 @@ import pyarrow as pa
 import pytest
 
 from springblock import draw_friction, simulate
+from springblock.commands.simulate import batch_row
 from springblock.files import whole_file
 from springblock.scene import Scene
 from springblock.tables import (
     BATCH,
     SUMMARY,
-    batch_row,
     read,
     read_records,
     rows_to_table,

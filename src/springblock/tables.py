@@ -1,7 +1,7 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +11,6 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from springblock.files import whole_file
-from springblock.realisation import Realisation
-from springblock.scene import Scene
 
 if TYPE_CHECKING:  # simulation jobs do without pandas
     import pandas as pd
@@ -77,28 +75,6 @@ BATCH = pa.schema(
         column("normal_force", pa.float64(), "N", "P l² N²"),
     ]
 )
-
-
-def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
-    """One row of a batch."""
-    return {
-        **asdict(scene),
-        "level": scene.level,
-        "seed": seed,
-        "static_friction": run.static_friction,
-        "dynamic_friction": run.dynamic_friction,
-        "t_max": run.t_max,
-        "t_avg": run.t_avg,
-        "t_first": run.t_first,
-        "energy_error": run.energy.relative_residual,
-        "steps": run.steps,
-        "sample_interval": sample_interval,
-        "force": run.force,
-        "detachments": run.detachments,
-        "switches": run.switches,
-        "t_det": run.t_det.ravel(),
-        "normal_force": run.normal_force,
-    }
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:

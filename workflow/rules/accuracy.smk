@@ -10,7 +10,7 @@ COMPARISONS = expand(
 
 rule compare:
     input:
-        ancient(rules.compile.output),
+        rules.compile.output,
         code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
@@ -64,7 +64,7 @@ rule work_precision:
 
 rule stability:
     input:
-        ancient(rules.compile.output),
+        rules.compile.output,
         code="tests/validation/stability.py",
     output:
         table=f"{RESULTS}/tables/stability.parquet",

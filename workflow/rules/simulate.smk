@@ -41,7 +41,7 @@ rule compile:
 
 rule prelude:
     input:
-        ancient(rules.compile.output),
+        rules.compile.output,
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:

@@ -2,20 +2,101 @@
 
 import hashlib
 import json
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import click
 from tqdm import tqdm
 
 from springblock.asperities import draw_friction
-from springblock.commands.options import INPUT, OUTPUT, How, one_sentence, run_options
+from springblock.commands.options import (
+    INPUT,
+    OUTPUT,
+    one_sentence,
+    scene_options,
+    with_options,
+)
+from springblock.material import Material
 from springblock.prelude import Prelude
-from springblock.realisation import SimulationError, load, simulate
+from springblock.realisation import STEP, Realisation, SimulationError, load, simulate
 from springblock.scene import Scene
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version
-from springblock.tables import BATCH, batch_row, rows_to_table, write
+from springblock.tables import BATCH, rows_to_table, write
+
+
+class How(TypedDict):
+    """How a scene is computed, by the keywords of `simulate`."""
+
+    material: Material
+    integrator: str
+    step: float
+    sample_interval: float
+
+
+def _constants(
+    context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> Material:
+    """Read name=value pairs; what is not named has the paper's value."""
+    constants = dict(Material().items())
+    for value in values:
+        name, _, number = value.partition("=")
+        if name not in constants:
+            raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
+        try:
+            constants[name] = float(number)
+        except ValueError:
+            raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
+    try:
+        return Material(**constants)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+_HOW = [
+    click.option(
+        "--material", multiple=True, callback=_constants, help="A constant: youngs_modulus=1e7."
+    ),
+    click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog"),
+    click.option("--step", type=float, default=STEP, show_default=True, help="h, s."),
+    click.option("--sample-interval", type=float, default=2e-7, show_default=True, help="s."),
+]
+
+
+def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a scene and of how to compute it, which the command gets as `how`."""
+
+    @wraps(command)
+    def with_how(**options: Any) -> Any:
+        how = {key: options.pop(key) for key in How.__annotations__}
+        return command(how=how, **options)
+
+    return scene_options(with_options(_HOW, with_how))
+
+
+def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
+    """One row of a batch."""
+    return {
+        **asdict(scene),
+        "level": scene.level,
+        "seed": seed,
+        "static_friction": run.static_friction,
+        "dynamic_friction": run.dynamic_friction,
+        "t_max": run.t_max,
+        "t_avg": run.t_avg,
+        "t_first": run.t_first,
+        "energy_error": run.energy.relative_residual,
+        "steps": run.steps,
+        "sample_interval": sample_interval,
+        "force": run.force,
+        "detachments": run.detachments,
+        "switches": run.switches,
+        "t_det": run.t_det.ravel(),
+        "normal_force": run.normal_force,
+    }
 
 
 @click.command("prelude")
