@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, SymmetricalLogLocator
 from pandas import DataFrame
 
 from springblock import simulate
@@ -65,8 +65,8 @@ _DIFFERENCES = {
 # Layout in mm.
 _HEIGHT = 225.0
 _LEFT, _WIDTH, _BETWEEN = 19.5, 52.5, 4.5  #: of a panel per scene; the columns share their axis
-_COST_ROWS, _COST_HEIGHT = (172.5, 122.0), 37.0  #: lower edges and height
-_BIAS_ROWS, _BIAS_HEIGHT = (91.0, 73.0, 55.0), 16.0
+_COST_ROWS, _COST_HEIGHT = (174.5, 125.5), 35.0  #: lower edges and height
+_BIAS_ROWS, _BIAS_HEIGHT = (93.0, 74.0, 55.0), 17.3
 _TWIN_WIDTH, _TWIN_BETWEEN = 42.5, 19.5
 _TWIN_BOTTOM, _TWIN_HEIGHT = 10.0, 31.0
 
@@ -187,38 +187,52 @@ def _order(line: DataFrame) -> float:
 
 
 def _draw_biases(picture: Figure, table: DataFrame) -> None:
-    """Ensembles with paired seeds, before the scatter of an ensemble as large as the study's."""
+    """Ensembles with paired seeds, before the scatter of an ensemble as large as the study's.
+
+    All on one axis, linear up to 1 % and logarithmic beyond: neither the intervals of fine steps
+    nor the biases of the coarsest get lost.
+    """
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
-    for bottom, (quantity, name) in zip(_BIAS_ROWS, _BIASES.items(), strict=True):
-        panels = _row(picture, bottom, _BIAS_HEIGHT)
-        biases, spreads = (rows[rows.quantity == quantity] for rows in (paired, scatter))
-        halves = [_half_width(part) for _, part in _by_scene(spreads)]
-        for ax, (_, part), half in zip(panels, _by_scene(biases), halves, strict=True):
+    rows = [_row(picture, bottom, _BIAS_HEIGHT) for bottom in _BIAS_ROWS]
+    for panels, (quantity, name) in zip(rows, _BIASES.items(), strict=True):
+        for ax, scene in zip(panels, _SCENES, strict=True):
+            biases, spread = (
+                part[(part.quantity == quantity) & (part.scene == scene)]
+                for part in (paired, scatter)
+            )
+            half = _half_width(spread)
             ax.axhspan(-half, half, **_SCATTER)
             ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-            _draw_bias(ax, part)
-        reach = 1.15 * max(*halves, _PERCENT * biases[["ci_low", "ci_high"]].abs().max().max())
-        last = quantity == list(_BIASES)[-1]
-        for ax in panels:
-            ax.set_ylim(-reach, reach)
-            ax.yaxis.set_major_locator(MaxNLocator(4, symmetric=True))
-            ax.tick_params(labelleft=ax is panels[0], labelbottom=last)
-            if last:
-                ax.set_xlabel("integration step (ns)")
+            _draw_bias(ax, biases)
+            ax.tick_params(labelleft=ax is panels[0], labelbottom=panels is rows[-1])
         panels[0].set_ylabel(name)
-        panels[0].yaxis.set_label_coords(-0.17, 0.5)
-        if bottom == _BIAS_ROWS[0]:
-            _letters(panels, "ghi")
-            _name_scenes(panels, paired)
-    middle = 0.5 * (_BIAS_ROWS[0] + _BIAS_HEIGHT + _BIAS_ROWS[-1])
-    look = {"rotation": "vertical", "ha": "left", "va": "center", "fontsize": style.NORMAL}
-    picture.text(1.5 / style.DOUBLE, middle / _HEIGHT, "bias (%)", **look)
+        panels[0].yaxis.set_label_coords(-0.155, 0.5)
+    _share_percent([ax for panels in rows for ax in panels])
+    for ax in rows[-1]:
+        ax.set_xlabel("integration step (ns)")
+    _letters(rows[0], "ghi")
+    _name_scenes(rows[0], paired)
+    across, up = 1.5 / style.DOUBLE, 0.5 * (_BIAS_ROWS[0] + _BIAS_HEIGHT + _BIAS_ROWS[-1]) / _HEIGHT
+    look: dict[str, Any] = {"rotation": "vertical", "ha": "left", "va": "center"}
+    picture.text(across, up, "bias (%), linear within ±1 %", fontsize=style.NORMAL, **look)
+
+
+def _share_percent(panels: Sequence[Axes]) -> None:
+    """One axis that holds what any of the panels shows."""
+    low = min(-1.0, *(ax.dataLim.y0 for ax in panels))
+    high = max(1.0, *(ax.dataLim.y1 for ax in panels))
+    for ax in panels:
+        ax.set_yscale("symlog", linthresh=1.0, linscale=1.0)
+        ax.yaxis.set_major_locator(FixedLocator([-5.0, -1.0, 0.0, 1.0, 5.0]))
+        ax.yaxis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=1, subs=range(2, 10)))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.set_ylim(1.5 * low, 1.5 * high)
 
 
 def _half_width(rows: DataFrame) -> float:
     """Where 95 % of the means over as many seeds as in the study lie: ± so many percent."""
     half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / _STUDY)
-    return _PERCENT * float(half.max())
+    return _PERCENT * float(half.item())
 
 
 def _draw_bias(ax: Axes, rows: DataFrame) -> None:

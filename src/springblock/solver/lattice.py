@@ -32,6 +32,7 @@ class State(NamedTuple):
     work: Array  #: lattice-sized fields of the integrator's own
     ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
+    in_contact: NDArray[np.bool_]  #: (N,) rows that hold any block in contact
 
     def copy(self) -> "State":
         """Return a state that shares no memory with this one."""
@@ -110,6 +111,7 @@ def prepare(
         work=np.zeros((work_fields, n * pitch)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
+        in_contact=np.asarray(contact.any(axis=1)),
     )
     kappa = material.k_int * compliance
     axial, diagonal = coefficients(kappa)

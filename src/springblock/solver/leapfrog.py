@@ -77,11 +77,37 @@ def _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, now):
         slides = (left > 0.0) & (static[b] > 0.0)
         was_at_rest = (vx == 0.0) & (vy == 0.0)
         switches += np.int64(slides & was_at_rest)
-        first = t_det[b]
-        t_det[b] = now if slides & (first > now) else first
         if peak is not None:
             peak[b] = max(peak[b], fx * fx + fy * fy)
+    if switches > 0:
+        _note_detachments(wx, wy, static, t_det, i, n, now)
     return switches
+
+
+@njit(**JIT)
+def _note_detachments(wx, wy, static, t_det, i, n, now):
+    """Note the time for blocks of one row that slide and have not done so before."""
+    for x in range(ONE, n + ONE):
+        b = i + x
+        slides = ((wx[b] != 0.0) | (wy[b] != 0.0)) & (static[b] > 0.0)
+        first = t_det[b]
+        t_det[b] = now if slides & (first > now) else first
+
+
+@njit(**JIT)
+def _move_free_row(ux, uy, wx, wy, s, north, south, i, n, a, k_s, sx, sy):
+    """As `_move_row` for a row without contact, to the bit."""
+    for x in range(ONE, n + ONE):
+        b = i + x
+        fx, fy = spring_force(s, x, north, south)
+        fx += k_s * (sx - ux[b])
+        fy += k_s * (sy - uy[b])
+        new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
+        wx[b] = new_x
+        wy[b] = new_y
+        ux[b] += new_x
+        uy[b] += new_y
+        s[HEAT + x] = 0.0
 
 
 @njit(**JIT)
@@ -90,7 +116,7 @@ def advance(state, constants, first, steps, every, samples):
 
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
-    ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak = state
+    ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak, in_contact = state
     n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, static, dynamic, t_det)
     a = math.exp(-damping)
@@ -105,7 +131,10 @@ def advance(state, constants, first, steps, every, samples):
             if beyond > 0:
                 return k - first, np.int64(row), np.int64(beyond) - 1
             i = row * pitch
-            switches += _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, k)
+            if in_contact[row]:
+                switches += _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, k)
+            else:
+                _move_free_row(ux, uy, wx, wy, s, north, south, i, n, a, k_s, sx, sy)
             ux[i + n + ONE] = ux[i + n]
             uy[i + n + ONE] = uy[i + n]
             row_x, row_y, row_heat, row_squares = row_sums(ux, uy, wx, wy, s, i, HEAT, n)

@@ -135,7 +135,7 @@ def advance(state, constants, first, steps, every, samples):
 
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
-    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak = state
+    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak, _ = state
     n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
