@@ -1,0 +1,102 @@
+"""The configuration: what it expands to, and that its documentation keeps up with it."""
+
+import copy
+from pathlib import Path
+
+import pytest
+import yaml
+
+from springblock.scene import Scene
+from springblock.study import Ensemble, check, configuration_digest, ensembles
+
+ROOT = Path(__file__).parents[1]
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+
+
+def changed(*path, to):
+    """The paper's configuration with one key changed."""
+    configuration = copy.deepcopy(PAPER)
+    node = configuration
+    for key in path[:-1]:
+        node = node[key]
+    node[path[-1]] = to
+    return configuration
+
+
+def keys(schema):
+    """All keys that a schema names, at any depth."""
+    found = set(schema.get("properties", {}))
+    for part in [*schema.get("properties", {}).values(), *schema.get("$defs", {}).values()]:
+        found |= keys(part)
+    return found
+
+
+def test_the_papers_configuration_is_accepted():
+    check(PAPER, SCHEMA)
+
+
+def test_every_key_is_documented():
+    text = (ROOT / "config/README.md").read_text()
+    assert {key for key in keys(SCHEMA) if f"`{key}`" not in text} == set()
+
+
+def test_a_group_is_a_grid_over_its_lists():
+    groups = ensembles(PAPER)
+    assert [e.scene.n_p for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["n_p"]
+    assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
+    assert [e.scene.direction for e in groups["grooves"]] == ["x", "y"]
+    assert groups["flat"][0] == Ensemble(Scene(120), range(20), 3e-4)
+
+
+def test_spacings_may_follow_the_pillars():
+    halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
+    assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 3, 10, 30]
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 7, 20])
+def test_batches_hold_each_seed_once(count):
+    batches = list(Ensemble(Scene(4), range(3, 3 + count), None).batches(5))
+    assert [seed for batch in batches for seed in batch] == list(range(3, 3 + count))
+    assert all(len(batch) in (1, 5) for batch in batches)
+
+
+def test_a_larger_ensemble_keeps_the_whole_batches_of_a_smaller_one():
+    small, large = (list(Ensemble(Scene(4), range(n), None).batches(5)) for n in (10, 25))
+    assert large[: len(small)] == small
+
+
+def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
+    scenes = [e.scene for group in ensembles(PAPER).values() for e in group]
+    assert len({scene.folder for scene in scenes}) == len(scenes)
+    for scene in scenes:
+        options = dict(zip(*[iter(scene.arguments.split())] * 2, strict=True))
+        named = {key[2:].replace("-", "_"): value for key, value in options.items()}
+        direction = named.pop("direction")
+        assert Scene(direction=direction, **{k: int(v) for k, v in named.items()}) == scene
+
+
+def test_any_change_changes_the_digest():
+    digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=2e-8))}
+    assert len(digests) == 2
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [
+        (("realisations_per_job",), 0, "realisations_per_job is not valid: 0 .* minimum of 1"),
+        (("integrator",), "euler", "integrator is not valid: 'euler'.*leapfrog"),
+        (("step",), "1e-8", r"step is not valid: '1e-8'.*with its point"),
+        (("step",), 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
+        (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
+        (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
+        (("scenes", "flat", "duration"), 1e-8, "scenes.flat.duration.*less than one"),
+        (("scenes", "pillars", "n_p"), [7], r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7"),
+        (("scenes", "grooves", "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
+        (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
+    ],
+)
+def test_one_sentence_says_what_is_wrong(path, value, sentence):
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        check(changed(*path, to=value), SCHEMA)
+    assert "\n" not in str(refusal.value)
