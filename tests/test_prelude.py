@@ -75,3 +75,16 @@ def test_a_prelude_of_another_scene_is_refused(prelude, change):
 def test_a_prelude_of_another_pattern_is_refused(prelude):
     with pytest.raises(ValueError, match="prelude belongs to another scene"):
         simulate(*drawn(Pattern.flat(12), seed=1), prelude=prelude)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "material"),
+    [
+        (Pattern.flat(1), Material()),
+        (Pattern.flat(3), Material()),
+        (Pattern.pillars(12, 4, 2), Material(pressure=5e7, slider_velocity=0.5)),
+    ],
+)
+def test_a_prelude_ends_where_blocks_are_few_or_springs_fail_first(pattern, material):
+    prelude = load(pattern.contact, material)
+    assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1

@@ -61,11 +61,13 @@ def test_detachments_count_each_contact_block_once_at_its_time(run):
 
 
 def test_means_and_extremes_are_those_of_the_fields(run):
-    assert run.t_avg == pytest.approx(run.t_det[PILLARS.contact].mean(), rel=1e-14)
+    assert run.t_avg == pytest.approx(run.t_det[PILLARS.contact].mean(), rel=1e-14, abs=0)
     assert run.t_first == run.t_det[PILLARS.contact].min()
     assert run.static_friction == run.force.max() / run.normal_force
     assert run.force[run.time == run.t_max] == run.force.max()
-    assert run.normal_force == pytest.approx(PAPER.pressure * (N * PAPER.spacing) ** 2, rel=1e-14)
+    assert run.normal_force == pytest.approx(
+        PAPER.pressure * (N * PAPER.spacing) ** 2, rel=1e-14, abs=0
+    )
 
 
 def test_dynamic_friction_is_the_mean_after_the_first_minimum():
@@ -81,7 +83,7 @@ def test_a_run_in_which_nothing_detaches_has_no_detachment_times():
     assert math.isnan(run.t_avg)
     assert math.isnan(run.t_first)
     assert not run.detachments.any()
-    assert run.t_max == run.time[-1] == pytest.approx(1e-5, rel=1e-14)
+    assert run.t_max == run.time[-1] == pytest.approx(1e-5, rel=1e-14, abs=0)
 
 
 def test_a_snapshot_is_the_end_of_a_shorter_run():
@@ -264,7 +266,7 @@ def test_a_step_is_stable_up_to_the_limit_of_the_highest_mode(integrator):
     with pytest.raises(ValueError, match=rf"unstable: {integrator} needs less than") as refusal:
         pull(integrator=integrator, step=above, sample_interval=above)
     named = float(str(refusal.value).split("less than ")[1].split()[0])
-    assert named == pytest.approx(STABLE[integrator], rel=1e-3)
+    assert named == pytest.approx(STABLE[integrator], rel=1e-3, abs=0)
 
 
 @pytest.mark.parametrize("integrator", STABLE)
@@ -277,3 +279,24 @@ def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
     time = float(str(failure.value).split("t = ")[1].split()[0])
     first = np.min(scene[1]) * heavy.block_load / (heavy.k_s * heavy.slider_velocity)
     assert first < time < 1.1 * first
+
+
+def test_snapshots_do_not_change_when_a_run_ends():
+    scene = drawn(PILLARS, seed=1)
+    plain = simulate(*scene)
+    end = plain.time[-1]
+    times = [round(end / 2e-7 - k) * 2e-7 for k in (13, 7, 3)]
+    watched = simulate(*scene, snapshot_times=times)
+    assert same(plain, watched)
+    assert len(watched.snapshots) == 3
+
+
+def test_a_snapshot_after_the_end_is_not_lost_in_silence():
+    with pytest.raises(ValueError, match="ended by itself at t = .* before the last of snapshot"):
+        simulate(*drawn(PILLARS, seed=1), snapshot_times=[1e-3])
+
+
+def test_coefficients_of_any_real_type_are_taken():
+    contact, *mu = drawn(PILLARS, seed=1)
+    wide = [field.astype(np.longdouble) for field in mu]
+    assert same(simulate(contact, *mu, duration=2e-6), simulate(contact, *wide, duration=2e-6))

@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 
 PAPER = Material()
 
+_REAL = int | float | np.integer | np.floating
+
 #: Default integration step of the leapfrog, s; results/tables/work_precision.parquet says why.
 STEP = 1e-8
 
@@ -108,7 +110,7 @@ def heading(direction: str | float) -> tuple[float, float]:
     """Unit vector (x, y) of a sliding direction: "x", "y" or an angle from x in degrees."""
     if isinstance(direction, str) and direction in ("x", "y"):
         return (1.0, 0.0) if direction == "x" else (0.0, 1.0)
-    if isinstance(direction, bool) or not isinstance(direction, int | float | np.number):
+    if isinstance(direction, bool) or not isinstance(direction, _REAL):
         raise TypeError(f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}")
     if not math.isfinite(direction):
         raise ValueError(f"direction must be 'x', 'y' or a finite angle, not {direction!r}")
@@ -195,10 +197,16 @@ def simulate(
     snapshots = []
     while not run.is_over(end, limit):
         pause = (run.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
-        targets = [pause, *(stop for stop in stops if stop > run.samples)]
-        run.proceed(min(targets if end is None else [*targets, end]))
-        if run.samples in stops:
+        pause = pause if end is None else min(pause, end)
+        for stop in [stop for stop in stops if run.samples < stop <= pause]:
+            run.proceed(stop)
             snapshots.append(run.displacement())
+        run.proceed(pause)
+    if len(snapshots) < len(stops):
+        raise ValueError(
+            f"the run ended by itself at t = {run.samples * sample_interval:.4g} s, before the "
+            f"last of snapshot_times; give it a duration"
+        )
     return run.result(snapshots)
 
 
@@ -244,6 +252,8 @@ class _Run:
 
     def proceed(self, until: int) -> None:
         """Go on to sample `until`."""
+        if until == self.samples:
+            return
         more, first = until - self.samples, self.samples * self.every
         taken = Samples.empty(more)
         done, row, column = self.method.advance(
@@ -364,7 +374,7 @@ def _checked_surface(
         in_contact = mu[mask]
         if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
             raise ValueError(f"{name} must be finite and not negative wherever there is contact")
-        fields.append(np.where(mask, mu, 0.0))
+        fields.append(np.where(mask, mu, 0.0).astype(float))
     return mask, fields[0], fields[1]
 
 
@@ -393,7 +403,7 @@ def _check_stability(method: ModuleType, step: float, material: Material) -> Non
 
 
 def _check_positive(name: str, value: float) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+    if isinstance(value, bool) or not isinstance(value, _REAL):
         raise TypeError(f"{name} must be a number of seconds, not {value!r}")
     if not (math.isfinite(value) and value > 0.0):
         raise ValueError(f"{name} must be finite and positive, not {value!r}")

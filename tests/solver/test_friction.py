@@ -30,7 +30,7 @@ def test_static_friction_holds_a_block_up_to_its_threshold(force):
 @pytest.mark.parametrize("force", [1.0 + 1e-12, 1.5, 40.0])
 def test_beyond_the_threshold_dynamic_friction_takes_its_part(force):
     speed = force - DYNAMIC
-    assert released(force) == pytest.approx((0.8 * speed, -0.6 * speed), rel=1e-14)
+    assert released(force) == pytest.approx((0.8 * speed, -0.6 * speed), rel=1e-14, abs=0)
 
 
 @pytest.mark.parametrize("force", [0.05, 0.3, 0.59])
@@ -41,7 +41,7 @@ def test_a_block_with_mu_s_below_mu_d_stays_until_mu_d(force):
 
 def test_a_block_with_mu_s_below_mu_d_leaves_gently():
     speed = np.hypot(*released(0.6 + 1e-9, static=0.05))
-    assert speed == pytest.approx(1e-9, rel=1e-6)  # a difference of numbers near 0.6
+    assert speed == pytest.approx(1e-9, rel=1e-6, abs=0)  # a difference of numbers near 0.6
 
 
 def test_without_friction_nothing_is_taken():
@@ -59,7 +59,7 @@ def test_a_faster_block_loses_one_step_of_friction(before):
     v = (0.6 * before, -0.8 * before)
     speed = 2.0 - DYNAMIC
     kept = after((1.2, -1.6), v, (0.0, 0.0))
-    assert kept == pytest.approx((0.6 * speed, -0.8 * speed), rel=1e-14)
+    assert kept == pytest.approx((0.6 * speed, -0.8 * speed), rel=1e-14, abs=0)
 
 
 def test_a_block_that_turns_back_sticks():
@@ -69,7 +69,9 @@ def test_a_block_that_turns_back_sticks():
 
 def test_a_block_that_is_torn_back_slides_on():
     """F_mot exceeds the static threshold at the instant of rest: there is nothing to hold it."""
-    assert after((-0.8, 0.0), (0.2, 0.0), (-1.01, 0.0)) == pytest.approx((-0.2, 0.0), rel=1e-14)
+    assert after((-0.8, 0.0), (0.2, 0.0), (-1.01, 0.0)) == pytest.approx(
+        (-0.2, 0.0), rel=1e-14, abs=0
+    )
 
 
 def test_a_block_that_turns_aside_slides_on():
