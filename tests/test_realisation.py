@@ -292,7 +292,7 @@ def test_snapshots_do_not_change_when_a_run_ends():
 
 
 def test_a_snapshot_after_the_end_is_not_lost_in_silence():
-    with pytest.raises(ValueError, match="ended by itself at t = .* before the last of snapshot"):
+    with pytest.raises(ValueError, match=r"ended by itself at t = .* before the last of snapshot"):
         simulate(*drawn(PILLARS, seed=1), snapshot_times=[1e-3])
 
 

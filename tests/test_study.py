@@ -93,6 +93,7 @@ def test_any_change_changes_the_digest():
         (("scenes", "flat", "duration"), 1e-8, "scenes.flat.duration.*less than one"),
         (("scenes", "pillars", "n_p"), [7], r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7"),
         (("scenes", "grooves", "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
+        (("figures", "figure_5", "n_p"), 30, "figure_5.n_p is 30, which scenes.pillars.n_p"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
     ],
 )

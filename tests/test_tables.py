@@ -28,7 +28,7 @@ def test_a_stored_realisation_reads_back_to_the_bit(run, tmp_path):
     file = tmp_path / "a.parquet"
     write(rows_to_table([batch_row(SCENE, 3, run, 2e-7)], BATCH), file, {})
     (record,) = read_records([file])
-    assert record.seed == 3
+    assert (record.scene, record.seed) == (SCENE, 3)
     for name in ("force", "detachments", "switches", "t_det"):
         assert (
             getattr(record, name).tobytes()

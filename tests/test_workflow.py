@@ -16,6 +16,8 @@ from springblock.tables import BATCH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
+FIGURES = (1, 2, 3, 4, 5, 6, 8, 9)
+
 TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
@@ -27,6 +29,7 @@ TINY = {
     },
     "figures": {
         "figure_4": {"n_p": 3, "n_s": 3},
+        "figure_5": {"n_p": 3},
         "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
     },
 }
@@ -80,7 +83,7 @@ def edited(study: Path, request: pytest.FixtureRequest):
 
 def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
-    assert names == {f"figure_{k}.{suffix}" for k in (1, 2, 3, 4, 8) for suffix in ("pdf", "png")}
+    assert names == {f"figure_{k}.{suffix}" for k in FIGURES for suffix in ("pdf", "png")}
 
 
 def test_the_table_holds_every_realisation_once(study):
@@ -106,7 +109,7 @@ def test_batches_hold_the_curves_that_the_figures_draw(study):
 
 
 def test_each_job_leaves_a_log_and_a_benchmark(study):
-    jobs = {"compile", "aggregate"} | {f"figure_{k}" for k in (1, 2, 3, 4, 8)}
+    jobs = {"compile", "aggregate"} | {f"figure_{k}" for k in FIGURES}
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
         files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
         assert files == jobs
@@ -131,9 +134,13 @@ def test_an_edited_text_runs_nothing_again(study, edited):
     assert planned(study) == {}
 
 
-def test_one_figure_needs_only_its_own_simulations(study):
-    jobs = planned(study, "--config", "results=elsewhere", "--", "figure_3")
-    assert jobs == {"compile": 1, "prelude": 1, "simulate": 1, "figure_3": 1}
+@pytest.mark.parametrize(
+    ("figure", "preludes", "simulations"),
+    [("figure_3", 1, 1), ("figure_5", 1, 1), ("figure_6", 2, 3), ("figure_9", 2, 2)],
+)
+def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simulations):
+    jobs = planned(study, "--config", "results=elsewhere", "--", figure)
+    assert jobs == {"compile": 1, "prelude": preludes, "simulate": simulations, figure: 1}
 
 
 def test_a_changed_constant_runs_the_simulations_again(study):

@@ -14,7 +14,10 @@ COMMANDS = {
     "figure_2": "springblock.commands.figures:figure_2",
     "figure_3": "springblock.commands.figures:figure_3",
     "figure_4": "springblock.commands.figures:figure_4",
+    "figure_5": "springblock.commands.figures:figure_5",
+    "figure_6": "springblock.commands.figures:figure_6",
     "figure_8": "springblock.commands.figures:figure_8",
+    "figure_9": "springblock.commands.figures:figure_9",
     "work_precision": "springblock.commands.figures:work_precision",
     "stability": "springblock.commands.figures:stability",
 }

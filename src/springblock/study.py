@@ -60,6 +60,9 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
                     f"scenes.{group}.duration is {ensemble.duration!r} s, "
                     f"less than one sample_interval of {times[2]!r} s"
                 )
+    shown = configuration["figures"]["figure_5"]["n_p"]
+    if shown not in configuration["scenes"]["pillars"]["n_p"]:
+        raise ValueError(f"figures.figure_5.n_p is {shown}, which scenes.pillars.n_p does not hold")
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:

@@ -1,7 +1,7 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from springblock.files import whole_file
+from springblock.scene import Scene
 
 if TYPE_CHECKING:  # simulation jobs do without pandas
     import pandas as pd
@@ -117,8 +118,9 @@ def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """One realisation as it was stored; the fields are those of `Realisation`."""
+    """One realisation as it was stored: its scene, its seed and the fields of `Realisation`."""
 
+    scene: Scene
     seed: int
     time: NDArray[np.float64]
     force: NDArray[np.float64]
@@ -146,6 +148,7 @@ def read_records(paths: Iterable[Path]) -> list[Record]:
         force = row["force"][0].values.to_numpy()
         records.append(
             Record(
+                scene=Scene(**{f.name: row[f.name][0].as_py() for f in fields(Scene)}),
                 seed=row["seed"][0].as_py(),
                 time=np.arange(len(force)) * row["sample_interval"][0].as_py(),
                 force=force,

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from springblock import Material, Pattern, Realisation
 from springblock.energy import elastic_energy
 from springblock.figures import figure_1, figure_2, figure_3, figure_4, figure_8, style
-from springblock.figures.run import Run, percent
+from springblock.run import Run, percent
 from springblock.tables import Record
 
 PILLARS = Pattern.pillars(24, 4, 4)

@@ -15,7 +15,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
-FIGURES = [f"figure_{number}" for number in (1, 2, 3, 4, 8)]
+FIGURES = [f"figure_{number}" for number in (1, 2, 3, 4, 5, 6, 8, 9)]
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
@@ -23,14 +23,26 @@ ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for 
 SPRINGBLOCK = f"{sys.executable} -m springblock"
 
 
-def realisations(*groups):
-    """Files that hold the realisations of these groups of scenes."""
+def batches(ensembles):
+    """Files that hold the realisations of these ensembles."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
-        for group in groups
-        for ensemble in ENSEMBLES[group]
+        for ensemble in ensembles
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
+
+
+def realisations(*groups):
+    """Files that hold the realisations of these groups of scenes."""
+    return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
+
+
+def one_for_each(key, group):
+    """The first ensemble of a group's grid for each length or direction, by its value."""
+    first = {}
+    for ensemble in ENSEMBLES[group]:
+        first.setdefault(getattr(ensemble.scene, key), ensemble)
+    return first
 
 
 def figure_files(name):

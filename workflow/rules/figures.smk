@@ -110,6 +110,59 @@ rule figure_4:
         "{SPRINGBLOCK} figure_4 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
+rule figure_5:
+    input:
+        batches([one_for_each("n_p", "pillars")[config["figures"]["figure_5"]["n_p"]]]),
+    output:
+        pdf=f"{RESULTS}/figures/figure_5.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_5.png",
+            caption="../report/figure_5.rst",
+            category="Figures",
+            labels={"figure": "5", "shows": "First detachment times on one pillar"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_5.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_5.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=figure_code("figure_5"),
+    message:
+        "Drawing figure 5: first detachment times on one pillar"
+    shell:
+        "{SPRINGBLOCK} figure_5 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_6:
+    input:
+        batches(one_for_each("n_p", "flat").values()),
+        batches(one_for_each("n_p", "pillars").values()),
+    output:
+        pdf=f"{RESULTS}/figures/figure_6.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_6.png",
+            caption="../report/figure_6.rst",
+            category="Figures",
+            labels={"figure": "6", "shows": "Force and detachments, pillars"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_6.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_6.tsv"
+    resources:
+        mem_mb=700,
+        runtime=5,
+    params:
+        code=figure_code("figure_6"),
+    message:
+        "Drawing figure 6: force and detachments on pillars"
+    shell:
+        "{SPRINGBLOCK} figure_6 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
 rule figure_8:
     output:
         pdf=f"{RESULTS}/figures/figure_8.pdf",
@@ -133,3 +186,29 @@ rule figure_8:
         "Drawing figure 8: grooved pillars"
     shell:
         "{SPRINGBLOCK} figure_8 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_9:
+    input:
+        batches(one_for_each("direction", "grooves").values()),
+    output:
+        pdf=f"{RESULTS}/figures/figure_9.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_9.png",
+            caption="../report/figure_9.rst",
+            category="Figures",
+            labels={"figure": "9", "shows": "Force and detachments, grooved pillars"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_9.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_9.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=figure_code("figure_9"),
+    message:
+        "Drawing figure 9: force and detachments on grooved pillars"
+    shell:
+        "{SPRINGBLOCK} figure_9 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"

@@ -12,8 +12,9 @@ import click
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence, scene_options
 from springblock.figures.style import save
+from springblock.pattern import Pattern
 from springblock.scene import Scene
-from springblock.tables import read_frame, read_records
+from springblock.tables import Record, read_frame, read_records
 
 _outputs = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -26,6 +27,18 @@ def _draw(name: str, outputs: tuple[Path, ...], collect: Callable[[], tuple[Any,
         picture = import_module(f"springblock.figures.{name}").draw(*collect())
         for output in outputs:
             save(picture, output)
+
+
+def _ensembles(batches: tuple[Path, ...], key: str) -> list[tuple[Any, list[Record]]]:
+    """Records of each scene in `batches` with the scene's `key`, which tells the scenes apart."""
+    ensembles: dict[Any, list[Record]] = {}
+    for record in read_records(batches):
+        ensembles.setdefault(getattr(record.scene, key), []).append(record)
+    for value, records in ensembles.items():
+        scenes = {record.scene.folder for record in records}
+        if len(scenes) > 1:
+            raise ValueError(f"several scenes have {key} = {value}: {', '.join(sorted(scenes))}")
+    return list(ensembles.items())
 
 
 @click.command("figure_1")
@@ -60,12 +73,45 @@ def figure_4(scene: Scene, outputs: tuple[Path, ...]) -> None:
     _draw("figure_4", outputs, lambda: (scene.pattern, portion))
 
 
+@click.command("figure_5")
+@_batches
+@_outputs
+def figure_5(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw first detachment times on one pillar of the scene in BATCHES."""
+
+    def collect() -> tuple[list[Record], Pattern, str]:
+        ensembles = _ensembles(batches, "n_p")
+        if len(ensembles) > 1:
+            raise ValueError(f"one size of pillars is drawn, not {[n_p for n_p, _ in ensembles]}")
+        ((_, records),) = ensembles
+        scene = records[0].scene
+        return records, scene.pattern, scene.direction
+
+    _draw("figure_5", outputs, collect)
+
+
+@click.command("figure_6")
+@_batches
+@_outputs
+def figure_6(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw force and detachments for each size of pillars in BATCHES."""
+    _draw("figure_6", outputs, lambda: (_ensembles(batches, "n_p"),))
+
+
 @click.command("figure_8")
 @scene_options
 @_outputs
 def figure_8(scene: Scene, outputs: tuple[Path, ...]) -> None:
     """Draw pillars with grooves."""
     _draw("figure_8", outputs, lambda: (scene.pattern,))
+
+
+@click.command("figure_9")
+@_batches
+@_outputs
+def figure_9(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw force and detachments for each sliding direction in BATCHES."""
+    _draw("figure_9", outputs, lambda: (_ensembles(batches, "direction"),))
 
 
 @click.command("work_precision")

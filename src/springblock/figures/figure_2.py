@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 
 from springblock.figures import style
-from springblock.figures.run import Array, Run, friction, percent
-from springblock.figures.style import BLACK, BLUE, journal
+from springblock.figures.style import BLACK, BLUE, MICRO, journal
 from springblock.figures.surface import arrow
+from springblock.run import Array, Run, friction, percent
+from springblock.statistics import cut
 
-_MICRO = 1e6  #: µs per s
 _BAND = (5.0, 95.0)  #: percentiles of the ensemble
 _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that are enlarged
 _COLUMNS = ((16.0, 82.0), (116.0, 71.0))  #: left edge and width of the panels, mm
@@ -38,8 +38,8 @@ def draw(runs: Sequence[Run]) -> Figure:
     """
     run, others = runs[0], runs[1:]
     picture = style.figure(style.DOUBLE, 95.0)
-    zoom = (_MICRO * (run.t_max - _BEFORE), _MICRO * (run.t_max + _AFTER))
-    spans = ((0.0, _MICRO * float(run.time[-1])), zoom)
+    zoom = (MICRO * (run.t_max - _BEFORE), MICRO * (run.t_max + _AFTER))
+    spans = ((0.0, MICRO * float(run.time[-1])), zoom)
     for column, letters, span in zip(_COLUMNS, ("ac", "bd"), spans, strict=True):
         upper, lower = (style.axes(picture, column[0], y, column[1], h) for y, h in _ROWS)
         _draw_force(upper, run, others, span)
@@ -62,24 +62,15 @@ def draw(runs: Sequence[Run]) -> Figure:
     return picture
 
 
-def _common(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
-    """Time in µs and curves, (runs, n), of the samples that all runs have."""
-    n = min(len(curve) for curve in curves)
-    time = runs[0].time[:n]
-    if not all(np.allclose(run.time[:n], time) for run in runs):
-        raise ValueError("the runs of an ensemble must share one sample interval")
-    return _MICRO * time, np.stack([curve[:n] for curve in curves])
-
-
 def _draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, float]) -> None:
     """Friction force over normal force; its axis fits what the runs show within `span`."""
     if others:
-        time, forces = _common(others, [friction(other) for other in others])
+        time, forces = cut(others, [friction(other) for other in others])
         low, high = np.percentile(forces, _BAND, axis=0)
         name = f"{_BAND[0]:g}–{_BAND[1]:g} % of {len(others)} other runs"
-        ax.fill_between(time, low, high, color="0.75", linewidth=0.0, label=name)
-        ax.plot(time, forces.mean(axis=0), label="their mean", **_MEAN)
-    ax.plot(_MICRO * run.time, friction(run), color=BLUE, label="one run")
+        ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
+        ax.plot(MICRO * time, forces.mean(axis=0), label="their mean", **_MEAN)
+    ax.plot(MICRO * run.time, friction(run), color=BLUE, label="one run")
     shown = np.concatenate([_within(span, each) for each in (run, *others)])
     room = 0.08 * float(np.ptp(shown))
     ax.set_ylim(max(0.0, float(shown.min()) - room), float(shown.max()) + room)
@@ -88,7 +79,7 @@ def _draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, fl
 
 def _within(span: tuple[float, float], run: Run) -> Array:
     """Friction force over normal force between two times in µs."""
-    time = _MICRO * run.time
+    time = MICRO * run.time
     return friction(run)[(time >= span[0]) & (time <= span[1])]
 
 
@@ -100,36 +91,36 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
         (run.detachments, BLUE, "of these, for the first time"),
     ):
         share = percent(run, counts[1:])  # in the interval that ends at the sample
-        edges = _MICRO * run.time
+        edges = MICRO * run.time
         ax.stairs(share, edges, baseline=floor, fill=True, color=color, label=name)
     if others:
-        time, shares = _common(others, [percent(other, other.switches) for other in others])
-        middle = time - 0.5 * (time[1] - time[0])
+        time, shares = cut(others, [percent(other, other.switches) for other in others])
+        middle = MICRO * (time - 0.5 * (time[1] - time[0]))
         name = "rest to sliding, mean of others"
         ax.plot(middle, shares.mean(axis=0), label=name, path_effects=_CASED, **_MEAN)
     ax.set_yscale("log")
     ax.set_ylim(floor, 80.0)
     ax.yaxis.set_major_formatter("{x:g}")
-    interval = _MICRO * (run.time[1] - run.time[0])
+    interval = MICRO * (run.time[1] - run.time[0])
     ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")
 
 
 def _draw_times(ax: Axes, run: Run) -> None:
     """Mark t_max with a dotted and t_avg with a thin solid line."""
     for time, dashes, width in ((run.t_max, ":", 1.1), (run.t_avg, "-", 0.6)):
-        ax.axvline(_MICRO * time, color=BLACK, linestyle=dashes, linewidth=width, zorder=0.5)
+        ax.axvline(MICRO * time, color=BLACK, linestyle=dashes, linewidth=width, zorder=0.5)
 
 
 def _name_times(ax: Axes, run: Run) -> None:
     """Write the names of both times above the panel, away from each other."""
     first, second = sorted(((run.t_max, r"t_\mathrm{max}"), (run.t_avg, r"t_\mathrm{avg}")))
     for (time, name), side in ((first, "right"), (second, "left")):
-        place = (_MICRO * time, 1.03)
+        place = (MICRO * time, 1.03)
         ax.text(*place, f"${name}$", ha=side, va="bottom", transform=ax.get_xaxis_transform())
 
 
 def _name_precursors(ax: Axes, run: Run, start: float) -> None:
     """Point from t_max back to the detachments that come before it."""
-    end, height = _MICRO * run.t_max, 6.0
+    end, height = MICRO * run.t_max, 6.0
     arrow(ax, (end, height), (end - 0.8 * (end - start), height))
     ax.text(end - 0.4 * (end - start), 1.3 * height, "precursors", ha="center", va="bottom")

@@ -10,8 +10,8 @@ from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 
 from springblock.figures import style
-from springblock.figures.run import Array, Run
 from springblock.figures.style import NO_CONTACT, journal
+from springblock.run import Array, Run
 
 #: Blue before t_max, red after it. The blue end is darker than the red one, so that in shades of
 #: grey, too, the precursors are the darkest spots.

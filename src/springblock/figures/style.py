@@ -15,6 +15,7 @@ from matplotlib.text import Text
 from springblock.files import whole_file
 
 MM = 1.0 / 25.4  #: one millimetre in inches, matplotlib's unit
+MICRO = 1e6  #: µs per s
 COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's columns, mm
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/).

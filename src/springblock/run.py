@@ -1,4 +1,4 @@
-"""What the figures need to know of a run."""
+"""What statistics and figures need to know of a run."""
 
 from typing import Any, Protocol
 
@@ -43,6 +43,10 @@ class Run(Protocol):
     @property
     def t_avg(self) -> float:
         """Mean of `t_det`, s."""
+
+    @property
+    def static_friction(self) -> float:
+        """Maximum of the force over P l² N²."""
 
 
 def friction(run: Run) -> Array:

@@ -1,0 +1,141 @@
+"""What an ensemble shows: means with their intervals, pillars, load peaks.
+
+The intervals are bootstrap intervals over realisations (Efron & Tibshirani 1993,
+doi:10.1201/9780429246593); the observables are those of Costagliola, Bosia & Pugno 2022,
+doi:10.1016/j.ijsolstr.2022.111525.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.signal import find_peaks
+
+from springblock.pattern import Pattern
+from springblock.run import Array, Run, friction, percent
+
+_INTERVAL = (2.5, 97.5)  #: percentiles
+
+
+class Interval(NamedTuple):
+    """A mean and the limits of its 95 % interval, each of the same shape."""
+
+    mean: Array
+    low: Array
+    high: Array
+
+
+def mean_interval(values: ArrayLike, seed: int = 0, resamples: int = 1000) -> Interval:
+    """Mean over k realisations, (k, ...), with its 95 % bootstrap percentile interval, (...).
+
+    Realisations are drawn as wholes, so what belongs to one of them stays together. A single
+    one says nothing about its spread: its limits are NaN.
+    """
+    values = np.asarray(values, dtype=float)
+    k, shape = len(values), values.shape[1:]
+    mean = values.mean(axis=0)
+    if k == 1:
+        return Interval(mean, np.full(shape, np.nan), np.full(shape, np.nan))
+    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
+    means = (drawn / k) @ values.reshape(k, -1)
+    low, high = np.percentile(means, _INTERVAL, axis=0)
+    return Interval(mean, low.reshape(shape), high.reshape(shape))
+
+
+def standard_error(values: Array) -> Array:
+    """Standard error of the mean over k realisations, (k, ...); infinite for a single one."""
+    k = len(values)
+    if k == 1:
+        return np.full(values.shape[1:], np.inf)
+    return values.std(axis=0, ddof=1) / np.sqrt(k)
+
+
+def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
+    """Time in s, (n,), and curves, (runs, n), of the samples that all runs have.
+
+    Raises
+    ------
+    ValueError
+        Where the runs do not share one sample interval.
+    """
+    n = min(len(curve) for curve in curves)
+    time = runs[0].time[:n]
+    if not all(np.allclose(run.time[:n], time) for run in runs):
+        raise ValueError("the runs of an ensemble must share one sample interval")
+    return time, np.stack([curve[:n] for curve in curves])
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Force and detachments of k realisations, as long as the shortest of them."""
+
+    time: Array  #: (n,) s
+    friction: Array  #: (k, n) force over P l² N²
+    detachments: Array  #: (k, n) first detachments since the sample before, % of all of the run
+
+    def binned(self, width: float) -> tuple[Array, Array]:
+        """Edges of bins of about `width` s, (bins + 1,), and detachments in each, (k, bins), %.
+
+        A bin holds whole sample intervals, at least one; what does not fill a bin is left out.
+        """
+        interval = self.time[1] - self.time[0]
+        size = max(1, round(width / interval))
+        bins = (len(self.time) - 1) // size
+        counts = self.detachments[:, 1 : bins * size + 1]
+        return self.time[: bins * size + 1 : size], counts.reshape(-1, bins, size).sum(axis=2)
+
+
+def common_curve(runs: Sequence[Run]) -> Curve:
+    """Cut the force and detachment curves of an ensemble to its shortest run."""
+    time, forces = cut(runs, [friction(run) for run in runs])
+    _, shares = cut(runs, [percent(run, run.detachments) for run in runs])
+    return Curve(time, forces, shares)
+
+
+def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
+    """Return t_det/t_max by place on a pillar, [y_p, x_p], mean over pillars; (k, n_p, n_p).
+
+    NaN where a block of some pillar is not in contact or never detached. Section 3.2, figure 5.
+
+    Raises
+    ------
+    ValueError
+        Where the surface is flat.
+    """
+    if not pattern.levels:
+        raise ValueError("a flat surface has no pillar to average over")
+    size = pattern.levels[0].size
+    rows, columns = (pattern.origins[:, axis, None] + np.arange(size) for axis in (0, 1))
+    return np.stack(
+        [
+            (run.t_det[rows[:, :, None], columns[:, None, :]] / run.t_max).mean(axis=0)
+            for run in runs
+        ]
+    )
+
+
+def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
+    """Masks, [y_p, x_p], of the blocks that are `depth` blocks from the edge of a pillar.
+
+    They are told apart as the "corners" of this ring, and its sides along "x" and along "y"
+    without the corners. In the middle of a pillar only corners are left.
+    """
+    from_edge = np.minimum(np.arange(size), np.arange(size)[::-1])
+    y, x = np.meshgrid(from_edge, from_edge, indexing="ij")
+    return {
+        "corners": (x == depth) & (y == depth),
+        "y": (x == depth) & (y > depth),
+        "x": (y == depth) & (x > depth),
+    }
+
+
+def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray[np.intp]:
+    """Find the peaks of a mean force curve, (n,), up to the onset of sliding; their indices.
+
+    A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
+    by `share` of the largest force, which keeps out the small waves of loading. Section 3.3.
+    """
+    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
+    return find_peaks(curve, prominence=needed)[0]

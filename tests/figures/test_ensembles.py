@@ -1,0 +1,168 @@
+"""The figures of ensembles draw without a warning and show the data they are given."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from springblock import Pattern
+from springblock.commands import figures as commands
+from springblock.figures import figure_5, figure_6, figure_9, style
+from springblock.scene import Scene
+from springblock.tables import Record
+
+SIZE = 6
+PILLARS = Pattern.pillars(24, SIZE, SIZE)
+NORMAL_FORCE = 1.3e-3
+
+
+def record(seed: int, peaks: tuple[float, ...] = (110e-6,), samples: int = 700) -> Record:
+    """A force with hills at `peaks`; blocks let go from the edge of their pillar to its middle."""
+    rng = np.random.default_rng(seed)
+    time = 2e-7 * np.arange(samples - 3 * seed)
+    force = 1e-4 * np.minimum(time / peaks[0], 1.0)
+    force += sum(1e-3 * np.exp(-(((time - peak) / 8e-6) ** 2)) for peak in peaks)
+    from_edge = np.minimum(np.arange(SIZE), np.arange(SIZE)[::-1])
+    place = 100e-6 + 5e-6 * np.add.outer(2.0 * from_edge, from_edge)
+    t_det = np.full((24, 24), np.nan)
+    for y, x in PILLARS.origins:
+        t_det[y : y + SIZE, x : x + SIZE] = place
+    t_det += rng.normal(0.0, 1e-6, t_det.shape)
+    detachments = np.histogram(t_det[PILLARS.contact], np.append(-1.0, time))[0].astype(np.int32)
+    return Record(
+        scene=Scene(24, SIZE, SIZE),
+        seed=seed,
+        time=time,
+        force=force * (1.0 + 0.01 * rng.standard_normal()),
+        normal_force=NORMAL_FORCE,
+        detachments=detachments,
+        switches=detachments,
+        t_det=t_det,
+        t_max=peaks[0],
+        t_avg=float(np.nanmean(t_det)),
+        static_friction=float(force.max() / NORMAL_FORCE),
+    )
+
+
+@cache
+def ensemble(*peaks: float, runs: int = 4) -> list[Record]:
+    return [record(seed, peaks) for seed in range(runs)]
+
+
+def along_and_across(runs: int = 4):
+    return [("x", ensemble(80e-6, 110e-6, runs=runs)), ("y", ensemble(100e-6, runs=runs))]
+
+
+def sizes(runs: int = 4):
+    peaks = {0: 60e-6, 2: 80e-6, 6: 100e-6, 20: 120e-6}
+    return [(n_p, ensemble(peak, runs=runs)) for n_p, peak in peaks.items()]
+
+
+DRAWINGS: dict[str, Callable[[], Figure]] = {
+    "figure_5": lambda: figure_5.draw(ensemble(110e-6), PILLARS),
+    "figure_6": lambda: figure_6.draw(sizes()),
+    "figure_9": lambda: figure_9.draw(along_and_across()),
+    "figure_5 of one run": lambda: figure_5.draw(ensemble(110e-6, runs=1), PILLARS, "30"),
+    "figure_6 of one run": lambda: figure_6.draw(sizes(runs=1)),
+    "figure_9 of one run": lambda: figure_9.draw(along_and_across(runs=1)),
+}
+
+
+@cache
+def drawn(name: str) -> Figure:
+    """A figure for tests that only look at it."""
+    return DRAWINGS[name]()
+
+
+@pytest.mark.parametrize(
+    ("name", "letters"), [("figure_5", "ab"), ("figure_6", "abcd"), ("figure_9", "abcd")]
+)
+def test_panels_carry_letters(name, letters):
+    texts = [text.get_text() for text in drawn(name).findobj(Text)]
+    assert sorted(text for text in texts if text[1:] == ")") == [f"{x})" for x in letters]
+
+
+@pytest.mark.parametrize("name", ["figure_5", "figure_6", "figure_9"])
+def test_axes_say_what_they_show(name):
+    for ax in drawn(name).axes:
+        assert ax.get_ylabel()
+        if ax.xaxis.get_tick_params()["labelbottom"] and len(ax.get_xticks()):
+            assert ax.get_xlabel()
+
+
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_nothing_leaves_the_page(name):
+    box = style.journal(drawn(name).get_tightbbox)()  # inches
+    width, height = drawn(name).get_size_inches()
+    assert 0.0 <= box.x0 < box.x1 <= width
+    assert 0.0 <= box.y0 < box.y1 <= height
+
+
+@pytest.mark.parametrize("name", ["figure_5", "figure_6", "figure_9"])
+def test_the_same_figure_is_the_same_file(name, tmp_path, monkeypatch):
+    monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)  # quicker
+    contents = []
+    for attempt in ("first.png", "second.png"):
+        style.save(DRAWINGS[name](), tmp_path / attempt)
+        contents.append((tmp_path / attempt).read_bytes())
+    assert contents[0] == contents[1]
+
+
+def lines(ax):
+    """Data of the lines of a panel, (n, 2), by label."""
+    return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
+
+
+def test_figure_5_maps_the_mean_and_tells_sides_apart():
+    pillar, _, rings = drawn("figure_5").axes
+    shown = np.ma.filled(pillar.images[0].get_array(), np.nan)
+    starts = PILLARS.origins
+    cut = [r.t_det[y : y + SIZE, x : x + SIZE] for r in ensemble(110e-6) for y, x in starts]
+    np.testing.assert_allclose(shown, np.mean(cut, axis=0) / 110e-6)
+    bars = {bar.get_label(): bar.lines[0].get_xydata() for bar in rings.containers}
+    corners, along_y, along_x = bars.values()
+    assert [label.split(" (")[0] for label in bars] == [
+        "corners",
+        "sides along $y$",
+        "sides along $x$",
+    ]
+    assert [len(part) for part in (corners, along_y, along_x)] == [3, 2, 2]  # rings
+    assert corners[0, 1] == pytest.approx(shown[[0, 0, -1, -1], [0, -1, 0, -1]].mean())
+    assert along_y[0, 1] == pytest.approx(shown[1:-1, [0, -1]].mean())
+    assert along_x[0, 1] == pytest.approx(shown[[0, -1], 1:-1].mean())
+
+
+def test_figure_6_shows_every_size_and_marks_both_times():
+    force, _, friction, lag = drawn("figure_6").axes
+    curves = lines(force)
+    mean = np.mean([r.force[:691] / NORMAL_FORCE for r in ensemble(100e-6)], axis=0)
+    np.testing.assert_allclose(curves["$n_p$ = 6"][:, 1], mean)
+    dots = [line.get_xydata()[0, 0] for line in force.get_lines() if len(line.get_xydata()) == 1]
+    for n_p, runs in sizes():
+        assert ("flat" if n_p == 0 else f"$n_p$ = {n_p}") in curves
+        assert pytest.approx(1e6 * runs[0].t_max) in dots
+        assert pytest.approx(1e6 * np.mean([r.t_avg for r in runs])) in dots
+    for ax in (friction, lag):
+        shown = [bar.lines[0].get_xydata()[0] for bar in ax.containers]
+        assert [x for x, _ in shown] == [2.0, 6.0, 20.0]
+    assert shown[1][1] == pytest.approx(100.0 - 1e6 * np.mean([r.t_avg for r in ensemble(100e-6)]))
+
+
+def test_figure_9_marks_the_load_peaks_of_the_data():
+    names = list(lines(drawn("figure_9").axes[0]))
+    assert names == ["sliding along grooves: 2 load peaks", "sliding across grooves: 1 load peak"]
+    for ax in drawn("figure_9").axes[0], drawn("figure_9").axes[2]:
+        peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
+        assert peaks == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
+
+
+def test_scenes_that_a_figure_cannot_tell_apart_are_refused(monkeypatch):
+    records = [record(0), replace(record(1), scene=Scene(24, SIZE, 2))]
+    monkeypatch.setattr(commands, "read_records", lambda batches: records)
+    with pytest.raises(ValueError, match="several scenes have n_p = 6"):
+        commands._ensembles((), "n_p")
+    assert [(n_s, len(group)) for n_s, group in commands._ensembles((), "n_s")] == [(6, 1), (2, 1)]

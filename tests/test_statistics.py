@@ -1,0 +1,142 @@
+"""Statistics of ensembles against samples and curves whose answer is known."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.stats import t
+
+from springblock import Pattern
+from springblock.statistics import (
+    common_curve,
+    load_peaks,
+    mean_interval,
+    pillar_map,
+    pillar_ring,
+    standard_error,
+)
+
+
+def run(samples=21, normal_force=2.0, **more):
+    """A run of four blocks that let go one after another, a sample apart from the first on."""
+    detachments = np.zeros(samples, int)
+    detachments[1:5] = 1
+    return SimpleNamespace(
+        time=0.5 * np.arange(samples),
+        force=np.arange(samples, dtype=float),
+        normal_force=normal_force,
+        detachments=detachments,
+        t_det=np.array([[0.5, 1.0], [1.5, 2.0]]),
+        **more,
+    )
+
+
+def test_intervals_are_as_wide_as_students_t(rng):
+    sample = rng.normal(3.0, 2.0, 100)
+    mean, low, high = mean_interval(sample, resamples=20_000)
+    half = t.ppf(0.975, 99) * sample.std(ddof=1) / 10.0
+    assert mean == sample.mean()
+    assert (low, high) == pytest.approx((mean - half, mean + half), abs=0.05 * half)
+
+
+def test_intervals_hold_the_true_mean_about_as_often_as_they_say(rng):
+    _, low, high = mean_interval(rng.normal(1.0, 0.5, (40, 2000)))
+    assert np.mean((low < 1.0) & (high > 1.0)) == pytest.approx(0.94, abs=0.02)
+
+
+def test_intervals_keep_the_shape_and_are_always_the_same(rng):
+    values = rng.normal(size=(5, 3, 4))
+    first, second = mean_interval(values), mean_interval(values)
+    assert all(part.shape == (3, 4) for part in first)
+    np.testing.assert_array_equal(first, second)
+    assert (first.low < first.mean).all()
+    assert (first.mean < first.high).all()
+
+
+def test_a_single_realisation_has_no_interval():
+    mean, low, high = mean_interval([[1.0, 2.0]])
+    np.testing.assert_array_equal(mean, [1.0, 2.0])
+    assert np.isnan([low, high]).all()
+    assert np.isinf(standard_error(np.ones((1, 2)))).all()
+
+
+def test_curves_end_with_the_shortest_run():
+    curve = common_curve([run(21), run(12, normal_force=4.0)])
+    np.testing.assert_array_equal(curve.time, 0.5 * np.arange(12))
+    np.testing.assert_allclose(curve.friction, np.arange(12) / np.array([[2.0], [4.0]]))
+    assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+
+
+def test_bins_hold_whole_samples_and_every_detachment_once():
+    edges, shares = common_curve([run(12)]).binned(1.5)
+    np.testing.assert_allclose(edges, [0.0, 1.5, 3.0, 4.5])  # two samples are left out
+    np.testing.assert_allclose(shares, [[75.0, 25.0, 0.0]])
+    edges, shares = common_curve([run(12)]).binned(0.1)  # finer than the samples
+    np.testing.assert_allclose(edges, 0.5 * np.arange(12))
+    assert shares.sum() == 100.0
+
+
+def test_a_pillar_is_the_mean_over_all_pillars(rng):
+    pattern, place = Pattern.pillars(12, 4, 2), rng.random((4, 4))
+    field = np.full((12, 12), np.nan)
+    for i, (y, x) in enumerate(pattern.origins):
+        field[y : y + 4, x : x + 4] = place + i - 1.5  # pillars differ, but for their mean
+    runs = [SimpleNamespace(t_det=field, t_max=t_max) for t_max in (1.0, 2.0, 4.0)]
+    times = pillar_map(runs, pattern)
+    np.testing.assert_allclose(times, place / np.array([1.0, 2.0, 4.0])[:, None, None])
+
+
+def test_a_block_that_never_detaches_is_not_left_out_of_the_mean():
+    pattern, field = Pattern.pillars(4, 1, 1), np.ones((4, 4))
+    field[pattern.origins[0][0], pattern.origins[0][1]] = np.nan
+    assert np.isnan(pillar_map([SimpleNamespace(t_det=field, t_max=1.0)], pattern)).all()
+
+
+def test_a_flat_surface_has_no_pillar():
+    with pytest.raises(ValueError, match="no pillar"):
+        pillar_map([], Pattern.flat(4))
+
+
+@pytest.mark.parametrize("size", [1, 2, 5, 6])
+def test_rings_hold_each_block_once(size):
+    rings = [pillar_ring(size, depth) for depth in range((size + 1) // 2)]
+    assert (sum(mask.astype(int) for ring in rings for mask in ring.values()) == 1).all()
+
+
+def test_sides_are_named_after_the_axis_they_run_along():
+    ring = pillar_ring(4, 0)
+    assert np.argwhere(ring["y"]).tolist() == [[1, 0], [1, 3], [2, 0], [2, 3]]  # y, x
+    assert np.argwhere(ring["x"]).tolist() == [[0, 1], [0, 2], [3, 1], [3, 2]]
+    assert ring["corners"].sum() == 4
+
+
+def hill(x, place, height, width=4.0):
+    return height * np.exp(-(((x - place) / width) ** 2))
+
+
+@pytest.mark.parametrize("places", [(50,), (40, 60)])
+def test_load_peaks_are_where_the_force_has_them(places):
+    x = np.arange(100.0)
+    curve = sum(hill(x, place, 1.0) for place in places)
+    assert load_peaks(curve, 0.01).tolist() == list(places)
+
+
+def test_a_shoulder_is_no_load_peak():
+    x = np.arange(100.0)
+    (peak,) = load_peaks(hill(x, 50, 1.0, 20.0) + hill(x, 30, 0.3, 6.0), 0.001)
+    assert peak == pytest.approx(50, abs=2)
+
+
+def test_small_waves_and_noise_are_no_load_peaks(rng):
+    ramp = np.linspace(0.0, 1.0, 500)
+    assert load_peaks(ramp + 0.004 * np.sin(np.arange(500)), 0.0).size == 0
+    noisy = ramp + 1e-3 * rng.standard_normal((20, 500))
+    assert load_peaks(noisy.mean(axis=0), standard_error(noisy)).size == 0
+
+
+def test_a_second_peak_within_the_scatter_does_not_count():
+    x = np.arange(100.0)
+    curve = hill(x, 40, 1.0) + hill(x, 60, 0.2)
+    assert load_peaks(curve, 0.05).tolist() == [40, 60]
+    assert load_peaks(curve, 0.15).tolist() == [40]
+    assert load_peaks(curve, np.inf).size == 0
