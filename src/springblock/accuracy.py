@@ -31,8 +31,8 @@ The default is the leapfrog with a step of {step:.0e} s.
 ## Single runs, up to a horizon
 
 Single runs are compared with a reference that shares no code with the solver: DOP853 with every
-detachment and stop located as an event, on {n_single} x {n_single} blocks. Errors at the default,
-root mean square over {n_seeds} seeds:
+detachment and stop located as an event, on surfaces of {smallest} to {largest} blocks a side.
+Errors at the default, root mean square over {n_seeds} seeds:
 
 {singles}
 
@@ -107,7 +107,8 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
     residuals = [abs(row["energy_error"]) for row in realisations]
     return _PAGE.format(
         step=STEP,
-        n_single=single[0]["n_blocks"],
+        smallest=min(row["n_blocks"] for row in single),
+        largest=max(row["n_blocks"] for row in single),
         n_seeds=single[0]["realisations"],
         singles=_single_errors(default),
         orders=" and ".join(f"{_order(single, name):.1f} ({name})" for name in ("leapfrog", "rk4")),
