@@ -51,7 +51,7 @@ and ensembles are compared instead.
 
 ## Ensembles
 
-Bias of the mean at the default with its 95 % interval over {n_paired} paired seeds
+Bias of the mean at the default with its 95 % interval over {n_paired} or more paired seeds
 ({n_ensemble} x {n_ensemble} blocks, against a step of {fine:.1e} s); in brackets the standard error
 of a mean over {ensemble} seeds, which it must stay under. All in percent:
 
@@ -119,7 +119,7 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
         plain_finest=slowest["step"],
         nudge=_HORIZON_NUDGE,
         **{row["scene"]: row["error"] for row in _select(default, quantity="horizon")},
-        n_paired=paired[0]["realisations"],
+        n_paired=min(row["realisations"] for row in paired),
         n_ensemble=paired[0]["n_blocks"],
         fine=_select(precision, comparison="scatter")[0]["step"],
         ensemble=_ENSEMBLE,
