@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import find_peaks
+from scipy.stats import t
 
 from springblock.pattern import Pattern
 from springblock.run import Array, Run, friction, percent
@@ -50,6 +51,47 @@ def standard_error(values: Array) -> Array:
     if k == 1:
         return np.full(values.shape[1:], np.inf)
     return values.std(axis=0, ddof=1) / np.sqrt(k)
+
+
+def ratio_interval(numerator: ArrayLike, denominator: ArrayLike, seed: int = 0) -> Interval:
+    """Ratio of two means over the same k realisations, (k,) each, with its 95 % interval.
+
+    Bootstrap as in `mean_interval`; a realisation brings its share of both means.
+    """
+    pairs = np.stack([numerator, denominator]).astype(float)
+    k = pairs.shape[1]
+    top, bottom = pairs.mean(axis=1)
+    if k == 1:
+        return Interval(top / bottom, np.array(np.nan), np.array(np.nan))
+    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=1000)
+    tops, bottoms = (drawn / k @ values for values in pairs)
+    return Interval(top / bottom, *np.percentile(tops / bottoms, _INTERVAL))
+
+
+def repeatability(fields: Array) -> Interval:
+    """Share of the variance over places that is the same in all k fields, (k, places).
+
+    It is the mean covariance of two fields over their mean variance, the means of both taken
+    out: zero, but for scatter, where no place differs from another on average, and one where all
+    fields are alike (the intraclass correlation, Shrout & Fleiss 1979,
+    doi:10.1037/0033-2909.86.2.420). The 95 % interval is Student's, with the jackknife's error:
+    a bootstrap would compare fields with themselves. NaN below three fields.
+    """
+    k = len(fields)
+    if k < 3:
+        return Interval(*np.full(3, np.nan))
+    centred = fields - fields.mean(axis=1, keepdims=True)
+    products = centred @ centred.T
+    variances = np.diag(products)
+    crossed = products.sum(axis=1) - variances
+
+    def share(covariance: Array, variance: Array, n: int) -> Array:
+        return covariance / (n - 1) / variance
+
+    whole = share(crossed.sum(), variances.sum(), k)
+    without = share(crossed.sum() - 2.0 * crossed, variances.sum() - variances, k - 1)
+    half = t.ppf(0.975, k - 1) * np.sqrt(k - 1) * without.std()
+    return Interval(whole, whole - half, whole + half)
 
 
 def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
