@@ -1,0 +1,256 @@
+"""What becomes of the paper's statements: a rule from intervals to verdicts, a table and a page.
+
+`springblock.statements` holds the statements and measures what they are about.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Any
+
+import pyarrow as pa
+
+from springblock.scene import Scene
+from springblock.statistics import Interval
+from springblock.tables import Record, column
+
+Row = dict[str, Any]
+Case = Mapping[str, str | int | float]
+
+#: One row per finding.
+CLAIMS = pa.schema(
+    [
+        column("claim", pa.string(), "1", "short name of the statement"),
+        column("section", pa.string(), "1", "where the paper makes it"),
+        column("statement", pa.string(), "1", "what the paper says, in short"),
+        column("case", pa.string(), "1", "the surface, part or quantity looked at"),
+        column("statistic", pa.string(), "1", "what the value is, and its unit"),
+        column("value", pa.float64(), "see statistic", "the statistic; NaN if not tested"),
+        column("ci_low", pa.float64(), "see statistic", "lower end of its 95 % interval"),
+        column("ci_high", pa.float64(), "see statistic", "upper end"),
+        column("claimed_low", pa.float64(), "see statistic", "the statement claims more than this"),
+        column("claimed_high", pa.float64(), "see statistic", "and less than this"),
+        column("outcome", pa.string(), "1", "of this row: holds, fails or open"),
+        column("verdict", pa.string(), "1", "on the statement, from all its rows"),
+        column("depends_on", pa.string(), "1", "what tells the cases that hold from those that fail"),
+        column("rests_on", pa.string(), "1", "files, scenes and rows behind the value"),
+    ]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What statements are tested on. What was not simulated or measured is absent."""
+
+    #: rows of the table `realisations` by scene and seed
+    summaries: Mapping[Scene, Mapping[int, Row]] = field(default_factory=dict)
+    #: whole realisations by scene
+    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)
+    correlation: Sequence[Row] = ()  #: rows of the table of that name
+    correlation_length: Sequence[Row] = ()
+    precision: Sequence[Row] = ()  #: rows of the table `work_precision`
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A statistic with its 95 % interval, and the open range in which the statement puts it."""
+
+    case: Case
+    statistic: str
+    interval: Interval
+    claimed: tuple[float, float]
+    rests_on: str
+
+    @property
+    def outcome(self) -> str:
+        """"holds" where the interval lies within the claimed range, "fails" where it lies
+        wholly outside, "open" where it does neither or there is none."""
+        (_, low, high), (lowest, highest) = self.interval, self.claimed
+        if lowest < low and high < highest:
+            return "holds"
+        return "fails" if high < lowest or low > highest else "open"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the paper, and how to test it."""
+
+    name: str
+    section: str
+    statement: str
+    needs: str  #: what must have been simulated or measured
+    test: Callable[[Evidence], Iterable[Finding]]
+
+
+def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
+    """Judge a statement by its findings; return the verdict and what it depends on.
+
+    All findings of a case must hold for the case to hold, and one that fails makes it fail. The
+    statement is "reproduced" where all cases hold and "not reproduced" where all fail. It
+    "depends on" what differs between cases where some hold and some fail. It is "not settled"
+    otherwise: some interval lies across the edge of its claimed range. Without any finding it is
+    "not tested".
+    """
+    if not findings:
+        return "not tested", ""
+    outcomes = [(dict(findings[0].case), _together(findings)) for findings in _cases(findings)]
+    found = {outcome for _, outcome in outcomes}
+    if found == {"holds"}:
+        return "reproduced", ""
+    if found == {"fails"}:
+        return "not reproduced", ""
+    if {"holds", "fails"} <= found:
+        return "depends on", ", ".join(_differences(outcomes))
+    return "not settled", ""
+
+
+def _cases(findings: Sequence[Finding]) -> list[list[Finding]]:
+    return [list(group) for _, group in groupby(findings, key=lambda finding: dict(finding.case))]
+
+
+def _together(findings: Iterable[Finding]) -> str:
+    outcomes = {finding.outcome for finding in findings}
+    if outcomes == {"holds"}:
+        return "holds"
+    return "fails" if "fails" in outcomes else "open"
+
+
+def _differences(outcomes: Sequence[tuple[Case, str]]) -> list[str]:
+    """Keys whose values are not the same in the cases that hold and in those that fail."""
+    values: dict[str, dict[str, set[Any]]] = {"holds": {}, "fails": {}, "open": {}}
+    for case, outcome in outcomes:
+        for key, value in case.items():
+            values[outcome].setdefault(key, set()).add(value)
+    keys = dict.fromkeys(key for case, _ in outcomes for key in case)
+    return [key for key in keys if values["holds"].get(key) != values["fails"].get(key)]
+
+
+def describe(case: Case) -> str:
+    """Write a case as "key = value, ..."."""
+    return ", ".join(f"{key} = {value}" for key, value in case.items())
+
+
+def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
+    """Test every statement: a row for each finding, or one that says what is missing."""
+    table = []
+    for claim in claims:
+        findings = list(claim.test(evidence))
+        judged, depends_on = verdict(findings)
+        common = {
+            "claim": claim.name,
+            "section": claim.section,
+            "statement": claim.statement,
+            "verdict": judged,
+            "depends_on": depends_on,
+        }
+        table += [{**common, **_finding_row(finding)} for finding in findings]
+        if not findings:
+            table.append({**common, **_missing_row(claim.needs)})
+    return table
+
+
+def _finding_row(finding: Finding) -> Row:
+    value, low, high = (float(number) for number in finding.interval)
+    return {
+        "case": describe(finding.case),
+        "statistic": finding.statistic,
+        "value": value,
+        "ci_low": low,
+        "ci_high": high,
+        "claimed_low": finding.claimed[0],
+        "claimed_high": finding.claimed[1],
+        "outcome": finding.outcome,
+        "rests_on": finding.rests_on,
+    }
+
+
+def _missing_row(needs: str) -> Row:
+    numbers = ("value", "ci_low", "ci_high", "claimed_low", "claimed_high")
+    return {
+        "case": "",
+        "statistic": "",
+        **dict.fromkeys(numbers, math.nan),
+        "outcome": "open",
+        "rests_on": f"missing: {needs}",
+    }
+
+
+_PAGE = """# What becomes of the paper's statements
+
+Written by `snakemake claims` from the table `claims`, which rests on the tables `realisations`,
+`correlation`, `correlation_length` and `work_precision` and on the realisations of flat, pillared
+and grooved surfaces. Units are SI, lengths count blocks.
+
+## The rule
+
+Every statement claims a range for some statistic, in one or several cases. A finding *holds*
+where the 95 % interval of the statistic lies within that range, *fails* where it lies wholly
+outside, and is *open* where it lies across an edge. All findings of a case must hold for the case
+to hold; one that fails makes it fail. The statement is
+
+- **reproduced** where all cases hold,
+- **not reproduced** where all fail,
+- **depends on** what differs between cases where some hold and some fail,
+- **not settled** otherwise,
+- **not tested** where what it needs was not simulated or measured.
+
+Intervals are bootstrap intervals over realisations unless the statistic says otherwise.
+Differences between scenes are paired: the same seed draws the same coefficients. Other seeds must
+not change a verdict called reproduced:
+
+    snakemake --config first_seed=1000 results=results/offset
+
+{summary}
+
+{sections}
+"""
+
+
+def page(table: Sequence[Row]) -> str:
+    """Write the page from the rows of the table `claims`."""
+    by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
+    summary = [[f"{i}. {part[0]['claim']}", _verdict(part[0])] for i, part in enumerate(by_claim, 1)]
+    sections = [_section(i, part) for i, part in enumerate(by_claim, 1)]
+    return _PAGE.format(
+        summary=_table(["statement", "verdict"], summary), sections="\n\n".join(sections)
+    )
+
+
+def _verdict(row: Row) -> str:
+    return f"**{row['verdict']}** {row['depends_on']}".strip()
+
+
+def _section(number: int, part: Sequence[Row]) -> str:
+    first = part[0]
+    lines = [
+        f"## {number}. {first['claim']}",
+        f"{first['statement']} (section {first['section']})",
+        f"Verdict: {_verdict(first)}." + _missing(first),
+    ]
+    if first["verdict"] != "not tested":
+        header = ["case", "statistic", "value [95 % interval]", "claimed", "outcome"]
+        lines.append(_table(header, [_cells(row) for row in part]))
+        lines.append("Rests on " + "; ".join(dict.fromkeys(row["rests_on"] for row in part)) + ".")
+    return "\n\n".join(lines)
+
+
+def _missing(row: Row) -> str:
+    return f" {row['rests_on'].capitalize()}." if row["verdict"] == "not tested" else ""
+
+
+def _cells(row: Row) -> list[str]:
+    value = f"{row['value']:.3g} [{row['ci_low']:.3g}, {row['ci_high']:.3g}]"
+    return [row["case"], row["statistic"], value, _range(row), row["outcome"]]
+
+
+def _range(row: Row) -> str:
+    low, high = row["claimed_low"], row["claimed_high"]
+    if math.isinf(high):
+        return f"> {low:.3g}"
+    return f"< {high:.3g}" if math.isinf(low) else f"{low:.3g} to {high:.3g}"
+
+
+def _table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
+    cells = [header, ["---"] * len(header), *lines]
+    return "\n".join("| " + " | ".join(line) + " |" for line in cells)
