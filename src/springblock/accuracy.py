@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import t
 
+from springblock.files import markdown_table
 from springblock.realisation import STEP
 
 Row = dict[str, Any]
@@ -170,7 +171,7 @@ def _single_errors(default: list[Row]) -> str:
         [name, *(f"{_one(default, scene=s, quantity=key)['error']:.1e}" for s in _SCENES)]
         for key, name in _NAMES.items()
     ]
-    return _table(["relative error", *_SCENES], rows)
+    return markdown_table(["relative error", *_SCENES], rows)
 
 
 def _biases(paired: list[Row], scatter: list[Row]) -> str:
@@ -183,7 +184,7 @@ def _biases(paired: list[Row], scatter: list[Row]) -> str:
             error = 100.0 * standard_error(_one(scatter, scene=scene, quantity=quantity))
             cells.append(f"{100.0 * bias['error']:+.3f} ± {half:.3f} ({error:.2f})")
         rows.append([_NAMES[quantity], *cells])
-    return _table(["bias", *_SCENES], rows)
+    return markdown_table(["bias", *_SCENES], rows)
 
 
 def standard_error(scatter: Row, realisations: int = _ENSEMBLE) -> float:
@@ -191,8 +192,3 @@ def standard_error(scatter: Row, realisations: int = _ENSEMBLE) -> float:
     half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
     deviation = half / t.ppf(0.975, scatter["realisations"] - 1) * scatter["realisations"] ** 0.5
     return float(deviation / realisations**0.5)
-
-
-def _table(header: list[str], rows: list[list[str]]) -> str:
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

@@ -11,6 +11,7 @@ from typing import Any
 
 import pyarrow as pa
 
+from springblock.files import markdown_table
 from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import Record, column
@@ -25,16 +26,17 @@ CLAIMS = pa.schema(
         column("section", pa.string(), "1", "where the paper makes it"),
         column("statement", pa.string(), "1", "what the paper says, in short"),
         column("case", pa.string(), "1", "the surface, part or quantity looked at"),
-        column("statistic", pa.string(), "1", "what the value is, and its unit"),
-        column("value", pa.float64(), "see statistic", "the statistic; NaN if not tested"),
-        column("ci_low", pa.float64(), "see statistic", "lower end of its 95 % interval"),
-        column("ci_high", pa.float64(), "see statistic", "upper end"),
-        column("claimed_low", pa.float64(), "see statistic", "the statement claims more than this"),
-        column("claimed_high", pa.float64(), "see statistic", "and less than this"),
+        column("statistic", pa.string(), "1", "what the value is"),
+        column("unit", pa.string(), "1", "unit of the five numbers that follow"),
+        column("value", pa.float64(), "see unit", "the statistic; NaN if not tested"),
+        column("ci_low", pa.float64(), "see unit", "lower end of its 95 % interval"),
+        column("ci_high", pa.float64(), "see unit", "upper end"),
+        column("claimed_low", pa.float64(), "see unit", "the statement claims more than this"),
+        column("claimed_high", pa.float64(), "see unit", "and less than this"),
         column("outcome", pa.string(), "1", "of this row: holds, fails or open"),
         column("verdict", pa.string(), "1", "on the statement, from all its rows"),
-        column("depends_on", pa.string(), "1", "what tells the cases that hold from those that fail"),
-        column("rests_on", pa.string(), "1", "files, scenes and rows behind the value"),
+        column("depends_on", pa.string(), "1", "what tells cases that hold from those that fail"),
+        column("rests_on", pa.string(), "1", "files, scenes and rows behind the value, by ';'"),
     ]
 )
 
@@ -60,12 +62,16 @@ class Finding:
     statistic: str
     interval: Interval
     claimed: tuple[float, float]
-    rests_on: str
+    rests_on: str  #: separated by "; "
+    unit: str = "1"
 
     @property
     def outcome(self) -> str:
-        """"holds" where the interval lies within the claimed range, "fails" where it lies
-        wholly outside, "open" where it does neither or there is none."""
+        """Whether the statement "holds", "fails" or stays "open" here.
+
+        It holds where the interval lies within the claimed range, fails where it lies wholly
+        outside, and is open where it does neither or there is no interval.
+        """
         (_, low, high), (lowest, highest) = self.interval, self.claimed
         if lowest < low and high < highest:
             return "holds"
@@ -94,14 +100,14 @@ def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
     """
     if not findings:
         return "not tested", ""
-    outcomes = [(dict(findings[0].case), _together(findings)) for findings in _cases(findings)]
+    outcomes = [(dict(case[0].case), _together(case)) for case in _cases(findings)]
     found = {outcome for _, outcome in outcomes}
     if found == {"holds"}:
         return "reproduced", ""
     if found == {"fails"}:
         return "not reproduced", ""
     if {"holds", "fails"} <= found:
-        return "depends on", ", ".join(_differences(outcomes))
+        return "depends on", _difference(outcomes)
     return "not settled", ""
 
 
@@ -116,14 +122,32 @@ def _together(findings: Iterable[Finding]) -> str:
     return "fails" if "fails" in outcomes else "open"
 
 
-def _differences(outcomes: Sequence[tuple[Case, str]]) -> list[str]:
-    """Keys whose values are not the same in the cases that hold and in those that fail."""
-    values: dict[str, dict[str, set[Any]]] = {"holds": {}, "fails": {}, "open": {}}
-    for case, outcome in outcomes:
-        for key, value in case.items():
-            values[outcome].setdefault(key, set()).add(value)
+def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
+    """Say by which keys the cases that hold differ from those that fail, and which are which.
+
+    These are the keys that tell them apart by themselves; without such a key, all whose values
+    differ.
+    """
     keys = dict.fromkeys(key for case, _ in outcomes for key in case)
-    return [key for key in keys if values["holds"].get(key) != values["fails"].get(key)]
+    holds, fails = (
+        {key: {case[key] for case, outcome in outcomes if outcome == which} for key in keys}
+        for which in ("holds", "fails")
+    )
+    telling = [key for key in keys if not holds[key] & fails[key]]
+    telling = telling or [key for key in keys if holds[key] != fails[key]]
+    lists = []
+    for which in ("holds", "fails", "open"):
+        cases = [
+            describe({key: case[key] for key in telling}) for case, o in outcomes if o == which
+        ]
+        if cases:
+            lists.append(f"{which} for {' and '.join(dict.fromkeys(cases))}")
+    return f"{', '.join(telling)}: {'; '.join(lists)}"
+
+
+def _name(case: Case, keys: Sequence[str]) -> str:
+    """Name a case by a few of its keys; a single one goes without saying."""
+    return str(case[keys[0]]) if len(keys) == 1 else describe({key: case[key] for key in keys})
 
 
 def describe(case: Case) -> str:
@@ -155,6 +179,7 @@ def _finding_row(finding: Finding) -> Row:
     return {
         "case": describe(finding.case),
         "statistic": finding.statistic,
+        "unit": finding.unit,
         "value": value,
         "ci_low": low,
         "ci_high": high,
@@ -170,6 +195,7 @@ def _missing_row(needs: str) -> Row:
     return {
         "case": "",
         "statistic": "",
+        "unit": "1",
         **dict.fromkeys(numbers, math.nan),
         "outcome": "open",
         "rests_on": f"missing: {needs}",
@@ -203,6 +229,10 @@ not change a verdict called reproduced:
 
 {summary}
 
+Not tested here: that results are the same for other Young's moduli at the same ratio to the
+pressure; how slider velocity, pressure and scatter change the number of fronts; that the time
+between the load peaks follows the difference of the length scales.
+
 {sections}
 """
 
@@ -210,10 +240,12 @@ not change a verdict called reproduced:
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
-    summary = [[f"{i}. {part[0]['claim']}", _verdict(part[0])] for i, part in enumerate(by_claim, 1)]
+    summary = [
+        [f"{i}. {part[0]['claim']}", _verdict(part[0])] for i, part in enumerate(by_claim, 1)
+    ]
     sections = [_section(i, part) for i, part in enumerate(by_claim, 1)]
     return _PAGE.format(
-        summary=_table(["statement", "verdict"], summary), sections="\n\n".join(sections)
+        summary=markdown_table(["statement", "verdict"], summary), sections="\n\n".join(sections)
     )
 
 
@@ -230,8 +262,9 @@ def _section(number: int, part: Sequence[Row]) -> str:
     ]
     if first["verdict"] != "not tested":
         header = ["case", "statistic", "value [95 % interval]", "claimed", "outcome"]
-        lines.append(_table(header, [_cells(row) for row in part]))
-        lines.append("Rests on " + "; ".join(dict.fromkeys(row["rests_on"] for row in part)) + ".")
+        lines.append(markdown_table(header, [_cells(row) for row in part]))
+        sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
+        lines.append("\n".join(["Rests on", "", *(f"- {source}" for source in sources)]))
     return "\n\n".join(lines)
 
 
@@ -241,7 +274,8 @@ def _missing(row: Row) -> str:
 
 def _cells(row: Row) -> list[str]:
     value = f"{row['value']:.3g} [{row['ci_low']:.3g}, {row['ci_high']:.3g}]"
-    return [row["case"], row["statistic"], value, _range(row), row["outcome"]]
+    unit = "" if row["unit"] == "1" else f" {row['unit']}"
+    return [row["case"], row["statistic"], value + unit, _range(row), row["outcome"]]
 
 
 def _range(row: Row) -> str:
@@ -249,8 +283,3 @@ def _range(row: Row) -> str:
     if math.isinf(high):
         return f"> {low:.3g}"
     return f"< {high:.3g}" if math.isinf(low) else f"{low:.3g} to {high:.3g}"
-
-
-def _table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
-    cells = [header, ["---"] * len(header), *lines]
-    return "\n".join("| " + " | ".join(line) + " |" for line in cells)

@@ -10,6 +10,7 @@ COMMANDS = {
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
     "accuracy": "springblock.commands.accuracy:write_page",
+    "claims": "springblock.commands.claims:test_statements",
     "figure_1": "springblock.commands.figures:figure_1",
     "figure_2": "springblock.commands.figures:figure_2",
     "figure_3": "springblock.commands.figures:figure_3",

@@ -133,6 +133,11 @@ class Record:
     static_friction: float
 
 
+def scene_of(row: Mapping[str, Any]) -> Scene:
+    """Return the scene that a row of a table belongs to."""
+    return Scene(**{f.name: row[f.name] for f in fields(Scene)})
+
+
 def read_frame(path: Path) -> "pd.DataFrame":
     """Read a table as a data frame."""
     return pq.read_table(path, partitioning=None).to_pandas()
