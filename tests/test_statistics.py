@@ -13,6 +13,8 @@ from springblock.statistics import (
     mean_interval,
     pillar_map,
     pillar_ring,
+    ratio_interval,
+    repeatability,
     standard_error,
 )
 
@@ -140,3 +142,27 @@ def test_a_second_peak_within_the_scatter_does_not_count():
     assert load_peaks(curve, 0.05).tolist() == [40, 60]
     assert load_peaks(curve, 0.15).tolist() == [40]
     assert load_peaks(curve, np.inf).size == 0
+
+
+def test_the_interval_of_a_ratio_is_that_of_its_parts(rng):
+    numerator = rng.normal(3.0, 1.0, 50)
+    ratio, low, high = ratio_interval(numerator, np.full(50, 2.0))
+    mean = mean_interval(numerator)
+    assert (ratio, low, high) == pytest.approx(tuple(part / 2.0 for part in mean))
+    assert tuple(ratio_interval(numerator, 4.0 * numerator)) == pytest.approx((0.25,) * 3)
+    assert np.isnan(ratio_interval([1.0], [2.0]).low)
+
+
+def test_repeatability_is_the_share_of_variance_that_fields_have_in_common(rng):
+    common, noise = rng.normal(0.0, 1.0, 2000), rng.normal(0.0, 2.0, (12, 2000))
+    share, low, high = repeatability(common + noise + rng.normal(size=(12, 1)))
+    assert low < 0.2 < high
+    assert share == pytest.approx(0.2, abs=0.02)
+    assert tuple(repeatability(np.tile(common, (4, 1)))) == pytest.approx((1.0, 1.0, 1.0))
+    assert np.isnan(repeatability(noise[:2])).all()
+
+
+def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
+    intervals = [repeatability(rng.normal(size=(10, 50))) for _ in range(200)]
+    assert np.mean([low < 0.0 < high for _, low, high in intervals]) >= 0.95  # it is conservative
+    assert abs(np.mean([share for share, _, _ in intervals])) < 0.005

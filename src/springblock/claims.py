@@ -75,7 +75,7 @@ class Finding:
         (_, low, high), (lowest, highest) = self.interval, self.claimed
         if lowest < low and high < highest:
             return "holds"
-        return "fails" if high < lowest or low > highest else "open"
+        return "fails" if high <= lowest or low >= highest else "open"
 
 
 @dataclass(frozen=True)
@@ -137,9 +137,7 @@ def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
     telling = telling or [key for key in keys if holds[key] != fails[key]]
     lists = []
     for which in ("holds", "fails", "open"):
-        cases = [
-            describe({key: case[key] for key in telling}) for case, o in outcomes if o == which
-        ]
+        cases = [_name(case, telling) for case, outcome in outcomes if outcome == which]
         if cases:
             lists.append(f"{which} for {' and '.join(dict.fromkeys(cases))}")
     return f"{', '.join(telling)}: {'; '.join(lists)}"

@@ -1,0 +1,319 @@
+"""Square pillars: edges first, the force maximum late (section 3.2 of the paper)."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import pairwise
+from operator import attrgetter
+
+import numpy as np
+
+from springblock.claims import Claim, Evidence, Finding
+from springblock.run import Array, Run
+from springblock.scene import Scene
+from springblock.statements.samples import (
+    ALIKE,
+    INF,
+    NEGATIVE,
+    POSITIVE,
+    SMALLEST,
+    Sample,
+    difference,
+    families,
+    flat_scene,
+    in_files,
+    in_table,
+    lag,
+    mean,
+    over_runs,
+    place,
+    position,
+    ratio,
+    scenes_along_x,
+    static_friction,
+)
+from springblock.statistics import mean_interval, pillar_map, pillar_ring, repeatability
+from springblock.tables import Record
+
+_HIGH = 0.95  #: share of the largest force that the width of its peak is taken at
+_RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
+_PILLARS = "realisations of pillars with n_p of 4 or more"
+_BOTH = "realisations of the flat surface and of pillars with n_p of 6 or more"
+_SIZES = "realisations of pillars of three sizes or more"
+
+
+def precursors(run: Run) -> float:
+    """Share of all detaching blocks that detach before t_max."""
+    times = run.t_det[np.isfinite(run.t_det)]
+    return float(np.mean(times < run.t_max))
+
+
+def warning(run: Run) -> float:
+    """Time from the first detachment to t_max, s: for how long there are precursors."""
+    return run.t_max - float(np.nanmin(run.t_det))
+
+
+def width(run: Run) -> float:
+    """Time during which the force exceeds 95 % of its maximum, over t_max."""
+    samples = np.count_nonzero(run.force > _HIGH * run.force.max())
+    return float(samples * (run.time[1] - run.time[0]) / run.t_max)
+
+
+def relative_lag(run: Run) -> float:
+    """t_max - t_avg over t_max."""
+    return (run.t_max - run.t_avg) / run.t_max
+
+
+def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
+    """It does not matter where on the surface a pillar stands."""
+    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+        starts, size = scene.pattern.origins, scene.n_p
+        if len(starts) < 2:
+            continue
+        times = [
+            [run.t_det[y : y + size, x : x + size].mean() for y, x in starts]
+            for run in evidence.records[scene]
+        ]
+        yield Finding(
+            place(scene),
+            "share of the variance of a pillar's mean t_det that its place explains (jackknife)",
+            repeatability(np.array(times)),
+            (-INF, ALIKE),
+            in_files(scene),
+        )
+
+
+def small_pillars(evidence: Evidence) -> Iterator[Finding]:
+    """Pillars with n_p <= 3 lie closer to the flat surface than to the next larger ones."""
+    quantities: dict[str, Callable[[Record], float]] = {
+        "(t_max - t_avg)/t_max": relative_lag,
+        "precursors": precursors,
+        "width of the force peak": width,
+        "static friction": attrgetter("static_friction"),
+    }
+    for family in families(evidence.records):
+        flat = flat_scene(evidence.records, family[0].n_blocks)
+        larger = next((s for s in family if s.n_p >= SMALLEST), None)
+        if flat is None or larger is None:
+            continue
+        scenes = [s for s in family if s.n_p < SMALLEST]
+        for scene in scenes:
+            for name, quantity in quantities.items():
+                samples = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
+                yield Finding(
+                    place(scene) | {"quantity": name},
+                    f"position between the flat surface, 0, and n_p = {larger.n_p}",
+                    position(*samples),
+                    (-0.5, 0.5),
+                    in_files(scene, flat, larger),
+                )
+
+
+def ring_times(runs: Sequence[Run], scene: Scene, depth: int) -> dict[str, Array]:
+    """Mean t_det/t_max of parts of a ring and of the centre of a pillar, (k,), in claimed order.
+
+    For sliding along x the edges across are the sides along y.
+    """
+    times, last = pillar_map(runs, scene.pattern), (scene.n_p - 1) // 2
+    ring = pillar_ring(scene.n_p, depth)
+    centre = np.logical_or.reduce(list(pillar_ring(scene.n_p, last).values()))
+    parts = {
+        "corners": ring["corners"],
+        "edges across": ring["y"],
+        "edges along": ring["x"],
+        "centre": centre,
+    }
+    return {name: times[:, mask].mean(axis=1) for name, mask in parts.items()}
+
+
+def detachment_order(evidence: Evidence) -> Iterator[Finding]:
+    """Corners, edges across, edges along, centre; on the edge and on the ring inside it."""
+    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+        for depth in (0, 1):
+            if 2 * (depth + 1) >= scene.n_p:
+                continue
+            parts = ring_times(evidence.records[scene], scene, depth)
+            for (early, before), (late, after) in pairwise(parts.items()):
+                yield Finding(
+                    place(scene) | {"distance from the edge": depth},
+                    f"t_det/t_max of the {late} minus that of the {early}",
+                    mean_interval(after - before),
+                    POSITIVE,
+                    in_files(scene),
+                )
+
+
+def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
+    """All parts of the edge let go before the force maximum, and so do the blocks beside it."""
+    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+        for depth in (0, 1):
+            if 2 * (depth + 1) >= scene.n_p:
+                continue
+            parts = ring_times(evidence.records[scene], scene, depth)
+            for name in list(parts)[:-1]:
+                yield Finding(
+                    place(scene) | {"distance from the edge": depth},
+                    f"t_det/t_max of the {name}",
+                    mean_interval(parts[name]),
+                    (-INF, 1.0),
+                    in_files(scene),
+                )
+
+
+def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
+    """t_max > t_avg on pillars, for each size and distance."""
+    for scene in scenes_along_x(evidence.summaries, 1, SMALLEST):
+        interval = mean(lag(evidence.summaries[scene]))
+        yield Finding(place(scene), "t_max - t_avg", interval, POSITIVE, in_table(scene), "s")
+
+
+def many_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """On pillars precursors are more, and begin longer before t_max, than on a flat surface."""
+    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
+        flat = flat_scene(evidence.records, scene.n_blocks)
+        if flat is None:
+            continue
+        runs, reference = evidence.records[scene], evidence.records[flat]
+        yield Finding(
+            place(scene),
+            "share of the contact blocks that detach before t_max, minus that of the flat surface",
+            difference(over_runs(precursors, runs), over_runs(precursors, reference)),
+            POSITIVE,
+            in_files(scene, flat),
+        )
+        yield Finding(
+            place(scene),
+            "t_max minus the first detachment time, minus that of the flat surface",
+            difference(over_runs(warning, runs), over_runs(warning, reference)),
+            POSITIVE,
+            in_files(scene, flat),
+            "s",
+        )
+
+
+def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
+    """The force peak of pillars is wider than that of the flat surface."""
+    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
+        flat = flat_scene(evidence.records, scene.n_blocks)
+        if flat is None:
+            continue
+        samples = [over_runs(width, evidence.records[s]) for s in (scene, flat)]
+        yield Finding(
+            place(scene),
+            "time with a force above 95 % of its maximum over t_max, minus that of the flat "
+            "surface",
+            difference(*samples),
+            POSITIVE,
+            in_files(scene, flat),
+        )
+
+
+def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
+    """Scene with the lowest mean."""
+    return min(samples, key=lambda scene: float(mean(samples[scene]).mean))
+
+
+def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
+    """Both the smallest and the largest pillars stick better than the ones that stick least."""
+    for family in families(evidence.summaries):
+        if len(family) < 3:
+            continue
+        samples = {scene: static_friction(evidence.summaries[scene]) for scene in family}
+        lowest = _lowest(samples)
+        for end in (family[0], family[-1]):
+            yield Finding(
+                {"N": end.n_blocks, "n_s/n_p": str(ratio(end))},
+                f"static friction at n_p = {end.n_p} minus the lowest, at n_p = {lowest.n_p}",
+                difference(samples[end], samples[lowest]),
+                POSITIVE,
+                in_table(end, lowest),
+            )
+
+
+def sharper_again(evidence: Evidence) -> Iterator[Finding]:
+    """The force peak of the largest pillars is narrower than where static friction is lowest."""
+    for family in families(evidence.records):
+        runs, largest = evidence.records, family[-1]
+        lowest = _lowest({s: over_runs(attrgetter("static_friction"), runs[s]) for s in family})
+        if len(family) < 3 or largest == lowest:
+            continue
+        samples = [over_runs(width, runs[s]) for s in (largest, lowest)]
+        yield Finding(
+            {"N": largest.n_blocks, "n_s/n_p": str(ratio(largest))},
+            f"time with a force above 95 % of its maximum over t_max, at n_p = {largest.n_p} "
+            f"minus that at n_p = {lowest.n_p}",
+            difference(*samples),
+            NEGATIVE,
+            in_files(largest, lowest),
+        )
+
+
+CLAIMS = (
+    Claim(
+        "All pillars are alike",
+        "3.2",
+        "With a margin of n_s/2 all pillars have the same average statistical properties for "
+        "n_p >= 4.",
+        "realisations of several pillars with n_p of 4 or more",
+        pillars_alike,
+    ),
+    Claim(
+        "Pillars with n_p <= 3 behave like a flat surface",
+        "3.2",
+        "For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. "
+        "The paper says so of the transition; of static friction it allows that it differs.",
+        "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
+        small_pillars,
+    ),
+    Claim(
+        "Order of detachment on a pillar",
+        "3.2",
+        "Corners detach first, then boundaries perpendicular to the sliding direction, then "
+        "parallel ones; the same on the blocks adjacent to them; the centre comes last.",
+        _PILLARS,
+        detachment_order,
+    ),
+    Claim(
+        "Edges detach before the force maximum",
+        "3.2",
+        "The detachments on the borders and on the blocks adjacent to them occur before the "
+        "maximum of the friction force.",
+        _PILLARS,
+        edges_before_peak,
+    ),
+    Claim(
+        "t_max > t_avg on pillars",
+        "3.2",
+        "The force peak always occurs after the average detachment time.",
+        _PILLARS,
+        peak_after_average,
+    ),
+    Claim(
+        "More and earlier precursors on pillars",
+        "3.2",
+        "For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time "
+        "interval before t_max.",
+        _BOTH,
+        many_precursors,
+    ),
+    Claim(
+        "Rounded force peak on pillars",
+        "3.2",
+        "The force is no longer a sharp peak, and becomes rounded.",
+        _BOTH,
+        rounded_peak,
+    ),
+    Claim(
+        "Lowest static friction at an intermediate n_p",
+        "3.2",
+        "The smallest static friction is obtained for a specific intermediate value of n_p; for "
+        "very large pillars it increases again.",
+        _SIZES,
+        intermediate_size,
+    ),
+    Claim(
+        "Sharper transition of very large pillars",
+        "3.2",
+        "For very large pillars the transition is sharper than where static friction is lowest.",
+        _SIZES,
+        sharper_again,
+    ),
+)

@@ -1,0 +1,93 @@
+"""Scenes that statements are about, and samples: one number per realisation, by its seed."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from fractions import Fraction
+from itertools import groupby
+
+import numpy as np
+
+from springblock.claims import Row
+from springblock.scene import Scene
+from springblock.statistics import Interval, mean_interval, ratio_interval
+from springblock.tables import Record
+
+Sample = Mapping[int, float]  #: a number per realisation, by its seed
+Summaries = Mapping[int, Row]  #: rows of the table of realisations, by seed
+
+INF = float("inf")
+POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
+
+SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
+ALIKE = 0.1  #: share of the variance that place may explain where the paper calls it uniform
+ALONG = "x"  #: the paper's sliding direction
+
+
+def scenes_along_x(scenes: Iterable[Scene], level: int, smallest: int = 0) -> list[Scene]:
+    """Scenes of so many levels that slide along x, by N, n_s/n_p and n_p."""
+    found = [s for s in scenes if s.level == level and s.n_p >= smallest]
+    along = [s for s in found if s.direction == ALONG]
+    return sorted(along, key=lambda s: (s.n_blocks, ratio(s), s.n_p, s.n_p2, s.n_s2))
+
+
+def ratio(scene: Scene) -> Fraction:
+    return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
+
+
+def families(scenes: Iterable[Scene]) -> Iterator[list[Scene]]:
+    """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
+    for _, family in groupby(scenes_along_x(scenes, 1), key=lambda s: (s.n_blocks, ratio(s))):
+        yield list(family)
+
+
+def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
+    return next((s for s in scenes_along_x(scenes, 0) if s.n_blocks == n_blocks), None)
+
+
+def place(scene: Scene) -> dict[str, int]:
+    """Return the lengths that tell this scene from others."""
+    lengths = {key: getattr(scene, key) for key in ("n_p", "n_s", "n_p2", "n_s2")}
+    return {"N": scene.n_blocks} | {key: value for key, value in lengths.items() if value}
+
+
+def in_table(*scenes: Scene) -> str:
+    return "; ".join(f"tables/realisations: {scene.folder}" for scene in scenes)
+
+
+def in_files(*scenes: Scene) -> str:
+    return "; ".join(f"realisations/{scene.folder}" for scene in scenes)
+
+
+def lag(rows: Summaries) -> dict[int, float]:
+    """t_max - t_avg, s."""
+    return {seed: row["t_max"] - row["t_avg"] for seed, row in rows.items()}
+
+
+def static_friction(rows: Summaries) -> dict[int, float]:
+    """Static friction coefficient."""
+    return {seed: row["static_friction"] for seed, row in rows.items()}
+
+
+def mean(sample: Sample) -> Interval:
+    """Mean of a sample with its interval; NaN for an empty one."""
+    if not sample:
+        return Interval(*np.full(3, np.nan))
+    return mean_interval(list(sample.values()))
+
+
+def difference(first: Sample, second: Sample) -> Interval:
+    """Mean of first - second over the seeds that both have: realisations are paired."""
+    return mean_interval([first[seed] - second[seed] for seed in sorted(first.keys() & second)])
+
+
+def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
+    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; paired."""
+    seeds = sorted(sample.keys() & zero.keys() & one.keys())
+    return ratio_interval(
+        [sample[seed] - zero[seed] for seed in seeds], [one[seed] - zero[seed] for seed in seeds]
+    )
+
+
+def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:
+    """A number per realisation, by its seed, without those in which it is not defined, NaN."""
+    values = {run.seed: function(run) for run in runs}
+    return {seed: value for seed, value in values.items() if np.isfinite(value)}
