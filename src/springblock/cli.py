@@ -19,6 +19,11 @@ COMMANDS = {
     "figure_6": "springblock.commands.figures:figure_6",
     "figure_8": "springblock.commands.figures:figure_8",
     "figure_9": "springblock.commands.figures:figure_9",
+    "supplement_spacing": "springblock.commands.figures:supplement_spacing",
+    "supplement_size": "springblock.commands.figures:supplement_size",
+    "supplement_angle": "springblock.commands.figures:supplement_angle",
+    "supplement_levels": "springblock.commands.figures:supplement_levels",
+    "supplement_repetitions": "springblock.commands.figures:supplement_repetitions",
     "work_precision": "springblock.commands.figures:work_precision",
     "stability": "springblock.commands.figures:stability",
 }

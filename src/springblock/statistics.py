@@ -5,7 +5,7 @@ doi:10.1201/9780429246593); the observables are those of Costagliola, Bosia & Pu
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -43,6 +43,24 @@ def mean_interval(values: ArrayLike, seed: int = 0, resamples: int = 1000) -> In
     means = (drawn / k) @ values.reshape(k, -1)
     low, high = np.percentile(means, _INTERVAL, axis=0)
     return Interval(mean, low.reshape(shape), high.reshape(shape))
+
+
+def half_widths(
+    values: Array, sizes: Iterable[int], subsets: int = 30, seed: int = 0
+) -> dict[int, float]:
+    """Half the width of the interval of a mean over fewer of the k realisations, (k,), by number.
+
+    Means over random subsets; numbers beyond k are left out.
+    """
+    rng = np.random.default_rng(seed)
+    widths: dict[int, float] = {}
+    for size in sizes:
+        if size > len(values):
+            break
+        drawn = [rng.permutation(values)[:size] for _ in range(subsets)]
+        _, low, high = mean_interval(np.stack(drawn, axis=1), seed=int(rng.integers(2**32)))
+        widths[size] = float(np.mean(high - low)) / 2.0
+    return widths
 
 
 def standard_error(values: Array) -> Array:

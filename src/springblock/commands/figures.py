@@ -5,6 +5,7 @@ The module that draws a figure is imported by its name, when it is asked for.
 
 from collections.abc import Callable
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -29,15 +30,16 @@ def _draw(name: str, outputs: tuple[Path, ...], collect: Callable[[], tuple[Any,
             save(picture, output)
 
 
-def _ensembles(batches: tuple[Path, ...], key: str) -> list[tuple[Any, list[Record]]]:
-    """Records of each scene in `batches` with the scene's `key`, which tells the scenes apart."""
+def _ensembles(batches: tuple[Path, ...], *keys: str) -> list[tuple[Any, list[Record]]]:
+    """Records of each scene in `batches` with the scene's `keys`, which tell the scenes apart."""
     ensembles: dict[Any, list[Record]] = {}
     for record in read_records(batches):
-        ensembles.setdefault(getattr(record.scene, key), []).append(record)
+        ensembles.setdefault(attrgetter(*keys)(record.scene), []).append(record)
     for value, records in ensembles.items():
         scenes = {record.scene.folder for record in records}
         if len(scenes) > 1:
-            raise ValueError(f"several scenes have {key} = {value}: {', '.join(sorted(scenes))}")
+            what = f"{', '.join(keys)} = {value}"
+            raise ValueError(f"several scenes have {what}: {', '.join(sorted(scenes))}")
     return list(ensembles.items())
 
 
@@ -128,3 +130,49 @@ def work_precision(table: Path, outputs: tuple[Path, ...]) -> None:
 def stability(table: Path, outputs: tuple[Path, ...]) -> None:
     """Draw the stiff and extreme cases in TABLE."""
     _draw("stability", outputs, lambda: (read_frame(table),))
+
+
+@click.command("supplement_spacing")
+@_batches
+@_outputs
+def supplement_spacing(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw static friction and times over the distance between pillars."""
+    _draw("supplement_spacing", outputs, lambda: (dict(_ensembles(batches, "n_p", "n_s")),))
+
+
+@click.command("supplement_size")
+@_batches
+@_outputs
+def supplement_size(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw static friction and times over the size of the surface."""
+    _draw(
+        "supplement_size", outputs, lambda: (dict(_ensembles(batches, "n_p", "n_s", "n_blocks")),)
+    )
+
+
+@click.command("supplement_angle")
+@_batches
+@_outputs
+def supplement_angle(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw static friction and times over the angle between sliding and grooves."""
+    _draw("supplement_angle", outputs, lambda: (dict(_ensembles(batches, "direction")),))
+
+
+@click.command("supplement_levels")
+@_batches
+@_outputs
+def supplement_levels(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw the force on patterns of two and of three levels."""
+    _draw("supplement_levels", outputs, lambda: (dict(_ensembles(batches, "direction", "level")),))
+
+
+@click.command("supplement_repetitions")
+@_batches
+@_outputs
+def supplement_repetitions(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw the width of intervals over the number of realisations."""
+    _draw(
+        "supplement_repetitions",
+        outputs,
+        lambda: (dict(_ensembles(batches, "n_p", "n_p2", "direction")),),
+    )

@@ -9,11 +9,20 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
-from seaborn import color_palette
 
 from springblock.figures import style
-from springblock.figures.ensembles import FORCE, draw_detachments, draw_force, draw_point
+from springblock.figures.ensembles import (
+    FORCE,
+    FRICTION,
+    LAG,
+    draw_detachments,
+    draw_force,
+    draw_no_lag,
+    draw_point,
+    highest_and_lag,
+    logarithmic,
+    size_colors,
+)
 from springblock.figures.style import BLACK, GREY, MICRO, journal
 from springblock.run import Array, Run
 from springblock.statistics import common_curve, mean_interval
@@ -32,7 +41,7 @@ def draw(ensembles: Ensembles) -> Figure:
     Bands and bars are 95 % bootstrap intervals of the mean over runs.
     """
     ensembles = sorted(ensembles, key=lambda ensemble: ensemble[0])
-    colors = _colors([n_p for n_p, _ in ensembles])
+    colors = size_colors([n_p for n_p, _ in ensembles])
     picture = style.figure(style.DOUBLE, 103.0)
     places = [(column, row) for column in (_LEFT, _RIGHT) for row in (_UPPER, _LOWER)]
     force, blocks, friction, lag = (
@@ -40,23 +49,16 @@ def draw(ensembles: Ensembles) -> Figure:
         for (left, width), (bottom, height) in places
     )
     _draw_time(force, blocks, ensembles, colors)
-    highest = [np.array([run.static_friction for run in runs]) for _, runs in ensembles]
-    _draw_sizes(friction, ensembles, highest, colors)
-    lags = [np.array([MICRO * (run.t_max - run.t_avg) for run in runs]) for _, runs in ensembles]
-    _draw_sizes(lag, ensembles, lags, colors)
-    lag.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
-    friction.set_ylabel("static friction coefficient")
+    samples = zip(*(highest_and_lag(runs) for _, runs in ensembles), strict=True)
+    for ax, values in zip((friction, lag), samples, strict=True):
+        _draw_sizes(ax, ensembles, values, colors)
+    draw_no_lag(lag)
+    friction.set_ylabel(FRICTION)
     friction.tick_params(labelbottom=False)
-    lag.set(xlabel="size of the pillars $n_p$", ylabel=r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
+    lag.set(xlabel="size of the pillars $n_p$", ylabel=LAG)
     for ax, letter in zip((force, blocks, friction, lag), "abcd", strict=True):
         style.panel_letter(ax, letter, left=12.0, above=1.5)
     return picture
-
-
-def _colors(sizes: Sequence[int]) -> dict[int, Any]:
-    """Black for the flat surface, a palette in order of n_p for pillars."""
-    pillars = [size for size in sizes if size]
-    return {0: BLACK} | dict(zip(pillars, color_palette("viridis", len(pillars)), strict=True))
 
 
 def _draw_time(force: Axes, blocks: Axes, ensembles: Ensembles, colors: dict[int, Any]) -> None:
@@ -84,7 +86,6 @@ def _draw_sizes(
 ) -> None:
     """Means over n_p on a logarithmic axis; the flat surface as a line with a band."""
     sizes = [n_p for n_p, _ in ensembles if n_p]
-    ax.set_xscale("log")
     for (n_p, _), sample in zip(ensembles, values, strict=True):
         interval = mean_interval(sample)
         if n_p:
@@ -101,6 +102,4 @@ def _draw_sizes(
             ha="center",
             va="top",
         )
-    ax.set_xticks(sizes, [str(size) for size in sizes])
-    ax.xaxis.set_minor_locator(NullLocator())
-    ax.margins(x=0.12, y=0.14)
+    logarithmic([ax], sizes)

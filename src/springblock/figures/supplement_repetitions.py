@@ -1,0 +1,63 @@
+"""Supplement: number of realisations, which the paper does not give, and what it buys.
+
+Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
+"""
+
+from collections.abc import Mapping
+from itertools import cycle
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from springblock.figures.ensembles import Runs, highest_and_lag, size_colors, two_panels
+from springblock.figures.style import GREY, PURPLE, VERMILION, journal
+from springblock.run import Array
+from springblock.statistics import half_widths
+
+_SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)
+_NORMAL = 1.96  #: half a 95 % interval in standard errors
+_GROOVED = {"x": ("along grooves", VERMILION), "y": ("across grooves", PURPLE)}
+
+Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction
+
+
+@journal
+def draw(ensembles: Mapping[Key, Runs]) -> Figure:
+    """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations.
+
+    `ensembles` holds runs by (n_p, n_p2, direction). Markers are means over random subsets of an
+    ensemble; lines fall with the root of their number, from the scatter of the whole ensemble.
+    """
+    picture, panels = two_panels("number of realisations")
+    colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
+    for key, marker in zip(sorted(ensembles), cycle("os^vDP*X"), strict=False):
+        name, color = _look(key, colors)
+        samples = highest_and_lag(ensembles[key])
+        for ax, values in zip(panels, samples, strict=True):
+            _draw_widths(ax, values, {"color": color, "marker": marker, "label": name})
+    names = ("static friction", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
+    for ax, name in zip(panels, names, strict=True):
+        ax.set(xscale="log", yscale="log", ylabel=f"± of {name}")
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_major_formatter("{x:g}")
+    return picture
+
+
+def _look(key: Key, colors: dict[int, Any]) -> tuple[str, Any]:
+    n_p, n_p2, direction = key
+    if n_p2:
+        return _GROOVED.get(direction, (f"{direction}° to grooves", GREY))
+    return (f"$n_p$ = {n_p}" if n_p else "flat"), colors[n_p]
+
+
+def _draw_widths(ax: Axes, values: Array, look: dict[str, Any]) -> None:
+    """Widths measured on subsets, over the line that the whole ensemble predicts."""
+    widths = half_widths(values, _SIZES)
+    if not widths:
+        return
+    sizes = np.array(list(widths))
+    ax.plot(sizes, list(widths.values()), linestyle="none", **look)
+    predicted = _NORMAL * values.std(ddof=1) / np.sqrt(sizes)
+    ax.plot(sizes, predicted, color=look["color"], linewidth=0.5)

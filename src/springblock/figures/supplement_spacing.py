@@ -1,0 +1,35 @@
+"""Supplement: how far apart pillars are, which the paper leaves open (section 3.2).
+
+Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
+"""
+
+from collections.abc import Mapping
+
+from matplotlib.figure import Figure
+
+from springblock.figures.ensembles import (
+    Runs,
+    draw_no_lag,
+    draw_series,
+    logarithmic,
+    size_colors,
+    two_panels,
+)
+from springblock.figures.style import journal
+
+
+@journal
+def draw(ensembles: Mapping[tuple[int, int], Runs]) -> Figure:
+    """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p.
+
+    `ensembles` holds runs by (n_p, n_s). Bars are 95 % bootstrap intervals of the mean over runs.
+    """
+    picture, panels = two_panels("distance between the pillars $n_s$")
+    for n_p, color in size_colors(n_p for n_p, _ in ensembles).items():
+        line = [(n_s, runs) for (size, n_s), runs in ensembles.items() if size == n_p]
+        if line:
+            draw_series(panels, line, color, marker="o", label=f"$n_p$ = {n_p}")
+    draw_no_lag(panels[1])
+    logarithmic(panels, [n_s for _, n_s in ensembles])
+    panels[0].legend(loc="best", ncols=2)
+    return picture
