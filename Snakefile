@@ -14,13 +14,14 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/supplement.smk"
 
 
 rule all:
     default_target: True
     input:
         rules.aggregate.output,
-        [figure_files(name) for name in FIGURES],
+        [figure_files(name) for name in (*FIGURES, *SUPPLEMENT)],
         [rules.work_precision.output, rules.stability.output, rules.accuracy.output]
         if config["accuracy"]
         else [],

@@ -117,9 +117,12 @@ def highest_and_lag(runs: Runs) -> tuple[Array, Array]:
     return highest, np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
 
 
-def two_panels(xlabel: str) -> tuple[Figure, tuple[Axes, Axes]]:
-    """Make a) a panel for static friction above b) one for t_max - t_avg, one column wide."""
-    picture = style.figure(style.COLUMN, 97.0)
+def two_panels(xlabel: str, above: float = 0.0) -> tuple[Figure, tuple[Axes, Axes]]:
+    """Make a) a panel for static friction over b) one for t_max - t_avg, one column wide.
+
+    There are `above` mm of room for a legend.
+    """
+    picture = style.figure(style.COLUMN, 97.0 + above)
     upper, lower = (style.axes(picture, bottom=bottom, **_PANELS) for bottom in _BOTTOMS)
     upper.set_ylabel(FRICTION)
     upper.tick_params(labelbottom=False)

@@ -5,6 +5,7 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 
 from collections.abc import Mapping
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.figures import style
@@ -19,10 +20,10 @@ from springblock.figures.ensembles import (
     sliding,
 )
 from springblock.figures.style import BLUE, GREEN, VERMILION, journal
-from springblock.statistics import common_curve
+from springblock.statistics import Curve, common_curve
 
 _COLORS = {2: BLUE, 3: VERMILION}
-_BOTTOMS, _PANEL = (53.0, 11.0), (16.0, 71.0, 36.0)  #: left edge, width and height, mm
+_BOTTOMS, _PANEL = (53.0, 11.0), (16.0, 71.0, 38.0)  #: left edge, width and height, mm
 
 
 @journal
@@ -32,21 +33,29 @@ def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
     `ensembles` holds runs by (direction, number of levels). Bands are 95 % bootstrap intervals
     of the mean over runs; triangles are the load peaks of the mean.
     """
+    curves = {key: common_curve(runs) for key, runs in sorted(ensembles.items())}
+    span = enlarged_span(list(curves.values()))
     picture = style.figure(style.COLUMN, 97.0)
     left, width, height = _PANEL
     for direction, bottom, letter in zip(("x", "y"), _BOTTOMS, "ab", strict=True):
         ax = style.axes(picture, left, bottom, width, height)
-        curves = {level: common_curve(r) for (d, level), r in ensembles.items() if d == direction}
-        for level, curve in sorted(curves.items()):
-            color = _COLORS.get(level, GREEN)
-            draw_force(ax, curve, color, f"{level} levels: {peaks_in_words(curve)}")
-            mark_load_peaks(ax, curve, color)
-        if curves:
-            span = enlarged_span(list(curves.values()))
-            ax.set_xlim(*span)
-            fit_forces(ax, list(curves.values()), span)
-            ax.legend(loc="lower center")
-        ax.set(ylabel=FORCE, title=sliding(direction))
+        shown = {level: curve for (name, level), curve in curves.items() if name == direction}
+        _draw_direction(ax, shown, span)
+        ax.text(0.02, 0.95, sliding(direction), transform=ax.transAxes, va="top")
         style.panel_letter(ax, letter, left=12.0, above=1.5)
-    picture.axes[-1].set_xlabel("time (µs)")
+    upper, lower = picture.axes
+    upper.tick_params(labelbottom=False)
+    lower.set_xlabel("time (µs)")
     return picture
+
+
+def _draw_direction(ax: Axes, curves: Mapping[int, Curve], span: tuple[float, float]) -> None:
+    """Draw the curves of one sliding direction by number of levels, and their load peaks."""
+    for level, curve in curves.items():
+        color = _COLORS.get(level, GREEN)
+        draw_force(ax, curve, color, f"{level} levels: {peaks_in_words(curve)}")
+        mark_load_peaks(ax, curve, color)
+    ax.set(xlim=span, ylabel=FORCE)
+    if curves:
+        fit_forces(ax, list(curves.values()), span)
+        ax.legend(loc="lower center")

@@ -10,13 +10,22 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter
 
-from springblock.figures.ensembles import Runs, highest_and_lag, size_colors, two_panels
+from springblock.figures.ensembles import (
+    Runs,
+    highest_and_lag,
+    logarithmic,
+    size_colors,
+    two_panels,
+)
 from springblock.figures.style import GREY, PURPLE, VERMILION, journal
 from springblock.run import Array
 from springblock.statistics import half_widths
 
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)
+_MILLI = 1e3  #: 10⁻³ per unit
 _NORMAL = 1.96  #: half a 95 % interval in standard errors
 _GROOVED = {"x": ("along grooves", VERMILION), "y": ("across grooves", PURPLE)}
 
@@ -28,20 +37,25 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations.
 
     `ensembles` holds runs by (n_p, n_p2, direction). Markers are means over random subsets of an
-    ensemble; lines fall with the root of their number, from the scatter of the whole ensemble.
+    ensemble; lines show the scatter of the whole ensemble over the root of k, the number.
     """
-    picture, panels = two_panels("number of realisations")
+    picture, panels = two_panels("number of realisations", above=12.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
     for key, marker in zip(sorted(ensembles), cycle("os^vDP*X"), strict=False):
         name, color = _look(key, colors)
-        samples = highest_and_lag(ensembles[key])
-        for ax, values in zip(panels, samples, strict=True):
+        highest, lag = highest_and_lag(ensembles[key])
+        for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):
             _draw_widths(ax, values, {"color": color, "marker": marker, "label": name})
-    names = ("static friction", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
+    names = ("static friction (10⁻³)", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
     for ax, name in zip(panels, names, strict=True):
-        ax.set(xscale="log", yscale="log", ylabel=f"± of {name}")
-        ax.xaxis.set_major_formatter("{x:g}")
+        ax.set(yscale="log", ylabel=f"± of {name}")
+        ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter(NullFormatter())
+    logarithmic(panels, [k for k in _SIZES if k <= max(map(len, ensembles.values()))])
+    handles, labels = panels[0].get_legend_handles_labels()
+    handles.append(Line2D([], [], color=GREY, linewidth=0.5))
+    picture.legend(handles, [*labels, r"$\propto 1/\sqrt{k}$"], loc="upper center", ncols=3)
     return picture
 
 

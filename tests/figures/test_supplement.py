@@ -1,0 +1,133 @@
+"""The figures of the supplement draw without a warning and show the data they are given."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from figures.test_ensembles import NORMAL_FORCE, SIZE, record
+from springblock.commands import figures as commands
+from springblock.figures import (
+    style,
+    supplement_angle,
+    supplement_levels,
+    supplement_repetitions,
+    supplement_size,
+    supplement_spacing,
+)
+from springblock.scene import Scene
+from springblock.tables import Record
+
+
+@cache
+def ensemble(friction: float, *peaks: float, runs: int = 4) -> list[Record]:
+    """Runs with about this static friction."""
+    made = [record(seed, peaks) for seed in range(runs)]
+    return [replace(run, static_friction=friction + 0.01 * run.seed) for run in made]
+
+
+def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
+    def some(friction: float, *peaks: float) -> list[Record]:
+        return ensemble(friction, *(peaks or (110e-6,)), runs=runs)
+
+    lengths = {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)}
+    sizes = {(0, 0, 60): some(0.8), (0, 0, 120): some(0.79), (20, 20, 80): some(0.7)}
+    levels = {
+        ("x", 2): some(0.7, 80e-6, 110e-6),
+        ("x", 3): some(0.7, 90e-6, 110e-6),
+        ("y", 2): some(0.7, 100e-6),
+        ("y", 3): some(0.7, 105e-6),
+    }
+    scenes = {(0, 0, "x"): some(0.8), (6, 0, "x"): some(0.6), (58, 8, "y"): some(0.7)}
+    return {
+        "spacing": lambda: supplement_spacing.draw(lengths),
+        "size": lambda: supplement_size.draw(sizes),
+        "angle": lambda: supplement_angle.draw({"x": some(0.7), "45": some(0.6), "y": some(0.8)}),
+        "levels": lambda: supplement_levels.draw(levels),
+        "repetitions": lambda: supplement_repetitions.draw(scenes),
+    }
+
+
+NAMES = list(drawings(4))
+
+
+@cache
+def drawn(name: str, runs: int = 6) -> Figure:
+    """A figure for tests that only look at it."""
+    return drawings(runs)[name]()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_panels_carry_letters_and_axes_say_what_they_show(name):
+    texts = [text.get_text() for text in drawn(name).findobj(Text)]
+    assert sorted(text for text in texts if text[1:] == ")") == ["a)", "b)"]
+    assert all(ax.get_ylabel() for ax in drawn(name).axes)
+    assert drawn(name).axes[-1].get_xlabel()
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("runs", [1, 6])
+def test_nothing_leaves_the_page(name, runs):
+    box = style.journal(drawn(name, runs).get_tightbbox)()  # inches
+    width, height = drawn(name, runs).get_size_inches()
+    assert 0.0 <= box.x0 < box.x1 <= width
+    assert 0.0 <= box.y0 < box.y1 <= height
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_same_figure_is_the_same_file(name, tmp_path, monkeypatch):
+    monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)  # quicker
+    contents = []
+    for attempt in ("first.png", "second.png"):
+        style.save(drawings(6)[name](), tmp_path / attempt)
+        contents.append((tmp_path / attempt).read_bytes())
+    assert contents[0] == contents[1]
+
+
+def lines(ax: Axes) -> list[np.ndarray]:
+    """Data of the lines through means, (n, 2), in order of their drawing."""
+    return [line.get_xydata() for line in ax.get_lines() if line.get_linewidth() == 0.6]
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "expected"),
+    [
+        ("spacing", 1, [(3, 0.525), (6, 0.625)]),
+        ("size", 0, [(60, 0.825), (120, 0.815)]),
+        ("angle", 0, [(0, 0.725), (45, 0.625), (90, 0.825)]),
+    ],
+)
+def test_lines_go_through_the_means(name, line, expected):
+    friction, lag = drawn(name).axes
+    np.testing.assert_allclose(lines(friction)[line], expected)
+    expected_lag = 1e6 * np.mean([run.t_max - run.t_avg for run in ensemble(0.8, 110e-6, runs=6)])
+    np.testing.assert_allclose(lines(lag)[line][:, 1], expected_lag)
+
+
+def test_each_level_has_its_load_peaks_marked():
+    for ax, expected in zip(drawn("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
+        peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
+        assert peaks == pytest.approx(expected, abs=0.6)
+
+
+def test_intervals_narrow_with_the_root_of_the_number():
+    friction, _ = drawn("repetitions", runs=20).axes
+    measured, predicted = (line.get_xydata() for line in friction.get_lines()[:2])
+    assert measured[:, 0].tolist() == [3, 5, 10, 20]
+    np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
+    assert measured[-1, 1] == pytest.approx(predicted[-1, 1], rel=0.1)
+
+
+def test_scenes_are_told_apart_by_several_keys(monkeypatch):
+    other = replace(record(1), scene=Scene(24, SIZE, 2))
+    monkeypatch.setattr(commands, "read_records", lambda batches: [record(0), other])
+    found = dict(commands._ensembles((), "n_p", "n_s"))
+    assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
+    with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
+        commands._ensembles((), "n_p", "direction")
+    assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
