@@ -9,6 +9,8 @@ from scipy.stats import t
 from springblock import Pattern
 from springblock.statistics import (
     common_curve,
+    half_widths,
+    load_peak_number,
     load_peaks,
     mean_interval,
     pillar_map,
@@ -166,3 +168,21 @@ def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
     intervals = [repeatability(rng.normal(size=(10, 50))) for _ in range(200)]
     assert np.mean([low < 0.0 < high for _, low, high in intervals]) >= 0.95  # it is conservative
     assert abs(np.mean([share for share, _, _ in intervals])) < 0.005
+
+
+def test_load_peaks_of_a_mean_are_counted_with_their_interval(rng):
+    x, k = np.arange(100.0), 12
+    clear = (hill(x, 30, 1.0) + hill(x, 60, 0.8)) * rng.normal(1.0, 0.05, (k, 1))
+    assert tuple(load_peak_number(clear)) == (2.0, 2.0, 2.0)
+    sometimes = clear + np.arange(k)[:, None] % 6 // 5 * 0.3 * hill(x, 85, 1.0)
+    number, low, high = load_peak_number(sometimes)
+    assert low <= number <= high
+    assert low < high
+    assert np.isnan(load_peak_number(clear[:1]).low)
+
+
+def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
+    widths = half_widths(rng.normal(0.0, 1.0, 200), (10, 40, 160, 640))
+    assert list(widths) == [10, 40, 160]
+    assert widths[10] / widths[40] == pytest.approx(2.0, rel=0.1)
+    assert widths[40] == pytest.approx(1.96 / 40**0.5, rel=0.1)

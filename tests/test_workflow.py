@@ -16,7 +16,7 @@ from springblock.tables import BATCH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
-FIGURES = (1, 2, 3, 4, 5, 6, 8, 9)
+FIGURES = [f"figure_{k}" for k in (1, 2, 3, 4, 5, 6, 8, 9)] + ["supplement_repetitions"]
 
 TINY = {
     "n_blocks": 12,
@@ -83,7 +83,7 @@ def edited(study: Path, request: pytest.FixtureRequest):
 
 def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
-    assert names == {f"figure_{k}.{suffix}" for k in FIGURES for suffix in ("pdf", "png")}
+    assert names == {f"{name}.{suffix}" for name in FIGURES for suffix in ("pdf", "png")}
 
 
 def test_the_table_holds_every_realisation_once(study):
@@ -109,7 +109,7 @@ def test_batches_hold_the_curves_that_the_figures_draw(study):
 
 
 def test_each_job_leaves_a_log_and_a_benchmark(study):
-    jobs = {"compile", "aggregate"} | {f"figure_{k}" for k in FIGURES}
+    jobs = {"compile", "aggregate", *FIGURES}
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
         files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
         assert files == jobs

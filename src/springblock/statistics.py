@@ -199,3 +199,17 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
     """
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
     return find_peaks(curve, prominence=needed)[0]
+
+
+def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:
+    """Count the load peaks of the mean of k force curves, (k, n), with a bootstrap interval."""
+    k = len(curves)
+    number = len(load_peaks(curves.mean(axis=0), standard_error(curves)))
+    if k == 1:
+        return Interval(np.array(number), np.array(np.nan), np.array(np.nan))
+    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples) / k
+    means = drawn @ curves
+    variances = np.maximum(drawn @ curves**2 - means**2, 0.0)
+    scatters = np.sqrt(variances / (k - 1))
+    counts = [len(load_peaks(m, scatter)) for m, scatter in zip(means, scatters, strict=True)]
+    return Interval(np.array(number), *np.percentile(counts, _INTERVAL))

@@ -21,17 +21,18 @@ from springblock.statements.samples import (
     place,
     scenes_along_x,
 )
-from springblock.statistics import load_peaks, mean_interval, pillar_map
+from springblock.statistics import (
+    common_curve,
+    load_peak_number,
+    load_peaks,
+    mean_interval,
+    pillar_map,
+)
 
 Mask = NDArray[np.bool_]
 
 _GROOVES = "realisations of a grooved surface"
 _WAYS = "realisations of a grooved surface that slides along and across its grooves"
-
-
-def load_peak_number(run: Run) -> float:
-    """Number of load peaks that stand out by 1 % of the largest force."""
-    return float(len(load_peaks(run.force, 0.0)))
 
 
 def second_peak(run: Run) -> float:
@@ -96,10 +97,11 @@ def _peak_numbers(evidence: Evidence, level: int) -> Iterator[Finding]:
         for scene, name, claimed in zip(
             scenes, ("along", "across"), ((1.5, 2.5), (0.5, 1.5)), strict=True
         ):
+            curve = common_curve(evidence.records[scene])
             yield Finding(
                 lengths,
-                f"load peaks of a run when sliding {name} the grooves, mean number",
-                mean(over_runs(load_peak_number, evidence.records[scene])),
+                f"load peaks of the mean force when sliding {name} the grooves",
+                load_peak_number(curve.friction),
                 claimed,
                 in_files(scene),
             )

@@ -212,7 +212,10 @@ def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
 
 
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
-    """Both the smallest and the largest pillars stick better than the ones that stick least."""
+    """Both the smallest and the largest pillars stick better than the ones that stick least.
+
+    The latter are chosen by the same means: small differences would be overrated.
+    """
     for family in families(evidence.summaries):
         if len(family) < 3:
             continue

@@ -18,7 +18,7 @@ INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
 
 SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
-ALIKE = 0.1  #: share of the variance that place may explain where the paper calls it uniform
+ALIKE = 0.2  #: share of the variance that place may explain where the paper calls it uniform
 ALONG = "x"  #: the paper's sliding direction
 
 
@@ -45,8 +45,8 @@ def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
 
 def place(scene: Scene) -> dict[str, int]:
     """Return the lengths that tell this scene from others."""
-    lengths = {key: getattr(scene, key) for key in ("n_p", "n_s", "n_p2", "n_s2")}
-    return {"N": scene.n_blocks} | {key: value for key, value in lengths.items() if value}
+    lengths = {key: value for key, value in vars(scene).items() if key.startswith("n_") and value}
+    return {"N": lengths.pop("n_blocks"), **lengths}
 
 
 def in_table(*scenes: Scene) -> str:
