@@ -125,7 +125,9 @@ SURFACES = [(20, 20, 0, 0, 3.4), (60, 60, 0, 0, 4.4), (58, 62, 8, 2, 4.3)]  # le
 
 
 def surface(n_p: int, n_s: int, n_p2: int, n_s2: int) -> dict[str, Any]:
-    return {"n_p": n_p, "n_s": n_s, "n_p2": n_p2, "n_s2": n_s2, "direction": "x"}
+    level = 2 if n_p2 else 1
+    lengths = {"n_blocks": 120, "n_p": n_p, "n_s": n_s, "n_p2": n_p2, "n_s2": n_s2}
+    return {**lengths, "level": level, "direction": "x"}
 
 
 def correlation() -> list[dict[str, Any]]:
@@ -144,7 +146,7 @@ def lengths() -> list[dict[str, Any]]:
     for *sizes, l_c in SURFACES:
         for side, value in (("x", l_c), ("y", 0.5)):
             values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2}
-            rows.append({**surface(*sizes), "side": side, "r_low": 0, "r_high": 8, **values})
+            rows.append({**surface(*sizes), "side": side, "r_last": 8, **values})
     return rows
 
 

@@ -26,7 +26,10 @@ def one_pattern(*groups):
 def supplement_ensembles(name):
     """What a figure is drawn from: every scene once, where groups overlap."""
     groups = SUPPLEMENT[name][0]
-    if name == "supplement_size":
+    if name == "supplement_spacing":
+        varied = one_for_each("n_p", "spacing")
+        drawn = [e for group in groups for e in ENSEMBLES[group] if e.scene.n_p in varied]
+    elif name == "supplement_size":
         drawn = [*one_pattern("flat", "size_flat"), *one_pattern("pillars", "size_pillars")]
     elif name == "supplement_angle":
         drawn = one_pattern(*groups)

@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from springblock.claims import Case, Claim, Evidence, Finding, Row
+from springblock.claims import Claim, Evidence, Finding, Row, describe
 from springblock.statements.samples import ALONG, INF, POSITIVE, SMALLEST
 from springblock.statistics import Interval
 
-_LENGTHS = ("n_p", "n_s", "n_p2", "n_s2")
+Surface = dict[str, int]  #: lengths by their names
+
+_LENGTHS = ("n_blocks", "n_p", "n_s", "n_p2", "n_s2")
 _FAR = 3  #: blocks, the paper's lower bound of the correlation length
 _FEW = 10  #: n_p below which the paper finds l_c difficult to estimate
 _CLOSE = 0.1  #: difference between correlation functions that look the same
@@ -27,132 +29,143 @@ def apart(first: Interval, second: Interval) -> Interval:
     return Interval(first.mean - second.mean, first.low - second.high, first.high - second.low)
 
 
-def _surfaces(rows: Iterable[Row], level: int, smallest: int = SMALLEST) -> list[dict[str, int]]:
-    """Lengths of the surfaces in a table of so many levels, sliding along x."""
-    along = [row for row in rows if row["direction"] == ALONG and row["n_p"] >= smallest]
-    found = {tuple(row[key] for key in _LENGTHS) for row in along}
-    surfaces = [dict(zip(_LENGTHS, lengths, strict=True)) for lengths in sorted(found)]
-    return [s for s in surfaces if (s["n_p"] > 0) + (s["n_p2"] > 0) == level]
+def _surfaces(rows: Iterable[Row], level: int, smallest: int = SMALLEST) -> list[Surface]:
+    """Surfaces of so many levels that slide along x, in order of N, n_s/n_p and n_p."""
+    chosen = [r for r in rows if (r["level"], r["direction"]) == (level, ALONG)]
+    found = {tuple(r[key] for key in _LENGTHS) for r in chosen if r["n_p"] >= smallest}
+    surfaces = [dict(zip(_LENGTHS, lengths, strict=True)) for lengths in found]
+    return sorted(surfaces, key=lambda s: (s["n_blocks"], _ratio(s), *s.values()))
 
 
-def _find(rows: Iterable[Row], **wanted: Any) -> Row | None:
-    """The row with these values that slides along x; None without one."""
-    wanted = {"direction": ALONG, **wanted}
-    return next((r for r in rows if all(r[key] == value for key, value in wanted.items())), None)
+def _ratio(surface: Surface) -> Fraction:
+    return Fraction(surface["n_s"], surface["n_p"])
 
 
-def _lengths(surface: Case) -> dict[str, Any]:
-    return {key: value for key, value in surface.items() if value}
+def _find(rows: Iterable[Row], surface: Surface, **more: Any) -> list[Row]:
+    """Rows of a surface that slides along x, with these other values."""
+    wanted = {**surface, **more, "direction": ALONG}
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
-def _row_of(table: str, surface: Case, **more: Any) -> str:
-    keys = ", ".join(f"{k} = {v}" for k, v in (_lengths(surface) | more).items())
-    return f"tables/{table}: {keys}, direction = x"
+def _fits(evidence: Evidence, surface: Surface) -> list[Row]:
+    """The row of l_c along the sides that slide along themselves, if there is one."""
+    return _find(evidence.correlation_length, surface, side=ALONG)
+
+
+def _place(surface: Surface) -> dict[str, int]:
+    lengths = {key: value for key, value in surface.items() if value}
+    return {"N": lengths.pop("n_blocks"), **lengths}
+
+
+def _row_of(table: str, surface: Surface, **more: Any) -> str:
+    return f"tables/{table}: {describe({**_place(surface), 'direction': ALONG, **more})}"
 
 
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """c_x is larger than c_y three blocks away; c_y falls below 1/e within one block."""
     rows = evidence.correlation
     for surface in _surfaces(rows, 1):
-        along, across = (_find(rows, **surface, side=side, r=_FAR) for side in ("x", "y"))
-        near = _find(rows, **surface, side="y", r=1)
-        if along is None or across is None or near is None:
+        far = [row for side in "xy" for row in _find(rows, surface, side=side, r=_FAR)]
+        near = _find(rows, surface, side="y", r=1)
+        if len(far) < 2 or not near:
             continue
-        both = (_interval(row, "correlation") for row in (along, across))
         yield Finding(
-            _lengths(surface),
+            _place(surface),
             f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)",
-            apart(*both),
+            apart(*(_interval(row, "correlation") for row in far)),
             POSITIVE,
             _row_of("correlation", surface, r=_FAR),
         )
         yield Finding(
-            _lengths(surface),
+            _place(surface),
             "c_y(r = 1)",
-            _interval(near, "correlation"),
+            _interval(near[0], "correlation"),
             (-INF, float(np.exp(-1.0))),
-            _row_of("correlation", surface, r=1, side="y"),
+            _row_of("correlation", surface, side="y", r=1),
         )
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """c_x(r) stays close to exp(-r/l_c) wherever that was fitted; the worst r is shown."""
     for surface in _surfaces(evidence.correlation_length, 1, _FEW):
-        fit = _find(evidence.correlation_length, **surface, side="x")
-        if fit is None:
-            continue
-        curve = [row for row in evidence.correlation if _on_side_along(row, surface)]
-        fitted = [row for row in curve if max(1, fit["r_low"]) <= row["r"] <= fit["r_high"]]
-        gaps = [
-            apart(_interval(row, "correlation"), Interval(*[np.exp(-row["r"] / fit["l_c"])] * 3))
-            for row in fitted
-        ]
-        if not gaps:
-            continue
-        worst = int(np.argmax([abs(gap.mean) for gap in gaps]))
-        r = fitted[worst]["r"]
-        yield Finding(
-            _lengths(surface),
-            f"c_x(r) - exp(-r/l_c), the largest in the range of the fit, at r = {r}",
-            gaps[worst],
-            (-_CLOSE, _CLOSE),
-            _row_of("correlation", surface, r=r, side="x"),
-        )
+        for fit in _fits(evidence, surface):
+            curve = _find(evidence.correlation, surface, side=ALONG)
+            gaps = {
+                row["r"]: apart(_interval(row, "correlation"), _exactly(row["r"], fit["l_c"]))
+                for row in curve
+                if 1 <= row["r"] <= fit["r_last"]
+            }
+            if not gaps:
+                continue
+            worst = max(gaps, key=lambda r: abs(float(gaps[r].mean)))
+            yield Finding(
+                _place(surface),
+                f"c_x(r) - exp(-r/l_c), the largest in the range of the fit, at r = {worst}",
+                gaps[worst],
+                (-_CLOSE, _CLOSE),
+                _row_of("correlation", surface, side="x", r=worst),
+            )
 
 
-def _on_side_along(row: Row, surface: Case) -> bool:
-    wanted = {**surface, "side": "x", "direction": ALONG}
-    return all(row[key] == value for key, value in wanted.items())
+def _exactly(r: int, l_c: float) -> Interval:
+    """The fit at one distance; the interval of l_c is that of the claim on l_c."""
+    return Interval(*np.full(3, np.exp(-r / l_c)))
 
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """l_c of c_x is three blocks or more."""
     for surface in _surfaces(evidence.correlation_length, 1, _FEW):
-        fit = _find(evidence.correlation_length, **surface, side="x")
-        if fit is not None:
-            source = _row_of("correlation_length", surface, side="x")
-            interval = _interval(fit, "l_c")
-            yield Finding(_lengths(surface), "l_c of c_x", interval, (_FAR, INF), source, "blocks")
+        for fit in _fits(evidence, surface):
+            yield Finding(
+                _place(surface),
+                "l_c of c_x",
+                _interval(fit, "l_c"),
+                (_FAR, INF),
+                _row_of("correlation_length", surface, side="x"),
+                "blocks",
+            )
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c of the largest pillars is larger than that of the smallest it can be estimated for."""
-    rows = evidence.correlation_length
-    surfaces = _surfaces(rows, 1, _FEW)
-    surfaces.sort(key=lambda s: (Fraction(s["n_s"], s["n_p"]), s["n_p"]))
-    for ratio, family in groupby(surfaces, key=lambda s: Fraction(s["n_s"], s["n_p"])):
-        ends = [_find(rows, **surface, side="x") for surface in family]
-        first, last = ends[0], ends[-1]
-        if first is None or last is None or first is last:
+    surfaces = _surfaces(evidence.correlation_length, 1, _FEW)
+    for (n, ratio), family in groupby(surfaces, key=lambda s: (s["n_blocks"], _ratio(s))):
+        fits = [fit for surface in family for fit in _fits(evidence, surface)]
+        if len(fits) < 2:
             continue
+        first, last = fits[0], fits[-1]
         yield Finding(
-            {"n_s/n_p": str(ratio)},
+            {"N": n, "n_s/n_p": str(ratio)},
             f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (sum of both intervals)",
             apart(_interval(last, "l_c"), _interval(first, "l_c")),
             POSITIVE,
-            f"tables/correlation_length: n_p = {first['n_p']} and {last['n_p']}, side = x",
+            f"tables/correlation_length: N = {n}, n_p = {first['n_p']} and {last['n_p']}, side = x",
             "blocks",
         )
 
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c on grooved pillars lies within a block of that on whole ones of about their size."""
-    rows = evidence.correlation_length
-    whole = _surfaces(rows, 1, _FEW)
-    for surface in _surfaces(rows, 2):
-        like = min(whole, key=lambda s: abs(s["n_p"] - surface["n_p"]), default=None)
-        pair = [_find(rows, **s, side="x") for s in (surface, like) if s is not None]
-        fits = [row for row in pair if row is not None]
-        if len(fits) == 2:
-            yield Finding(
-                _lengths(surface),
-                f"l_c on grooved pillars minus l_c at n_p = {fits[1]['n_p']} without grooves "
-                "(sum of both intervals)",
-                apart(*(_interval(row, "l_c") for row in fits)),
-                (-1.0, 1.0),
-                f"{_row_of('correlation_length', surface, side='x')} and n_p = {fits[1]['n_p']}",
-                "blocks",
-            )
+    whole = _surfaces(evidence.correlation_length, 1, _FEW)
+    for surface in _surfaces(evidence.correlation_length, 2):
+        like = sorted(whole, key=lambda s: _unlike(s, surface))[:1]
+        fits = [fit for s in (surface, *like) for fit in _fits(evidence, s)]
+        if len(fits) < 2:
+            continue
+        yield Finding(
+            _place(surface),
+            f"l_c on grooved pillars minus l_c at n_p = {fits[1]['n_p']}, n_s = {fits[1]['n_s']} "
+            "without grooves (sum of both intervals)",
+            apart(*(_interval(fit, "l_c") for fit in fits)),
+            (-1.0, 1.0),
+            "; ".join(_row_of("correlation_length", s, side="x") for s in (surface, *like)),
+            "blocks",
+        )
+
+
+def _unlike(first: Surface, second: Surface) -> tuple[int, ...]:
+    """How far two surfaces are from having the same N, size of pillars and distance."""
+    return tuple(abs(first[key] - second[key]) for key in ("n_blocks", "n_p", "n_s"))
 
 
 CLAIMS = (
