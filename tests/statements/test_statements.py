@@ -10,9 +10,11 @@ import pytest
 
 from springblock.claims import Claim, Evidence, verdict
 from springblock.statements import STATEMENTS
+from springblock.statements.correlation import apart, between
 from springblock.statements.flat import isolated, lonely
 from springblock.statements.grooves import edge, grooved_parts
 from springblock.statements.samples import difference, position
+from springblock.statistics import Interval
 from springblock.tables import Record
 from statements import paper
 from statements.paper import ACROSS, ALONG, FLAT, PILLARS
@@ -174,6 +176,15 @@ def test_samples_are_compared_seed_by_seed():
     first, second = {0: 1.0, 1: 5.0, 2: 9.0}, {1: 4.0, 2: 8.0, 7: 0.0}
     assert tuple(difference(first, second)) == (1.0, 1.0, 1.0)
     assert tuple(position({0: 2.0, 1: 3.0}, {0: 1.0, 1: 2.0}, {0: 5.0, 1: 6.0})) == (0.25,) * 3
+
+
+def test_differences_of_intervals_add_errors_or_their_squares():
+    first, second = (
+        Interval(*map(np.array, (5.0, 2.0, 6.0))),
+        Interval(*map(np.array, (1.0, 0.0, 5.0))),
+    )
+    assert tuple(apart(first, second)) == (4.0, -3.0, 6.0)
+    assert tuple(between(first, second)) == pytest.approx((4.0, -1.0, 4.0 + 2.0**0.5))
 
 
 def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
