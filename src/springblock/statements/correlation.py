@@ -25,7 +25,7 @@ def _interval(row: Row, name: str) -> Interval:
 
 
 def apart(first: Interval, second: Interval) -> Interval:
-    """First - second of the same runs; errors add up, since tables do not say how they correlate."""
+    """First - second of the same runs: errors add up, since tables do not say how they go along."""
     return Interval(first.mean - second.mean, first.low - second.high, first.high - second.low)
 
 
