@@ -8,8 +8,12 @@ SUPPLEMENT = {
     "supplement_levels": (["grooves", "third_level"], "A third level"),
     "supplement_repetitions": (["flat", "pillars", "grooves"], "Number of realisations"),
 }
-#: Those whose groups the configuration has.
-SUPPLEMENT = {name: needs for name, needs in SUPPLEMENT.items() if set(needs[0]) <= set(ENSEMBLES)}
+#: Those whose groups the configuration simulates.
+SUPPLEMENT = {
+    name: (groups, shows)
+    for name, (groups, shows) in SUPPLEMENT.items()
+    if all(map(ENSEMBLES.get, groups))
+}
 
 
 def one_pattern(*groups):
