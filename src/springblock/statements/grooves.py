@@ -1,6 +1,7 @@
 """Grooved pillars: two length scales, two load peaks (section 3.3 of the paper)."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from operator import attrgetter
@@ -86,13 +87,12 @@ def _grooved(evidence: Evidence, level: int = 2) -> list[tuple[dict[str, int], S
 
 
 def _turned(scene: Scene, along: Scene) -> bool:
-    return (
-        scene.direction == "y"
-        and scene.folder.rpartition("/")[0] == (along.folder.rpartition("/")[0])
-    )
+    """Whether a scene is the same surface, sliding along y."""
+    return scene == replace(along, direction="y")
 
 
 def _peak_numbers(evidence: Evidence, level: int) -> Iterator[Finding]:
+    """Two load peaks along the grooves and one across, on patterns of so many levels."""
     for lengths, *scenes in _grooved(evidence, level):
         for scene, name, claimed in zip(
             scenes, ("along", "across"), ((1.5, 2.5), (0.5, 1.5)), strict=True

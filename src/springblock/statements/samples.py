@@ -30,6 +30,7 @@ def scenes_along_x(scenes: Iterable[Scene], level: int, smallest: int = 0) -> li
 
 
 def ratio(scene: Scene) -> Fraction:
+    """n_s/n_p; 0 for a flat surface."""
     return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
 
 
@@ -40,6 +41,7 @@ def families(scenes: Iterable[Scene]) -> Iterator[list[Scene]]:
 
 
 def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
+    """The flat surface of this size; None where it was not simulated."""
     return next((s for s in scenes_along_x(scenes, 0) if s.n_blocks == n_blocks), None)
 
 
@@ -50,10 +52,12 @@ def place(scene: Scene) -> dict[str, int]:
 
 
 def in_table(*scenes: Scene) -> str:
+    """Name the rows of the table of realisations that hold these scenes."""
     return "; ".join(f"tables/realisations: {scene.folder}" for scene in scenes)
 
 
 def in_files(*scenes: Scene) -> str:
+    """Name the folders that hold the realisations of these scenes."""
     return "; ".join(f"realisations/{scene.folder}" for scene in scenes)
 
 
@@ -76,7 +80,7 @@ def mean(sample: Sample) -> Interval:
 
 def difference(first: Sample, second: Sample) -> Interval:
     """Mean of first - second over the seeds that both have: realisations are paired."""
-    return mean_interval([first[seed] - second[seed] for seed in sorted(first.keys() & second)])
+    return mean({seed: first[seed] - second[seed] for seed in sorted(first.keys() & second)})
 
 
 def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
