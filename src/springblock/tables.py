@@ -22,16 +22,25 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
     return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
 
 
-#: One row per realisation; t_* and *_friction in the paper's names.
-SUMMARY = pa.schema(
+#: What tells one scene from another.
+SCENE = pa.schema(
     [
-        column("level", pa.int8(), "1", "levels of the pattern: 0 flat, 1 pillars, 2 grooved"),
+        column("level", pa.int8(), "1", "levels: 0 flat, 1 pillars, 2 strips, 3 strips cut across"),
         column("n_p", pa.int32(), "blocks", "side of a pillar; 0 on a flat surface"),
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 on a flat surface"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove, along x; 0 without grooves"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove along x; 0 without grooves"),
+        column("n_p3", pa.int32(), "blocks", "length of a pawl; 0 where nothing cuts it"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove along y; 0 where there is none"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
         column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+    ]
+)
+
+#: One row per realisation; t_* and *_friction in the paper's names.
+SUMMARY = pa.schema(
+    [
+        *SCENE,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
         column(

@@ -15,7 +15,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
-FIGURES = [f"figure_{number}" for number in (1, 2, 3, 4, 5, 6, 8, 9)]
+FIGURES = [f"figure_{number}" for number in range(1, 10)]
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
@@ -24,10 +24,10 @@ SPRINGBLOCK = f"{sys.executable} -m springblock"
 
 
 def batches(ensembles):
-    """Files that hold the realisations of these ensembles."""
+    """Files that hold the realisations of these ensembles, each once."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
-        for ensemble in ensembles
+        for ensemble in dict.fromkeys(ensembles)
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
 
