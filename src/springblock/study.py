@@ -106,7 +106,8 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     ValueError
         With the name of the group, where its lists do not fit together.
     """
-    groups, largest = {}, {}
+    groups: dict[str, list[Ensemble]] = {}
+    largest: dict[Scene, Ensemble] = {}
     for group, grid in configuration["scenes"].items():
         try:
             groups[group] = list(_expand(configuration, grid)) if grid else []
@@ -127,16 +128,15 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
     first = configuration["first_seed"]
     sizes = grid.get("n_blocks", [configuration["n_blocks"]])
-    n_p, *lengths = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
+    n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
     counts = grid["seeds"] if isinstance(grid["seeds"], list) else [grid["seeds"]] * len(n_p)
     if len(counts) != len(n_p):
         raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
     pillars = zip(n_p, counts, strict=True)
-    for n, (size, count), n_s, *deeper, direction in product(
-        sizes, pillars, *lengths, grid["direction"]
-    ):
-        spacing = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(n_s, n_s)
-        scene = Scene(n, size, spacing, *deeper, direction=str(direction))
+    directions = map(str, grid["direction"])
+    for n, (size, count), gap, *rest in product(sizes, pillars, n_s, *deeper, directions):
+        spacing = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(gap, gap)
+        scene = Scene(n, size, spacing, *rest)
         yield Ensemble(scene, range(first, first + count), grid.get("duration"))
 
 

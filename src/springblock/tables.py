@@ -58,6 +58,56 @@ SUMMARY = pa.schema(
     ]
 )
 
+_SIDE = [
+    *SCENE,
+    column("side", pa.string(), "x or y", "axis along which the sides of the pillars run"),
+    column("realisations", pa.int32(), "1", "realisations k that are averaged over"),
+]
+
+#: One row per scene, side and distance.
+CORRELATION = pa.schema(
+    [
+        *_SIDE,
+        column("r", pa.int32(), "blocks", "distance along the side from its middle"),
+        column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
+        column("ci_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "1", "upper limit"),
+        column("bias", pa.float64(), "1", "jackknife estimate of its bias; not subtracted"),
+        column("samples", pa.int32(), "1", "sides averaged over: realisations × pillars × 2"),
+    ]
+)
+
+#: One row per scene and side; lengths of 0.1 stand for no correlation.
+CORRELATION_LENGTH = pa.schema(
+    [
+        *_SIDE,
+        column("l_c", pa.float64(), "blocks", "weighted least-squares fit of exp(-r/l_c)"),
+        column("ci_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "blocks", "upper limit"),
+        column("bias", pa.float64(), "blocks", "jackknife estimate of its bias; not subtracted"),
+        column(
+            "r_last",
+            pa.int32(),
+            "blocks",
+            "end of the fit, which begins at r = 1: the first r where the interval of c(r) "
+            "holds 0, at most n_p/3",
+        ),
+        column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
+        column("integral", pa.float64(), "blocks", "length with the same sum of exp(-r/l) as c(r)"),
+        column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("integral_high", pa.float64(), "blocks", "upper limit"),
+        column("tail", pa.float64(), "blocks", "length in A exp(-r/l), A free; NaN if r_last < 3"),
+        column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("tail_high", pa.float64(), "blocks", "upper limit"),
+        column(
+            "design_effect",
+            pa.float64(),
+            "1",
+            "variance of c(r) over that if the pillars of a realisation were independent",
+        ),
+    ]
+)
+
 #: A batch of realisations also holds what the figures draw.
 BATCH = pa.schema(
     [

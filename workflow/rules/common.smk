@@ -16,6 +16,9 @@ except (TypeError, ValueError) as error:
 
 RESULTS = config["results"]
 FIGURES = [f"figure_{number}" for number in range(1, 10)]
+CORRELATIONS = expand(
+    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
+)
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
@@ -43,6 +46,12 @@ def one_for_each(key, group):
     for ensemble in ENSEMBLES[group]:
         first.setdefault(getattr(ensemble.scene, key), ensemble)
     return first
+
+
+def correlations(table, ensembles):
+    """Files that hold a table of correlations for each of these ensembles that has sides."""
+    scenes = [ensemble.scene for ensemble in ensembles if ensemble.scene.sides]
+    return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
 
 
 def figure_files(name):
