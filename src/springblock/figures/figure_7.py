@@ -41,7 +41,7 @@ def draw(correlation: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
     picture = style.figure(style.COLUMN, 78.0)
     ax = style.axes(picture, 12.5, 10.0, 75.0, 65.5)
     for side, curve in correlation.groupby("side"):
-        _draw_side(ax, side, curve, shown.loc[side])
+        _draw_side(ax, str(side), curve, shown.loc[side])
     ax.plot([], [], color=GREY, label=_EXPONENTIAL)
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
     ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
@@ -78,7 +78,7 @@ def _draw_lengths(ax: Axes, lengths: pd.DataFrame) -> None:
     look = {"color": color, "marker": marker, "linestyle": "none", **BAR}
     for (name, low, high), face, aside, label in (
         (("l_c", "ci_low", "ci_high"), color, 0.96, _EXPONENTIAL),
-        (("tail", "tail_low", "tail_high"), "white", 1.04, "$A$" + _EXPONENTIAL),
+        (("tail", "tail_low", "tail_high"), "white", 1.04, r"$A\,$" + _EXPONENTIAL),
     ):
         bars = (lengths[name] - lengths[low], lengths[high] - lengths[name])
         place = aside * lengths["n_p"]
@@ -87,8 +87,8 @@ def _draw_lengths(ax: Axes, lengths: pd.DataFrame) -> None:
     sizes = sorted(lengths["n_p"])
     ax.set_xticks(sizes, [str(size) for size in sizes])
     ax.xaxis.set_minor_locator(NullLocator())
-    ax.margins(x=0.12, y=0.35)  # room for the legend
-    ax.set_ylim(0.0, None)
-    ax.set_xlabel("size of the pillars $n_p$", fontsize=style.SMALL)
+    ax.margins(x=0.12)
+    ax.set_ylim(0.0, 2.0 * lengths["ci_high"].max())  # room for the legend
+    ax.set_xlabel("$n_p$ (blocks)", fontsize=style.SMALL, labelpad=1.0)
     ax.set_ylabel("$l_c$ of $c_x$ (blocks)", fontsize=style.SMALL)
     ax.legend(loc="upper left", borderaxespad=0.2, handletextpad=0.2, labelspacing=0.3)
