@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from springblock import Pattern, correlation
+from springblock.commands.correlation import _sides
 from springblock.correlation import (
     Correlation,
     design_effect,
@@ -15,6 +16,7 @@ from springblock.correlation import (
     references,
     side_times,
 )
+from springblock.scene import Scene
 from springblock.statistics import bootstrap_weights
 
 MIDDLE = 4e-4  #: s, mean detachment time of the fields below
@@ -182,3 +184,16 @@ def test_what_cannot_be_correlated_is_refused(decaying):
         Correlation(decaying[:2])
     with pytest.raises(ValueError, match="nothing can correlate"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
+
+
+def test_the_command_takes_one_scene_that_has_sides():
+    pillars, near, small = (
+        SimpleNamespace(scene=Scene(24, *lengths), t_det=np.ones((24, 24)))
+        for lengths in ((6, 6), (6, 2), (3, 3))
+    )
+    kinds = [columns["side"] for columns, _ in _sides([pillars, pillars])]
+    assert kinds == ["x", "y"]
+    with pytest.raises(ValueError, match="one scene is correlated, not .*n_s=6.* and .*n_s=2"):
+        next(_sides([pillars, near]))
+    with pytest.raises(ValueError, match="n_p=3.* has no whole sides"):
+        next(_sides([small]))

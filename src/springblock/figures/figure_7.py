@@ -88,7 +88,7 @@ def _draw_lengths(ax: Axes, lengths: pd.DataFrame) -> None:
     ax.set_xticks(sizes, [str(size) for size in sizes])
     ax.xaxis.set_minor_locator(NullLocator())
     ax.margins(x=0.12)
-    ax.set_ylim(0.0, 2.0 * lengths["ci_high"].max())  # room for the legend
+    ax.set_ylim(0.0, 2.2 * lengths["ci_high"].max())  # room for the legend
     ax.set_xlabel("$n_p$ (blocks)", fontsize=style.SMALL, labelpad=1.0)
     ax.set_ylabel("$l_c$ of $c_x$ (blocks)", fontsize=style.SMALL)
     ax.legend(loc="upper left", borderaxespad=0.2, handletextpad=0.2, labelspacing=0.3)
