@@ -193,7 +193,7 @@ def test_the_command_takes_one_scene_that_has_sides():
     )
     kinds = [columns["side"] for columns, _ in _sides([pillars, pillars])]
     assert kinds == ["x", "y"]
-    with pytest.raises(ValueError, match="one scene is correlated, not .*n_s=6.* and .*n_s=2"):
+    with pytest.raises(ValueError, match=r"one scene is correlated, not .*n_s=6.* and .*n_s=2"):
         next(_sides([pillars, near]))
-    with pytest.raises(ValueError, match="n_p=3.* has no whole sides"):
+    with pytest.raises(ValueError, match=r"n_p=3.* has no whole sides"):
         next(_sides([small]))
