@@ -58,7 +58,8 @@ def references(size: int) -> NDArray[np.intp]:
     """Blocks x₀ of a side that count as its middle: those within n_p/10 of it.
 
     One or two blocks alone, as in the paper, would need about four times as many realisations
-    for the same interval where the surface holds a single pillar (n_p = 60).
+    for the same interval where the surface holds a single pillar (n_p = 60). Both agree within
+    their intervals on pillars of 20 and 60 blocks.
     """
     from_middle = np.abs(np.arange(size) - (size - 1) / 2.0)
     return np.flatnonzero(from_middle <= max(0.1 * size, 0.5))
@@ -224,7 +225,8 @@ def design_effect(times: Array) -> float:
     """How many times larger the variance of c(r) is than if pillars were independent.
 
     `times` as of `side_times`; the ratio of bootstrap variances, summed over r. The root of it is
-    how much too narrow an interval over pillars would be.
+    how much too narrow an interval over pillars would be. On pillars of 6 and 20 blocks it is
+    0.9 to 1.1: their sides detach almost independently of those of other pillars.
     """
     places = (times - times.mean(axis=0)).reshape(-1, 1, *times.shape[2:])
     whole, apart = (Correlation(part).resampled.var(axis=0).sum() for part in (times, places))
