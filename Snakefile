@@ -11,6 +11,7 @@ configfile: "config/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/simulate.smk"
+include: "workflow/rules/correlation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 
@@ -19,6 +20,7 @@ rule all:
     default_target: True
     input:
         rules.aggregate.output,
+        CORRELATIONS,
         [figure_files(name) for name in FIGURES],
         [rules.work_precision.output, rules.stability.output, rules.accuracy.output]
         if config["accuracy"]
