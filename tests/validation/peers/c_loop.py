@@ -9,10 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock import Material
+from springblock import Material, Pattern, draw_friction
 from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import coefficients
 from validation.peers.missing import Missing
+
+LEAPFROG = INTEGRATORS["leapfrog"]
+#: Largest difference from the solver after CHECK_STEPS, relative to the largest value.
+TOLERANCE = 1e-9
+CHECK_STEPS = 500
 
 OPTIONS = ["-O3", "-march=native", "-ffast-math", "-shared", "-fPIC"]
 
@@ -37,8 +43,8 @@ def compiler_version() -> str:
     compiler = shutil.which("gcc")
     if compiler is None:
         return "missing"
-    answer = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=False)
-    return answer.stdout.partition("\n")[0]
+    command = [compiler, "-dumpfullversion"]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
 
 
 def _address(array: np.ndarray) -> ctypes.c_void_p:
@@ -59,7 +65,7 @@ class CLoop:
         m = material or Material()
         self.n = len(contact)
         self.taken = 0  #: steps
-        compliance = step * INTEGRATORS["leapfrog"].force_time(step, m.gamma) / m.mass
+        compliance = step * LEAPFROG.force_time(step, m.gamma) / m.mass
         load = m.block_load * contact.size / contact.sum() * compliance / m.spacing
         # ux, uy, wx, wy, t_det, mu_s F_n, mu_d F_n, each with a column of border
         self._fields = np.zeros((7, self.n, self.n + 1))
@@ -103,6 +109,41 @@ class CLoop:
     def t_det(self) -> np.ndarray:
         """(N, N) steps, infinite before."""
         return self._fields[4, :, :-1]
+
+
+def differences(step: float = 1e-8) -> dict[str, float]:
+    """Distance from the solver on pillars that slip and stick, over the largest value."""
+    pattern, material = Pattern.pillars(24, 6, 6), Material()
+    mu = [0.005 * field for field in draw_friction(pattern.n_blocks, seed=1)]
+    loop = CLoop(pattern.contact, *mu, step)
+    force = loop.advance(CHECK_STEPS)
+    force_time = LEAPFROG.force_time(step, material.gamma)
+    state, constants = prepare(
+        pattern.contact, *mu, material, (1.0, 0.0), step, force_time, LEAPFROG.WORK_FIELDS
+    )
+    samples = Samples.empty(CHECK_STEPS)
+    LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
+
+    def blocks(*fields: np.ndarray) -> np.ndarray:
+        return np.nan_to_num([unpadded(field, loop.n) for field in fields], posinf=CHECK_STEPS)
+
+    pairs = {
+        "displacement": (loop.displacement, blocks(state.ux, state.uy)),
+        "velocity": (loop.velocity, blocks(state.wx, state.wy)),
+        "t_det": (np.nan_to_num([loop.t_det], posinf=CHECK_STEPS), blocks(state.t_det)),
+        "force": (force, np.stack([samples.force_x, samples.force_y], axis=1)),
+    }
+    return {
+        name: float(np.abs(ours - theirs).max() / np.abs(theirs).max())
+        for name, (ours, theirs) in pairs.items()
+    }
+
+
+def require() -> None:
+    """Raise Missing unless the loop compiles here and does what the solver does."""
+    name, worst = max(differences().items(), key=lambda item: item[1])
+    if not worst < TOLERANCE:
+        raise Missing(f"the C loop differs from the solver by {worst:.1e} in {name}")
 
 
 class Peak:
