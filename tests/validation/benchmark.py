@@ -76,8 +76,9 @@ OPERATIONS = {
 }
 
 STEPS = 300  #: of a kernel in one repetition, some 50 ms
+ROUNDS = 10_000_000  #: of multiply-adds
 BLOCK_STEP = "ns per block and step"
-BLOCK_EVALUATION = "ns per block and force evaluation"
+BLOCK_EVALUATION = "ns per block and evaluation"
 
 
 class Lattice(Protocol):
@@ -200,6 +201,7 @@ def kernel() -> Iterator[Row]:
     before = made["DOP853"].progress
     runs = {name: partial(peer.advance, CONTENDERS[name].steps) for name, peer in made.items()}
     cost = {name: 1e9 * each / N**2 for name, each in interleaved(runs, REPETITIONS).items()}
+    leapfrog = cost["leapfrog"] / CONTENDERS["leapfrog"].steps
     for name, contender in CONTENDERS.items():
         if name in absent:
             yield missing("kernel", name, BLOCK_STEP, absent[name], "flat", N)
@@ -208,9 +210,7 @@ def kernel() -> Iterator[Row]:
         evaluations: float = steps * contender.evaluations
         if name == "DOP853":
             steps, evaluations = (made[name].progress - before) / REPETITIONS
-        here = partial(
-            row, "kernel", name, scene="flat", n_blocks=N, reference=cost["leapfrog"] / STEPS
-        )
+        here = partial(row, "kernel", name, scene="flat", n_blocks=N, reference=leapfrog)
         note = "; ".join(filter(None, [contender.note, getattr(made[name], "moving", "")]))
         yield here(BLOCK_STEP, cost[name] / steps, note=note)
         if evaluations > steps:
@@ -300,11 +300,10 @@ def peak() -> Iterator[Row]:
     except Missing as why:
         yield missing("peak", "multiply-adds", "Gflop/s", why)
         return
-    rounds = 10_000_000
-    operations = {"multiply-adds": multiply_add.run(rounds)}
+    operations = {"multiply-adds": multiply_add.run(ROUNDS)}
     operations |= dict.fromkeys(("leapfrog", "C loop"), float(count * STEPS * N**2))
     runs = {
-        "multiply-adds": partial(multiply_add.run, rounds),
+        "multiply-adds": partial(multiply_add.run, ROUNDS),
         "leapfrog": partial(Solver("leapfrog", N).advance, STEPS),
         "C loop": partial(loop.advance, STEPS),
     }

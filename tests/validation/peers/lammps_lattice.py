@@ -53,7 +53,7 @@ def require() -> None:
 def _load_mpi() -> None:
     """Load the MPI library of the package mpich: it lies where the linker does not look."""
     for file in metadata.files("mpich") or []:
-        if file.name == "libmpi.so.12":
+        if file.name in ("libmpi.so.12", "libmpi.12.dylib"):
             ctypes.CDLL(str(file.locate()), mode=ctypes.RTLD_GLOBAL)
 
 
