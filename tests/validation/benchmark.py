@@ -12,7 +12,9 @@ No part uses threads. Peers that are not there, or fail, make rows that say so.
 Call with `python -m validation.benchmark` from the folder tests, or `make bench`.
 """
 
+import os
 import platform
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -39,6 +41,9 @@ from validation.peers.lammps_lattice import LammpsLattice
 from validation.peers.missing import Missing
 from validation.peers.scipy_lattice import RTOL, ScipyLattice
 from validation.timing import SCHEMA, Array, Row, interleaved, missing, printed, row
+
+#: Threads that wait for work cost CPU time too. Libraries read this when they are loaded.
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 N = 120
 PAPER = Material()
@@ -367,4 +372,6 @@ def main(parts: tuple[str, ...], output: Path) -> None:
 
 
 if __name__ == "__main__":
+    if not ONE_THREAD.items() <= os.environ.items():
+        os.execve(sys.executable, sys.orig_argv, {**os.environ, **ONE_THREAD})
     main()
