@@ -16,7 +16,7 @@ enum { PITCH = 4096 + 24, BANK = 6 * PITCH };
 static inline double pull(double p, const double *restrict c)
 {
     return p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * (c[4] +
-           p * (c[5] + p * (c[6] + p * (c[7] + p * (c[8] + p * c[9])))))))));
+           p * (c[5] + p * (c[6] + p * (c[7] + p * c[8]))))))));
 }
 
 /* Pull of all springs from one row to the east and to the next row, beyond the last block too. */
