@@ -1,11 +1,13 @@
 # make          set up .venv, then run the whole study with the paper's parameters
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
-# make lock     renew environment.lock, for instance after changing a dependency in pyproject.toml
+# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes
+# make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
 
 PYTHON ?= python3
 VENV := .venv
+PEERS := tests/validation/peers/peers.lock
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 INSTALL := $(PIP) install --quiet --no-user --compile --no-build-isolation
@@ -13,7 +15,7 @@ INSTALL := $(PIP) install --quiet --no-user --compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test setup lock clean
+.PHONY: all quick test bench setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -27,6 +29,11 @@ test: setup
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+# Peers that cannot be installed are rows of the table that say so.
+bench: setup
+	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
+	PYTHONPATH=tests $(BIN)/python -m validation.benchmark
 
 setup: $(VENV)/installed
 
@@ -49,9 +56,11 @@ $(VENV)/installed: $(VENV)/locked pyproject.toml
 lock:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
 	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv && \
-	"$$dir/bin/uv" pip compile pyproject.toml --group dev --output-file environment.lock \
-	    --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
-	    --no-config --no-emit-index-url --custom-compile-command "make lock" --quiet
+	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
+	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
+	$$lock --custom-compile-command "make lock" --output-file environment.lock \
+	    --group dev pyproject.toml && \
+	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers
 
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache

@@ -11,6 +11,7 @@ configfile: "config/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/simulate.smk"
+include: "workflow/rules/correlation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
@@ -21,6 +22,8 @@ rule all:
     default_target: True
     input:
         rules.aggregate.output,
+        CORRELATIONS,
+        rules.claims.output,
         [figure_files(name) for name in (*FIGURES, *SUPPLEMENT)],
         [rules.work_precision.output, rules.stability.output, rules.accuracy.output]
         if config["accuracy"]

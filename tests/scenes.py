@@ -6,12 +6,12 @@ from springblock import Material, Pattern, draw_friction
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import (
-    BANK,
-    FIRST_BANK,
     SCRATCH_SIZE,
+    band_rows,
     coefficients,
+    slot,
+    spring_band,
     spring_force,
-    spring_row,
 )
 
 UNDAMPED = Material(gamma=0.0)
@@ -45,19 +45,26 @@ def with_border(displacement):
 
 
 def spring_forces(displacement):
-    """Return F_int/(K_int l), (2, N, N), by the compiled rows, for displacements in units of l."""
+    """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l."""
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
-    columns = np.arange(1, n + 1, dtype=np.uint64)
+    size = lattice_size(n)
     scratch, springs = np.zeros(SCRATCH_SIZE), (1.0, *coefficients(1.0))
-    north, south = FIRST_BANK, FIRST_BANK + BANK
-    rows = []
-    for row in map(np.uint64, range(n)):
-        beyond = spring_row(ux, uy, row, np.uint64(n + 2), np.uint64(n), scratch, north, *springs)
+    columns, every_row = np.arange(1, n + 1, dtype=np.uint64), np.ones(n + 1, bool)
+    forces = []
+    for start in map(np.uint64, range(0, n, band_rows(n))):
+        stop = min(start + size[2], size[0])
+        _, beyond = spring_band(ux, uy, start, stop, every_row, size, scratch, *springs)
         assert beyond == 0
-        rows.append(spring_force.py_func(scratch, columns, north, south))
-        north, south = south, north
-    return np.stack(rows, axis=1)
+        for row in map(np.uint64, range(start, stop)):
+            own, south = (slot.py_func(y, *size[1:]) + columns for y in (row, row + size[2]))
+            forces.append(spring_force.py_func(scratch, own, south))
+    return np.stack(forces, axis=1)
+
+
+def lattice_size(n):
+    """N, pitch and rows in a band, as the kernels want them."""
+    return np.uint64(n), np.uint64(n + 2), np.uint64(band_rows(n))
 
 
 def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):

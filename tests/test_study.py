@@ -51,7 +51,29 @@ def test_a_group_is_a_grid_over_its_lists():
 
 def test_spacings_may_follow_the_pillars():
     halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
-    assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 3, 10, 30]
+    assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]
+    doubled = changed("scenes", "pillars", "n_s", to=["2n_p"])
+    assert [e.scene.n_s for e in ensembles(doubled)["pillars"]] == [4, 6, 12, 20, 40, 60, 120]
+
+
+def test_each_size_of_pillars_may_have_its_own_number_of_seeds():
+    groups = ensembles(PAPER)
+    assert [len(e.seeds) for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["seeds"]
+    assert {len(e.seeds) for e in groups["spacing"]} == {PAPER["scenes"]["spacing"]["seeds"]}
+
+
+def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
+    both = {"n_p": [6, 20], "n_s": [20, "n_p"], "direction": ["x"], "seeds": [500, 7]}
+    groups = ensembles(changed("scenes", "more", to=both))
+    assert len(groups["more"]) == 3  # n_s = n_p = 20 occurs twice
+    shared = set(groups["more"]) & set(groups["pillars"])
+    assert {(e.scene.n_p, len(e.seeds)) for e in shared} == {(6, 500), (20, 60)}
+
+
+def test_a_group_may_be_left_out():
+    left_out = changed("scenes", "spacing", to=None)
+    check(left_out, SCHEMA)
+    assert ensembles(left_out)["spacing"] == []
 
 
 @pytest.mark.parametrize("count", [1, 4, 5, 7, 20])
@@ -68,6 +90,7 @@ def test_a_larger_ensemble_keeps_the_whole_batches_of_a_smaller_one():
 
 def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
     scenes = [e.scene for group in ensembles(PAPER).values() for e in group]
+    assert {scene.level for scene in scenes} == {0, 1, 2, 3}
     assert len({scene.folder for scene in scenes}) == len(scenes)
     for scene in scenes:
         options = dict(zip(*[iter(scene.arguments.split())] * 2, strict=True))
@@ -90,10 +113,27 @@ def test_any_change_changes_the_digest():
         (("step",), 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
         (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
         (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
-        (("scenes", "flat", "duration"), 1e-8, "scenes.flat.duration.*less than one"),
-        (("scenes", "pillars", "n_p"), [7], r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7"),
+        (("scenes", "flat", "duration"), 1e-8, "scenes.flat: duration.*less than one"),
+        (("scenes", "pillars", "n_p"), [7] * 7, "scenes.pillars.n_p is not valid"),
+        (("scenes", "pillars", "seeds"), [20, 60], "pillars: seeds lists 2 numbers for 7 values"),
+        (("scenes", "pillars", "seeds"), 2, "pillars of 6 blocks need 3 seeds or more"),
+        (
+            ("scenes", "pillars", "n_p"),
+            list(range(7, 14)),
+            r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7",
+        ),
         (("scenes", "grooves", "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
-        (("figures", "figure_5", "n_p"), 30, "figure_5.n_p is 30, which scenes.pillars.n_p"),
+        (("scenes", "spacing", "n_p2"), [2], "scenes.spacing: n_p2 = 2 needs n_s2"),
+        (("scenes", "third_level", "n_p3"), [9], "scenes.third_level: pawls of 9 .* do not fill"),
+        (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
+        (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
+        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks=120.* is given two durations"),
+        (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
+        (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
+        (("scenes", "pillars"), None, "scenes.pillars is not valid: None"),
+        (("figures", "figure_5", "n_p"), 40, "figure_5.n_p is 40, which scenes.pillars.n_p"),
+        (("figures", "figure_7", "n_p"), 40, "figure_7.n_p is 40, which scenes.pillars.n_p"),
+        (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
     ],
 )

@@ -12,24 +12,28 @@ import pytest
 import yaml
 
 from springblock import Material
-from springblock.tables import BATCH, SUMMARY
+from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
-FIGURES = [f"figure_{k}" for k in (1, 2, 3, 4, 5, 6, 8, 9)] + ["supplement_repetitions"]
+FIGURES = [*(f"figure_{k}" for k in range(1, 10)), "supplement_repetitions"]
+PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
 
 TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
     "accuracy": False,
-    "scenes": {
+    "scenes": dict.fromkeys(PAPER["scenes"])  # null leaves the other groups out
+    | {
         "flat": {"seeds": 3},
-        "pillars": {"n_p": [3], "seeds": 2},
+        "pillars": {"n_p": [3, 6], "seeds": [2, 3]},
+        "again": {"n_p": [6], "n_s": [6], "direction": ["x"], "seeds": 1},
         "grooves": {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1], "seeds": 1},
     },
     "figures": {
         "figure_4": {"n_p": 3, "n_s": 3},
         "figure_5": {"n_p": 3},
+        "figure_7": {"n_p": 6},
         "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
     },
 }
@@ -91,12 +95,21 @@ def test_the_table_holds_every_realisation_once(study):
     assert table.schema.names == SUMMARY.names
     scenes = [(row["level"], row["direction"], row["seed"]) for row in table.to_pylist()]
     flat = [(0, "x", seed) for seed in (0, 1, 2)]
-    assert scenes == [*flat, (1, "x", 0), (1, "x", 1), (2, "x", 0), (2, "y", 0)]
+    pillars = [(1, "x", seed) for seed in (0, 1, 0, 1, 2)]
+    assert scenes == [*flat, *pillars, (2, "x", 0), (2, "y", 0)]
+
+
+def test_correlations_are_those_of_pillars_with_sides(study):
+    for table, schema in (("correlation", CORRELATION), ("correlation_length", CORRELATION_LENGTH)):
+        found = pq.read_table(study / f"results/tables/{table}.parquet")
+        assert found.schema.names == schema.names
+        assert {(row["n_p"], row["side"]) for row in found.to_pylist()} == {(6, "x"), (6, "y")}
+        assert set(found["realisations"].to_pylist()) == {3}
 
 
 def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
     files = sorted((study / "results").rglob("*.parquet"))
-    assert len(files) == 6
+    assert len(files) == 13  # 7 batches, 4 tables, and the correlations of one scene
     for file in files:
         schema = pq.read_schema(file)
         assert {b"code_version", b"configuration_digest"} <= set(schema.metadata)
@@ -109,7 +122,7 @@ def test_batches_hold_the_curves_that_the_figures_draw(study):
 
 
 def test_each_job_leaves_a_log_and_a_benchmark(study):
-    jobs = {"compile", "aggregate", *FIGURES}
+    jobs = {"compile", "aggregate", "correlation", "correlation_length", "claims", *FIGURES}
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
         files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
         assert files == jobs
@@ -121,7 +134,7 @@ def test_a_finished_study_has_nothing_to_do(study):
 
 @pytest.mark.parametrize("edited", ["src/springblock/solver/leapfrog.py"], indirect=True)
 def test_an_edited_solver_runs_the_simulations_again(study, edited):
-    assert planned(study)["simulate"] == 5
+    assert planned(study)["simulate"] == 7
 
 
 @pytest.mark.parametrize("edited", ["src/springblock/figures/figure_3.py"], indirect=True)
@@ -136,24 +149,39 @@ def test_an_edited_text_runs_nothing_again(study, edited):
 
 @pytest.mark.parametrize(
     ("figure", "preludes", "simulations"),
-    [("figure_3", 1, 1), ("figure_5", 1, 1), ("figure_6", 2, 3), ("figure_9", 2, 2)],
+    [("figure_3", 1, 1), ("figure_5", 1, 1), ("figure_6", 3, 5), ("figure_9", 2, 2)],
 )
 def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simulations):
     jobs = planned(study, "--config", "results=elsewhere", "--", figure)
     assert jobs == {"compile": 1, "prelude": preludes, "simulate": simulations, figure: 1}
 
 
+def test_figure_7_needs_only_pillars_with_sides(study):
+    jobs = planned(study, "--config", "results=elsewhere", "--", "figure_7")
+    assert jobs == {"compile": 1, "prelude": 1, "simulate": 2, "correlation": 1, "figure_7": 1}
+
+
+def test_the_quick_study_leaves_the_optional_groups_out(study):
+    jobs = planned(study, configuration=("config/quick.yaml",))
+    assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
+
+
 def test_a_changed_constant_runs_the_simulations_again(study):
     material = dict(Material().items()) | {"gamma": 4e3}
     (study / "damped.yaml").write_text(yaml.safe_dump({"material": material}))
-    assert planned(study, configuration=("tiny.yaml", "damped.yaml"))["simulate"] == 5
+    assert planned(study, configuration=("tiny.yaml", "damped.yaml"))["simulate"] == 7
 
 
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
         ({"stepp": 1e-8}, "unknown key 'stepp'"),
-        ({"scenes": {"pillars": {"n_p": [5]}}}, r"scenes.pillars.*5 \+ 5 = 10 must divide N = 12"),
+        ({"scenes": {"pillars": {"seeds": [2]}}}, "pillars: seeds lists 1 numbers for 2 values"),
+        ({"scenes": {"pillars": {"n_p": [5, 5]}}}, "scenes.pillars.n_p.*non-unique"),
+        (
+            {"scenes": {"pillars": {"n_p": [5, 6]}}},
+            r"scenes.pillars.*5 \+ 5 = 10 must divide N = 12",
+        ),
         ({"scenes": {"flat": {"seeds": "many"}}}, "scenes.flat.seeds.*'many'.*integer"),
         ({"step": 1e-6}, "step = 1e-06 s is unstable"),
         ({"sample_interval": 2.5e-8}, "sample_interval must be a multiple of step"),

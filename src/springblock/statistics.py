@@ -28,6 +28,18 @@ class Interval(NamedTuple):
     high: Array
 
 
+def bootstrap_weights(k: int, seed: int = 0, resamples: int = 1000) -> Array:
+    """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1."""
+    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
+    return drawn / k
+
+
+def limits(resampled: Array) -> tuple[Array, Array]:
+    """Limits of the 95 % percentile interval, (...), of resampled values, (resamples, ...)."""
+    low, high = np.percentile(resampled, _INTERVAL, axis=0)
+    return low, high
+
+
 def mean_interval(values: ArrayLike, seed: int = 0, resamples: int = 1000) -> Interval:
     """Mean over k realisations, (k, ...), with its 95 % bootstrap percentile interval, (...).
 
@@ -39,9 +51,8 @@ def mean_interval(values: ArrayLike, seed: int = 0, resamples: int = 1000) -> In
     mean = values.mean(axis=0)
     if k == 1:
         return Interval(mean, np.full(shape, np.nan), np.full(shape, np.nan))
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
-    means = (drawn / k) @ values.reshape(k, -1)
-    low, high = np.percentile(means, _INTERVAL, axis=0)
+    means = bootstrap_weights(k, seed, resamples) @ values.reshape(k, -1)
+    low, high = limits(means)
     return Interval(mean, low.reshape(shape), high.reshape(shape))
 
 

@@ -4,16 +4,21 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 import jsonschema
 
 from springblock.material import Material
 from springblock.realisation import check_times
-from springblock.scene import Scene
+from springblock.scene import LENGTHS, Scene
 
 Configuration = Mapping[str, Any]
+
+#: Groups that figures are drawn from, and the level of their scenes.
+_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+#: Realisations below which a correlation has no interval.
+_CORRELATED = 3
 
 
 @dataclass(frozen=True)
@@ -52,17 +57,31 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     for group, members in ensembles(configuration).items():
         for ensemble in members:
             try:
-                _ = ensemble.scene.pattern
+                _check_ensemble(ensemble, group, times[2])
             except ValueError as reason:
                 raise ValueError(f"scenes.{group}: {reason}") from reason
-            if ensemble.duration is not None and ensemble.duration < times[2]:
-                raise ValueError(
-                    f"scenes.{group}.duration is {ensemble.duration!r} s, "
-                    f"less than one sample_interval of {times[2]!r} s"
-                )
-    shown = configuration["figures"]["figure_5"]["n_p"]
-    if shown not in configuration["scenes"]["pillars"]["n_p"]:
-        raise ValueError(f"figures.figure_5.n_p is {shown}, which scenes.pillars.n_p does not hold")
+    for figure in ("figure_5", "figure_7"):
+        shown = configuration["figures"][figure]["n_p"]
+        if shown not in configuration["scenes"]["pillars"]["n_p"]:
+            raise ValueError(
+                f"figures.{figure}.n_p is {shown}, which scenes.pillars.n_p does not hold"
+            )
+
+
+def _check_ensemble(ensemble: Ensemble, group: str, sample_interval: float) -> None:
+    scene = ensemble.scene
+    _ = scene.pattern
+    if scene.level != _LEVELS.get(group, scene.level):
+        raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
+    if ensemble.duration is not None and ensemble.duration < sample_interval:
+        raise ValueError(
+            f"duration is {ensemble.duration!r} s, "
+            f"less than one sample_interval of {sample_interval!r} s"
+        )
+    if scene.sides and len(ensemble.seeds) < _CORRELATED:
+        raise ValueError(
+            f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
+        )
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:
@@ -78,26 +97,47 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 
 
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
-    """Expand each group of scenes into its grid, by the group's name."""
+    """Expand each group of scenes into its grid, by the group's name.
+
+    A scene that several of them hold is one ensemble, with the largest number of seeds.
+
+    Raises
+    ------
+    ValueError
+        With the name of the group, where its lists do not fit together.
+    """
+    groups: dict[str, list[Ensemble]] = {}
+    largest: dict[Scene, Ensemble] = {}
+    for group, grid in configuration["scenes"].items():
+        try:
+            groups[group] = list(_expand(configuration, grid)) if grid else []
+        except ValueError as reason:
+            raise ValueError(f"scenes.{group}: {reason}") from reason
+    for ensemble in chain(*groups.values()):
+        scene = ensemble.scene
+        known = largest.setdefault(scene, ensemble)
+        if known.duration != ensemble.duration:
+            raise ValueError(f"scenes: {scene.folder} is given two durations")
+        largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
     return {
-        group: list(_expand(configuration, grid)) for group, grid in configuration["scenes"].items()
+        group: list(dict.fromkeys(largest[ensemble.scene] for ensemble in members))
+        for group, members in groups.items()
     }
 
 
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
     first = configuration["first_seed"]
-    seeds = range(first, first + grid["seeds"])
-    lengths = [_values(grid, key) for key in ("n_p", "n_s", "n_p2", "n_s2")]
     sizes = grid.get("n_blocks", [configuration["n_blocks"]])
-    for n, n_p, n_s, n_p2, n_s2, direction in product(sizes, *lengths, grid["direction"]):
-        spacing = {"n_p": n_p, "n_p/2": n_p // 2}.get(n_s, n_s)
-        scene = Scene(n, n_p, spacing, n_p2, n_s2, str(direction))
-        yield Ensemble(scene, seeds, grid.get("duration"))
-
-
-def _values(grid: Mapping[str, Any], key: str) -> list[Any]:
-    """Values of one axis of the grid; a flat surface has no lengths."""
-    return grid.get(key, [0])
+    n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
+    counts = grid["seeds"] if isinstance(grid["seeds"], list) else [grid["seeds"]] * len(n_p)
+    if len(counts) != len(n_p):
+        raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
+    pillars = zip(n_p, counts, strict=True)
+    directions = map(str, grid["direction"])
+    for n, (size, count), gap, *rest in product(sizes, pillars, n_s, *deeper, directions):
+        spacing = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(gap, gap)
+        scene = Scene(n, size, spacing, *rest)
+        yield Ensemble(scene, range(first, first + count), grid.get("duration"))
 
 
 def configuration_digest(configuration: Configuration) -> str:

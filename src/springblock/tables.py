@@ -22,16 +22,25 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
     return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
 
 
-#: One row per realisation; t_* and *_friction in the paper's names.
-SUMMARY = pa.schema(
+#: What tells one scene from another.
+SCENE = pa.schema(
     [
-        column("level", pa.int8(), "1", "levels of the pattern: 0 flat, 1 pillars, 2 grooved"),
+        column("level", pa.int8(), "1", "levels: 0 flat, 1 pillars, 2 strips, 3 strips cut across"),
         column("n_p", pa.int32(), "blocks", "side of a pillar; 0 on a flat surface"),
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 on a flat surface"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove, along x; 0 without grooves"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove along x; 0 without grooves"),
+        column("n_p3", pa.int32(), "blocks", "length of a pawl; 0 where nothing cuts it"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove along y; 0 where there is none"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
         column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+    ]
+)
+
+#: One row per realisation; t_* and *_friction in the paper's names.
+SUMMARY = pa.schema(
+    [
+        *SCENE,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
         column(
@@ -46,6 +55,56 @@ SUMMARY = pa.schema(
         column("t_first", pa.float64(), "s", "time of the first detachment of all"),
         column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
         column("steps", pa.int64(), "1", "integration steps"),
+    ]
+)
+
+_SIDE = [
+    *SCENE,
+    column("side", pa.string(), "x or y", "axis along which the sides of the pillars run"),
+    column("realisations", pa.int32(), "1", "realisations k that are averaged over"),
+]
+
+#: One row per scene, side and distance.
+CORRELATION = pa.schema(
+    [
+        *_SIDE,
+        column("r", pa.int32(), "blocks", "distance along the side from its middle"),
+        column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
+        column("ci_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "1", "upper limit"),
+        column("bias", pa.float64(), "1", "jackknife estimate of its bias; not subtracted"),
+        column("samples", pa.int32(), "1", "sides averaged over: realisations × pillars × 2"),
+    ]
+)
+
+#: One row per scene and side; lengths of 0.1 stand for no correlation.
+CORRELATION_LENGTH = pa.schema(
+    [
+        *_SIDE,
+        column("l_c", pa.float64(), "blocks", "weighted least-squares fit of exp(-r/l_c)"),
+        column("ci_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "blocks", "upper limit"),
+        column("bias", pa.float64(), "blocks", "jackknife estimate of its bias; not subtracted"),
+        column(
+            "r_last",
+            pa.int32(),
+            "blocks",
+            "end of the fit, which begins at r = 1: the first r where the interval of c(r) "
+            "holds 0, at most n_p/3",
+        ),
+        column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
+        column("integral", pa.float64(), "blocks", "length with the same sum of exp(-r/l) as c(r)"),
+        column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("integral_high", pa.float64(), "blocks", "upper limit"),
+        column("tail", pa.float64(), "blocks", "length in A exp(-r/l), A free; NaN if r_last < 3"),
+        column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("tail_high", pa.float64(), "blocks", "upper limit"),
+        column(
+            "design_effect",
+            pa.float64(),
+            "1",
+            "variance of c(r) over that if the pillars of a realisation were independent",
+        ),
     ]
 )
 

@@ -12,7 +12,7 @@ STATIC, DYNAMIC = 1.0, 0.6
 @njit(error_model="numpy")  # as in the integrators: dividing by zero is no error there
 def after(w, v, f, static=STATIC, dynamic=DYNAMIC):
     """Velocity that friction leaves of the trial velocity w, after v and under F_mot = f."""
-    left = coulomb(w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)
+    left, _, _, _ = coulomb(w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)
     return left * w[0], left * w[1]
 
 

@@ -1,22 +1,19 @@
 # What becomes of the paper's statements.
 
 #: Tables that statements rest on beside the realisations, by the option that takes them.
-CLAIM_TABLES = {
-    "correlation": f"{RESULTS}/tables/correlation.parquet",
-    "correlation-length": f"{RESULTS}/tables/correlation_length.parquet",
-} | ({"precision": rules.work_precision.output.table} if config["accuracy"] else {})
+CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
+if config["accuracy"]:
+    CLAIM_TABLES["precision"] = rules.work_precision.output.table
 
 
 rule claims:
     input:
         *CLAIM_TABLES.values(),
         table=rules.aggregate.output,
-        batches=realisations(
-            *(
-                group
-                for group in ("flat", "pillars", "grooves", "third_level")
-                if group in ENSEMBLES
-            )
+        batches=batches(
+            ensemble
+            for group in ("flat", "pillars", "grooves", "third_level")
+            for ensemble in ENSEMBLES.get(group, [])
         ),
     output:
         table=f"{RESULTS}/tables/claims.parquet",

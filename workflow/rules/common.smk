@@ -15,7 +15,10 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
-FIGURES = [f"figure_{number}" for number in (1, 2, 3, 4, 5, 6, 8, 9)]
+FIGURES = [f"figure_{number}" for number in range(1, 10)]
+CORRELATIONS = expand(
+    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
+)
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
@@ -24,10 +27,10 @@ SPRINGBLOCK = f"{sys.executable} -m springblock"
 
 
 def batches(ensembles):
-    """Files that hold the realisations of these ensembles."""
+    """Files that hold the realisations of these ensembles, each once."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
-        for ensemble in ensembles
+        for ensemble in dict.fromkeys(ensembles)
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
 
@@ -43,6 +46,12 @@ def one_for_each(key, group):
     for ensemble in ENSEMBLES[group]:
         first.setdefault(getattr(ensemble.scene, key), ensemble)
     return first
+
+
+def correlations(table, ensembles):
+    """Files that hold a table of correlations for each of these ensembles that has sides."""
+    scenes = [ensemble.scene for ensemble in ensembles if ensemble.scene.sides]
+    return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
 
 
 def figure_files(name):

@@ -9,6 +9,10 @@ def pattern_options(figure):
     return Scene(config["n_blocks"], **lengths).arguments
 
 
+#: The first ensemble of pillars of each size.
+SIZES = one_for_each("n_p", "pillars")
+
+
 rule figure_1:
     output:
         pdf=f"{RESULTS}/figures/figure_1.pdf",
@@ -112,7 +116,7 @@ rule figure_4:
 
 rule figure_5:
     input:
-        batches([one_for_each("n_p", "pillars")[config["figures"]["figure_5"]["n_p"]]]),
+        batches([SIZES[config["figures"]["figure_5"]["n_p"]]]),
     output:
         pdf=f"{RESULTS}/figures/figure_5.pdf",
         png=report(
@@ -139,7 +143,7 @@ rule figure_5:
 rule figure_6:
     input:
         batches(one_for_each("n_p", "flat").values()),
-        batches(one_for_each("n_p", "pillars").values()),
+        batches(SIZES.values()),
     output:
         pdf=f"{RESULTS}/figures/figure_6.pdf",
         png=report(
@@ -161,6 +165,34 @@ rule figure_6:
         "Drawing figure 6: force and detachments on pillars"
     shell:
         "{SPRINGBLOCK} figure_6 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+
+
+rule figure_7:
+    input:
+        correlation=correlations("correlation", [SIZES[config["figures"]["figure_7"]["n_p"]]]),
+        lengths=correlations("correlation_length", SIZES.values()),
+    output:
+        pdf=f"{RESULTS}/figures/figure_7.pdf",
+        png=report(
+            f"{RESULTS}/figures/figure_7.png",
+            caption="../report/figure_7.rst",
+            category="Figures",
+            labels={"figure": "7", "shows": "Correlation of detachments on pillars"},
+        ),
+    log:
+        f"{RESULTS}/logs/figure_7.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/figure_7.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=figure_code("figure_7"),
+    message:
+        "Drawing figure 7: correlation of detachment times on pillars"
+    shell:
+        "{SPRINGBLOCK} figure_7 {input.correlation} {input.lengths} "
+        "--output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_8:

@@ -7,6 +7,11 @@ def duration(wildcards):
     return "" if seconds is None else f"--duration {seconds}"
 
 
+def memory(wildcards):
+    """MB, measured with a margin: a part that is always there and one for the lattice."""
+    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
+
+
 #: How every scene is computed, as options of the command line.
 HOW = " ".join(
     [
@@ -49,7 +54,7 @@ rule prelude:
     benchmark:
         f"{RESULTS}/benchmarks/{{scene}}/prelude.tsv"
     resources:
-        mem_mb=400,
+        mem_mb=memory,
         runtime=10,
     params:
         code=sources.digest("springblock.commands.simulate"),
@@ -74,7 +79,7 @@ rule simulate:
         first=r"\d+",
         last=r"\d+",
     resources:
-        mem_mb=500,
+        mem_mb=memory,
         runtime=30,
     params:
         code=sources.digest("springblock.commands.simulate"),

@@ -7,11 +7,12 @@ import pyarrow as pa
 
 from springblock.accuracy import suspects
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
+from springblock.scene import LENGTHS
 from springblock.sources import code_version
 from springblock.tables import SUMMARY, read, write
 
-#: What tells one scene from another.
-SCENE = ["n_blocks", "level", "n_p", "n_s", "n_p2", "n_s2", "direction"]
+#: What tells one scene from another, in the order of the table.
+SCENE = ["n_blocks", "level", *LENGTHS, "direction"]
 
 
 @click.command("aggregate")

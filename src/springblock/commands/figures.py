@@ -15,7 +15,14 @@ from springblock.commands.options import INPUT, OUTPUT, one_sentence, scene_opti
 from springblock.figures.style import save
 from springblock.pattern import Pattern
 from springblock.scene import Scene
-from springblock.tables import Record, read_frame, read_records
+from springblock.tables import (
+    CORRELATION,
+    CORRELATION_LENGTH,
+    Record,
+    read,
+    read_frame,
+    read_records,
+)
 
 _outputs = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -98,6 +105,22 @@ def figure_5(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
 def figure_6(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
     """Draw force and detachments for each size of pillars in BATCHES."""
     _draw("figure_6", outputs, lambda: (_ensembles(batches, "n_p"),))
+
+
+@click.command("figure_7")
+@click.argument("correlation", type=INPUT)
+@click.argument("lengths", type=INPUT, nargs=-1, required=True)
+@_outputs
+def figure_7(correlation: Path, lengths: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw the CORRELATION of one scene, and the LENGTHS of pillars of all sizes."""
+    _draw(
+        "figure_7",
+        outputs,
+        lambda: (
+            read([correlation], CORRELATION).to_pandas(),
+            read(lengths, CORRELATION_LENGTH).to_pandas(),
+        ),
+    )
 
 
 @click.command("figure_8")

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from springblock.scene import Scene
+from springblock.scene import LENGTHS, Scene
 
 OUTPUT = click.Path(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
@@ -19,7 +19,9 @@ _SCENE = [
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
     click.option("--n-s", type=int, default=0, help="Distance between them, blocks."),
     click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
-    click.option("--n-s2", type=int, default=0, help="Width of the grooves, blocks."),
+    click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
+    click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
+    click.option("--n-s3", type=int, default=0, help="Width of the grooves along y, blocks."),
     click.option("--direction", default="x", show_default=True, help="x, y or degrees."),
 ]
 
@@ -29,8 +31,10 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_scene(*, n_blocks: int, direction: str, **options: Any) -> Any:
-        lengths = {key: options.pop(key) for key in ("n_p", "n_s", "n_p2", "n_s2")}
-        return command(scene=Scene(n_blocks, direction=direction, **lengths), **options)
+        lengths = {key: options.pop(key) for key in LENGTHS}
+        with one_sentence():
+            scene = Scene(n_blocks, direction=direction, **lengths)
+        return command(scene=scene, **options)
 
     return with_options(_SCENE, with_scene)
 

@@ -5,6 +5,8 @@ import sysconfig
 from pathlib import Path
 
 import numba
+from numba import types
+from numba.extending import intrinsic
 
 from springblock.sources import digest
 
@@ -24,5 +26,15 @@ numba.config.CACHE_DIR = str(
 #: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.
 JIT = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}}
 
-#: For plain sums over a row, which only vectorise when they may be reordered.
-JIT_SUM = {**JIT, "fastmath": {"contract", "nsz", "reassoc"}}
+
+@intrinsic
+def add(typingctx, total, term):
+    """Return total + term, for sums whose order the compiler may choose.
+
+    A loop that ends in such sums can be vectorised without leave to reorder anything else.
+    """
+
+    def generate(context, builder, signature, arguments):
+        return builder.fadd(*arguments, flags=("reassoc", "nsz"))
+
+    return types.float64(types.float64, types.float64), generate

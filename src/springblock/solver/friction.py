@@ -14,6 +14,8 @@ from numba import njit
 def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     """Return the share of the trial velocity w that friction leaves, 0 for a block at rest.
 
+    And whether the block was at rest at an instant of this step.
+
     w is the velocity after a step under all forces but friction, v the one before, and f the
     velocity that F_mot alone would add; `static` and `dynamic` are what mu_s F_n and mu_d F_n
     would take away. Two cases end in rest:
@@ -25,8 +27,8 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     A block at rest therefore needs more than both coefficients to move: one with
     mu_s < mu_d lets go at mu_d, once, without a flicker.
     """
-    speed2 = wx * wx + wy * wy
-    turned = wx * vx + wy * vy <= 0.0
-    held = turned & (fx * fx + fy * fy <= static * static)
+    speed2, along = wx * wx + wy * wy, wx * vx + wy * vy
+    held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)
+    slides = (speed2 > dynamic * dynamic) & (not held)
     left = 1.0 - dynamic / math.sqrt(speed2)
-    return left if (speed2 > dynamic * dynamic) & (not held) else 0.0
+    return (left if slides else 0.0), slides, along, speed2

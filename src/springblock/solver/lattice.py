@@ -12,8 +12,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.material import Material
-from springblock.solver.compilation import JIT_SUM
-from springblock.solver.springs import ONE, SCRATCH_SIZE, coefficients
+from springblock.solver.compilation import JIT, add
+from springblock.solver.springs import ONE, SCRATCH_SIZE, band_rows, coefficients
 
 Array = NDArray[np.float64]
 
@@ -44,6 +44,7 @@ class Constants(NamedTuple):
 
     n: np.uint64  #: N
     pitch: np.uint64
+    band: np.uint64  #: rows of a band, see `springs`
     kappa: float  #: K_int l
     axial: tuple[float, ...]  #: polynomials of the springs
     diagonal: tuple[float, ...]
@@ -119,6 +120,7 @@ def prepare(
     constants = Constants(
         n=np.uint64(n),
         pitch=np.uint64(pitch),
+        band=np.uint64(band_rows(n)),
         kappa=kappa,
         axial=axial,
         diagonal=diagonal,
@@ -135,25 +137,35 @@ def unpadded(field: Array, n: int) -> Array:
     return field.reshape(n, -1)[:, 1 : n + 1]
 
 
-@njit(**JIT_SUM)
+@njit(**JIT)
 def total_displacement(ux, uy, pitch, n):
     """Sum the displacement of all blocks."""
     sum_x, sum_y = 0.0, 0.0
     for row in range(n):
         for x in range(ONE, n + ONE):
-            sum_x += ux[row * pitch + x]
-            sum_y += uy[row * pitch + x]
+            sum_x = add(sum_x, ux[row * pitch + x])
+            sum_y = add(sum_y, uy[row * pitch + x])
     return sum_x, sum_y
 
 
-@njit(**JIT_SUM)
-def row_sums(ux, uy, wx, wy, scratch, i, heat, n):
-    """Sum displacement, friction's heat (a row of scratch) and squared velocity over one row."""
-    sum_x, sum_y, sum_heat, squares = 0.0, 0.0, 0.0, 0.0
-    for x in range(ONE, n + ONE):
-        b = i + x
-        sum_x += ux[b]
-        sum_y += uy[b]
-        sum_heat += scratch[heat + x]
-        squares += wx[b] * wx[b] + wy[b] * wy[b]
-    return sum_x, sum_y, sum_heat, squares
+@njit(inline="always")
+def close_edge(ux, uy, i, n):
+    """Let the spring across the eastern edge of a row be free of strain."""
+    ux[i + n + ONE] = ux[i + n]
+    uy[i + n + ONE] = uy[i + n]
+
+
+@njit(**JIT)
+def book(ledger, constants, k, totals):
+    """Enter step k into the ledger; return the slider's force at the end of the step.
+
+    `totals` are the sums of displacement, friction's heat and squared velocity.
+    """
+    total_x, total_y, heat, squares = totals
+    blocks = constants.n * constants.n
+    force_x = constants.k_s * (blocks * constants.slider_x * (k + 1) - total_x)
+    force_y = constants.k_s * (blocks * constants.slider_y * (k + 1) - total_y)
+    ledger[0] += force_x * constants.slider_x + force_y * constants.slider_y
+    ledger[1] += heat
+    ledger[2] += squares
+    return force_x, force_y

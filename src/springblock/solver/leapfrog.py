@@ -10,21 +10,18 @@ import math
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
-from springblock.solver.lattice import Array, Constants, Samples, State, row_sums
-from springblock.solver.springs import (
-    BANK,
-    FIRST_BANK,
-    HEAT,
-    ONE,
-    clear_bank,
-    spring_force,
-    spring_row,
-)
+from springblock.solver.lattice import Array, Constants, Samples, State, book, close_edge
+from springblock.solver.springs import ONE, U, slot, spring_band, spring_force
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
+
+#: How much earlier than computed a row is woken, against rounding.
+_SLACK = 1e-9
+#: Steps, more than any run has.
+_FOREVER = 1e15
 
 
 def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
@@ -54,39 +51,79 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 @njit(**JIT)
-def _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, now):
-    """Kick and drift one row; returns how many blocks went from rest to sliding."""
-    ux, uy, wx, wy, static, dynamic, t_det = blocks
-    switches = np.int64(0)
-    for x in range(ONE, n + ONE):
-        b = i + x
-        fx, fy = spring_force(s, x, north, south)
-        fx += k_s * (sx - ux[b])
-        fy += k_s * (sy - uy[b])
-        vx, vy = wx[b], wy[b]
-        trial_x, trial_y = a * vx + fx, a * vy + fy
-        left = coulomb(trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b])
-        new_x, new_y = left * trial_x, left * trial_y
-        wx[b] = new_x
-        wy[b] = new_y
-        ux[b] += new_x
-        uy[b] += new_y
-        # Friction's work: the momentum that it takes, times the mean of the velocities around.
-        taken = 0.5 * (1.0 - left)
-        s[HEAT + x] = taken * (trial_x * (vx + new_x) + trial_y * (vy + new_y))
-        slides = (left > 0.0) & (static[b] > 0.0)
-        was_at_rest = (vx == 0.0) & (vy == 0.0)
-        switches += np.int64(slides & was_at_rest)
-        if peak is not None:
-            peak[b] = max(peak[b], fx * fx + fy * fy)
-    if switches > 0:
-        _note_detachments(wx, wy, static, t_det, i, n, now)
-    return switches
+def _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, stop):
+    """Kick and drift those rows of [start, stop) that are awake and hold blocks in contact."""
+    ux, uy, wx, wy, static, dynamic, _ = blocks
+    n, pitch, band = size
+    in_contact, awake, _, sliding, switching, sums = rows
+    for row in range(start, stop):
+        if not (in_contact[row] and awake[row]):
+            continue
+        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        slide, switch = np.int64(0), np.int64(0)
+        sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
+        for x in range(ONE, n + ONE):
+            b = i + x
+            fx, fy = spring_force(s, own + x, south + x)
+            fx += k_s * (sx - ux[b])
+            fy += k_s * (sy - uy[b])
+            vx, vy = wx[b], wy[b]
+            trial_x, trial_y = a * vx + fx, a * vy + fy
+            left, slides, along, speed2 = coulomb(
+                trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b]
+            )
+            new_x, new_y = left * trial_x, left * trial_y
+            there_x, there_y = ux[b] + new_x, uy[b] + new_y
+            wx[b] = new_x
+            wy[b] = new_y
+            ux[b] = there_x
+            uy[b] = there_y
+            slide += np.int64(slides)
+            switch += np.int64(slides & (along <= 0.0) & (static[b] > 0.0))
+            sum_x = add(sum_x, there_x)
+            sum_y = add(sum_y, there_y)
+            # Friction's work: the momentum that it takes, times the mean of the velocities around.
+            kept = left * speed2
+            heat = add(heat, (1.0 - left) * (along + kept))
+            squares = add(squares, left * kept)
+            if peak is not None:
+                peak[b] = max(peak[b], fx * fx + fy * fy)
+        sliding[row + ONE], switching[row] = slide, switch
+        sums[0, row], sums[1, row], sums[2, row], sums[3, row] = sum_x, sum_y, 0.5 * heat, squares
 
 
 @njit(**JIT)
-def _note_detachments(wx, wy, static, t_det, i, n, now):
+def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
+    """As `_move_rows_in_contact` for the other rows, which are always awake; to the bit."""
+    ux, uy, wx, wy = blocks[:4]
+    n, pitch, band = size
+    in_contact, sums = rows[0], rows[5]
+    for row in range(start, stop):
+        if in_contact[row]:
+            continue
+        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        sum_x, sum_y, squares = 0.0, 0.0, 0.0
+        for x in range(ONE, n + ONE):
+            b = i + x
+            fx, fy = spring_force(s, own + x, south + x)
+            fx += k_s * (sx - ux[b])
+            fy += k_s * (sy - uy[b])
+            new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
+            there_x, there_y = ux[b] + new_x, uy[b] + new_y
+            wx[b] = new_x
+            wy[b] = new_y
+            ux[b] = there_x
+            uy[b] = there_y
+            sum_x = add(sum_x, there_x)
+            sum_y = add(sum_y, there_y)
+            squares = add(squares, new_x * new_x + new_y * new_y)
+        sums[0, row], sums[1, row], sums[3, row] = sum_x, sum_y, squares
+
+
+@njit(**JIT)
+def _note_detachments(blocks, i, n, now):
     """Note the time for blocks of one row that slide and have not done so before."""
+    _, _, wx, wy, static, _, t_det = blocks
     for x in range(ONE, n + ONE):
         b = i + x
         slides = ((wx[b] != 0.0) | (wy[b] != 0.0)) & (static[b] > 0.0)
@@ -95,19 +132,71 @@ def _note_detachments(wx, wy, static, t_det, i, n, now):
 
 
 @njit(**JIT)
-def _move_free_row(ux, uy, wx, wy, s, north, south, i, n, a, k_s, sx, sy):
-    """As `_move_row` for a row without contact, to the bit."""
+def _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull):
+    """Steps for which a row at rest among rows at rest is sure to stay there.
+
+    As long as nothing moves, only the slider changes F_mot of a block, by `pull` per step.
+    """
+    ux, uy, _, _, static, _, _ = blocks
+    least = np.inf
     for x in range(ONE, n + ONE):
         b = i + x
-        fx, fy = spring_force(s, x, north, south)
+        fx, fy = spring_force(s, own + x, south + x)
         fx += k_s * (sx - ux[b])
         fy += k_s * (sy - uy[b])
-        new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
-        wx[b] = new_x
-        wy[b] = new_y
-        ux[b] += new_x
-        uy[b] += new_y
-        s[HEAT + x] = 0.0
+        least = min(least, static[b] - math.sqrt(fx * fx + fy * fy))
+    return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
+
+
+@njit(**JIT)
+def _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, now):
+    """See to what rows of [start, stop) have done; return their switches from rest to sliding."""
+    n, pitch, band = size
+    in_contact, awake, wake, sliding, switching, _ = rows
+    switches = np.int64(0)
+    for row in range(start, stop):
+        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        if in_contact[row] and awake[row]:
+            switches += switching[row]
+            if switching[row] > 0:
+                _note_detachments(blocks, i, n, now)
+            elif sliding[row + ONE] == 0 and wake[row] <= now:
+                wake[row] = now + _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull)
+        close_edge(blocks[0], blocks[1], i, n)
+    return switches
+
+
+@njit(**JIT)
+def _wake_rows(rows, now):
+    """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
+    _, awake, wake, sliding, _, _ = rows
+    for row in range(len(wake)):
+        disturbed = sliding[row] + sliding[row + 1] + sliding[row + 2] > 0
+        if disturbed:
+            wake[row] = now + 1  # and look again when all is at rest
+        awake[row] = disturbed or wake[row] <= now
+
+
+@njit(**JIT)
+def _row_books(in_contact, n):
+    """What is kept of each row, see `advance`: as if every one of them moved."""
+    awake, wake = np.ones(n + 1, np.bool_), np.zeros(n, np.int64)
+    awake[n] = False
+    sliding = np.ones(n + 2, np.int64)
+    sliding[0] = sliding[n + 1] = 0
+    return in_contact, awake, wake, sliding, np.zeros(n, np.int64), np.zeros((4, n))
+
+
+@njit(**JIT)
+def _totals(sums):
+    """Sum over rows, in their order."""
+    x, y, heat, squares = 0.0, 0.0, 0.0, 0.0
+    for row in range(sums.shape[1]):
+        x += sums[0, row]
+        y += sums[1, row]
+        heat += sums[2, row]
+        squares += sums[3, row]
+    return x, y, heat, squares
 
 
 @njit(**JIT)
@@ -115,42 +204,34 @@ def advance(state, constants, first, steps, every, samples):
     """Take `steps` steps from step `first`; returns (steps taken, row, column).
 
     The row is -1 if all went well, else that of the spring which no longer holds.
+
+    A row at rest among rows at rest is left alone until one of its blocks may let go, which
+    changes no bit. The books of all rows: whether they hold contact, whether they are awake and
+    when to wake them, how many blocks slide (with a row beyond each edge) and how many of them come
+    from rest, and the sums of displacement, friction's heat and squared velocity.
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak, in_contact = state
-    n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
-    blocks = (ux, uy, wx, wy, static, dynamic, t_det)
-    a = math.exp(-damping)
-    north, south = FIRST_BANK, FIRST_BANK + BANK
-    clear_bank(s, south, n)
+    n, pitch, band, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    blocks, size = (ux, uy, wx, wy, static, dynamic, t_det), (n, pitch, band)
+    a, pull = math.exp(-damping), k_s * math.hypot(slider_x, slider_y)
+    rows = _row_books(in_contact, np.int64(n))
+    awake, sums = rows[1], rows[5]
     switches, sample = 0, 0
     for k in range(first, first + steps):
         sx, sy = slider_x * k, slider_y * k
-        total_x, total_y, heat, squares = 0.0, 0.0, 0.0, 0.0
-        for row in range(n):
-            beyond = spring_row(ux, uy, row, pitch, n, s, north, kappa, axial, diagonal)
-            if beyond > 0:
-                return k - first, np.int64(row), np.int64(beyond) - 1
-            i = row * pitch
-            if in_contact[row]:
-                switches += _move_row(blocks, peak, s, north, south, i, n, a, k_s, sx, sy, k)
-            else:
-                _move_free_row(ux, uy, wx, wy, s, north, south, i, n, a, k_s, sx, sy)
-            ux[i + n + ONE] = ux[i + n]
-            uy[i + n + ONE] = uy[i + n]
-            row_x, row_y, row_heat, row_squares = row_sums(ux, uy, wx, wy, s, i, HEAT, n)
-            total_x += row_x
-            total_y += row_y
-            heat += row_heat
-            squares += row_squares
-            north, south = south, north
-        force_x = k_s * (n * n * slider_x * (k + 1) - total_x)
-        force_y = k_s * (n * n * slider_y * (k + 1) - total_y)
-        ledger[0] += force_x * slider_x + force_y * slider_y
-        ledger[1] += heat
-        ledger[2] += squares
+        if peak is None:  # a prelude looks at every block in every step
+            _wake_rows(rows, k)
+        for start in range(U(0), n, band):
+            stop = min(start + band, n)
+            row, column = spring_band(ux, uy, start, stop, awake, size, s, kappa, axial, diagonal)
+            if column > 0:
+                return k - first, np.int64(row), np.int64(column) - 1
+            _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, stop)
+            _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop)
+            switches += _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, k)
+        force = book(ledger, constants, k, _totals(sums))
         if (k + 1) % every == 0:
-            samples.force_x[sample] = force_x
-            samples.force_y[sample] = force_y
+            samples.force_x[sample], samples.force_y[sample] = force
             samples.switches[sample] = switches
             switches, sample = 0, sample + 1
     return steps, np.int64(-1), np.int64(-1)

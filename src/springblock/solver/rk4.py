@@ -17,8 +17,8 @@ import numpy as np
 from numba import njit
 
 from springblock.solver.compilation import JIT
-from springblock.solver.lattice import Array, Constants, State, total_displacement
-from springblock.solver.springs import BANK, FIRST_BANK, ONE, clear_bank, spring_force, spring_row
+from springblock.solver.lattice import Array, Constants, State, book, close_edge, total_displacement
+from springblock.solver.springs import ONE, U, slot, spring_band, spring_force
 
 FORCE_EVALUATIONS = 4
 #: Lattice-sized fields in `State.work`: displacement and velocity of the stage, their weighted
@@ -61,7 +61,7 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _stage_row(blocks, peak, fields, stage, i, n, north, south, damping, k_s, sx, sy, now):
+def _stage_row(blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, sy, now):
     """One stage on one row; returns the switches from rest to sliding, and the squared speed."""
     ux, uy, wx, wy, t_det, static, dynamic, s = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
@@ -69,7 +69,7 @@ def _stage_row(blocks, peak, fields, stage, i, n, north, south, damping, k_s, sx
     switches, squares = 0, 0.0
     for x in range(ONE, n + ONE):
         b = i + x
-        fx, fy = spring_force(s, x, north, south)
+        fx, fy = spring_force(s, own + x, south + x)
         fx += k_s * (sx - su[b])
         fy += k_s * (sy - sv[b])
         if stage == 0:
@@ -122,13 +122,6 @@ def _finish_row(blocks, fields, i, n):
     return heat
 
 
-@njit(inline="always")
-def _close_edge(u, v, i, n):
-    """Let the spring across the eastern edge be free of strain."""
-    u[i + n + ONE] = u[i + n]
-    v[i + n + ONE] = v[i + n]
-
-
 @njit(**JIT)
 def advance(state, constants, first, steps, every, samples):
     """Take `steps` steps from step `first`; returns (steps taken, row, column).
@@ -136,43 +129,41 @@ def advance(state, constants, first, steps, every, samples):
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak, _ = state
-    n, pitch, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    n, pitch, band, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
     su, sv, pu, pv = fields[:4]
     su[:], sv[:], pu[:], pv[:] = ux, uy, wx, wy
-    north, south = FIRST_BANK, FIRST_BANK + BANK
+    size, every_row = (n, pitch, band), np.ones(n + ONE, np.bool_)
     switches, sample = 0, 0
-    clear_bank(s, south, n)
     for k in range(first, first + steps):
         heat, squares = 0.0, 0.0
         for stage in range(4):
             sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
-            for row in range(n):
-                beyond = spring_row(su, sv, row, pitch, n, s, north, kappa, axial, diagonal)
-                if beyond > 0:
-                    return k - first, np.int64(row), np.int64(beyond) - 1
-                i = row * pitch
-                row_switches, row_squares = _stage_row(
-                    blocks, peak, fields, stage, i, n, north, south, damping, k_s, sx, sy, k
+            for start in range(U(0), n, band):
+                stop = min(start + band, n)
+                row, column = spring_band(
+                    su, sv, start, stop, every_row, size, s, kappa, axial, diagonal
                 )
-                _close_edge(su, sv, i, n)
-                switches += row_switches
-                squares += row_squares
-                north, south = south, north
+                if column > 0:
+                    return k - first, np.int64(row), np.int64(column) - 1
+                for row in range(start, stop):
+                    own, south = slot(row, pitch, band), slot(row + band, pitch, band)
+                    i = row * pitch
+                    row_switches, row_squares = _stage_row(
+                        blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, sy, k
+                    )
+                    close_edge(su, sv, i, n)
+                    switches += row_switches
+                    squares += row_squares
         for row in range(n):
             heat += _finish_row(blocks, fields, row * pitch, n)
-            _close_edge(ux, uy, row * pitch, n)
-            _close_edge(su, sv, row * pitch, n)
+            close_edge(ux, uy, row * pitch, n)
+            close_edge(su, sv, row * pitch, n)
         total_x, total_y = total_displacement(ux, uy, pitch, n)
-        force_x = k_s * (n * n * slider_x * (k + 1) - total_x)
-        force_y = k_s * (n * n * slider_y * (k + 1) - total_y)
-        ledger[0] += force_x * slider_x + force_y * slider_y
-        ledger[1] += heat
-        ledger[2] += squares
+        force = book(ledger, constants, k, (total_x, total_y, heat, squares))
         if (k + 1) % every == 0:
-            samples.force_x[sample] = force_x
-            samples.force_y[sample] = force_y
+            samples.force_x[sample], samples.force_y[sample] = force
             samples.switches[sample] = switches
             switches, sample = 0, sample + 1
     return steps, np.int64(-1), np.int64(-1)

@@ -17,31 +17,39 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from springblock.solver.compilation import JIT
 
-#: |q| up to which the polynomial stands for g; its relative error there is below 2e-15.
-SERIES_RANGE = 1.0 / 16.0
-SERIES_DEGREE = 9
+Array = NDArray[np.float64]
+
+#: |q| up to which the polynomial stands for g; it is exact to rounding there.
+SERIES_RANGE = 1.0 / 32.0
+SERIES_DEGREE = 8
 
 #: A spring may shrink to half its rest length and grow to twice it: -3/4 < q < 3.
 Q_MIN, Q_MAX = -0.75, 3.0
 
-#: A lattice row may hold at most this many blocks: the rows of scratch lie this far apart.
-#: A constant, so that the compiler can see that the rows do not overlap, and no power of two,
-#: so that they do not compete for the same cache lines.
+#: A lattice row may hold at most this many blocks.
 MAX_BLOCKS = 4096
-PITCH = MAX_BLOCKS + 24
+#: Rows are worked on in bands of about this many blocks: all their springs, then all their
+#: blocks. Sums that read what was written an instant ago would have to wait for it.
+_BAND_BLOCKS = 256
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Rows of scratch. East springs belong to one row; those to the next row are kept for it, in two
-# banks that take turns.
-EAST_X, EAST_Y, HEAT = U(0), U(PITCH), U(2 * PITCH)
-NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y = (U(k * PITCH) for k in range(6))
-BANK = U(6 * PITCH)
-FIRST_BANK = U(3 * PITCH)
-SCRATCH_SIZE = 15 * PITCH
+# Fields of scratch: the springs of one band of rows and of the row below it. Their distance is a
+# constant, so that the compiler can see that they do not overlap, and no power of two, so that
+# they do not compete for the same cache lines.
+_FIELD = 2 * MAX_BLOCKS + 72
+EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y = (U(k * _FIELD) for k in range(8))
+_TO_NEXT_ROW = (NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y)
+SCRATCH_SIZE = 8 * _FIELD
+
+
+def band_rows(n: int) -> int:
+    """Rows of n blocks in one band."""
+    return min(n, 1 + (_BAND_BLOCKS - 1) // n)
 
 
 @register_jitable
@@ -50,10 +58,17 @@ def g(q):
     return 1.0 / ((1.0 + q) + np.sqrt(1.0 + q))
 
 
-def series() -> np.ndarray:
-    """Coefficients of g as a polynomial in q, lowest first (Chebyshev interpolation)."""
-    in_unit_range = chebyshev.chebinterpolate(lambda x: g(SERIES_RANGE * x), SERIES_DEGREE)
-    return chebyshev.cheb2poly(in_unit_range) / SERIES_RANGE ** np.arange(SERIES_DEGREE + 1)
+def _slope(q):
+    """Return (g(q) - 1/2)/q without cancellation."""
+    s = np.sqrt(1.0 + q)
+    return -(s + 2.0) / (2.0 * s * (s + 1.0) ** 2)
+
+
+def series() -> Array:
+    """Coefficients of g as a polynomial in q, lowest first; g(0) = 1/2 to the last bit."""
+    in_unit_range = chebyshev.chebinterpolate(lambda x: _slope(SERIES_RANGE * x), SERIES_DEGREE - 1)
+    rising = chebyshev.cheb2poly(in_unit_range) / SERIES_RANGE ** np.arange(SERIES_DEGREE)
+    return np.concatenate([[0.5], rising])
 
 
 def coefficients(kappa: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -70,50 +85,48 @@ def coefficients(kappa: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 @njit(inline="always")
 def _pull(p, c):
-    c0, c1, c2, c3, c4, c5, c6, c7, c8, c9 = c
-    upper = c5 + p * (c6 + p * (c7 + p * (c8 + p * c9)))
-    return p * (c0 + p * (c1 + p * (c2 + p * (c3 + p * (c4 + p * upper)))))
+    c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
+    upper = c4 + p * (c5 + p * (c6 + p * (c7 + p * c8)))
+    return p * (c0 + p * (c1 + p * (c2 + p * (c3 + p * upper))))
 
 
 @njit(**JIT)
-def _row_by_series(ux, uy, i, j, s, bank, axial, diagonal, n):
-    """Forces of the springs from row `i` east and to row `j`; the number of cells out of range."""
-    limit = (0.5 * SERIES_RANGE) ** 2
+def _row_by_series(ux, uy, i, j, s, own, axial, diagonal, n):
+    """Forces of the springs from row `i` east and to row `j`; the number of pairs out of range.
+
+    Axial and diagonal springs take turns: one loop over all four would hold more numbers than a
+    processor has registers for.
+    """
     outside = np.int64(0)
     for x in range(ONE, n + ONE):
         ax, ay = ux[i + x], uy[i + x]
-        bx, by = ux[i + x + ONE], uy[i + x + ONE]
-        cx, cy = ux[j + x], uy[j + x]
-
-        dx, dy = bx - ax, by - ay  # east
+        dx, dy = ux[i + x + ONE] - ax, uy[i + x + ONE] - ay  # east
         p = dx + 0.5 * (dx * dx + dy * dy)
         f = _pull(p, axial)
-        s[EAST_X + x] = f + f * dx
-        s[EAST_Y + x] = f * dy
+        s[EAST_X + own + x] = f + f * dx
+        s[EAST_Y + own + x] = f * dy
         pp = p * p
 
-        dx, dy = cx - ax, cy - ay  # north
+        dx, dy = ux[j + x] - ax, uy[j + x] - ay  # north
         p = dy + 0.5 * (dx * dx + dy * dy)
         f = _pull(p, axial)
-        s[bank + NORTH_X + x] = f * dx
-        s[bank + NORTH_Y + x] = f + f * dy
-        pp += p * p
-
-        dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay  # north-east
+        s[NORTH_X + own + x] = f * dx
+        s[NORTH_Y + own + x] = f + f * dy
+        outside += np.int64(not pp + p * p <= (0.5 * SERIES_RANGE) ** 2)
+    for x in range(ONE, n + ONE):
+        dx, dy = ux[j + x + ONE] - ux[i + x], uy[j + x + ONE] - uy[i + x]  # north-east
         p = (dy + dx) + 0.5 * (dx * dx + dy * dy)
         f = _pull(p, diagonal)
-        s[bank + NE_X + x] = f * dx + f
-        s[bank + NE_Y + x] = f + f * dy
-        pp += p * p
+        s[NE_X + own + x] = f * dx + f
+        s[NE_Y + own + x] = f + f * dy
+        pp = p * p
 
-        dx, dy = cx - bx, cy - by  # north-west, from the next block
-        p = (dy - dx) + 0.5 * (dx * dx + dy * dy)
+        dx, dy = ux[j + x] - ux[i + x + ONE], uy[j + x] - uy[i + x + ONE]  # north-west
+        p = (dy - dx) + 0.5 * (dx * dx + dy * dy)  # from the next block
         f = _pull(p, diagonal)
-        s[bank + NW_X + x] = f * dx - f
-        s[bank + NW_Y + x] = f + f * dy
-        pp += p * p
-
-        outside += np.int64(not pp <= limit)
+        s[NW_X + own + x] = f * dx - f
+        s[NW_Y + own + x] = f + f * dy
+        outside += np.int64(not pp + p * p <= SERIES_RANGE**2)
     return outside
 
 
@@ -123,7 +136,7 @@ def _is_whole(q):
 
 
 @njit(**JIT)
-def _row_by_closed_form(ux, uy, i, j, s, bank, kappa, n):
+def _row_by_closed_form(ux, uy, i, j, s, own, kappa, n):
     """As `_row_by_series` at any strain; returns the first x with a spring beyond all, or 0."""
     for x in range(ONE, n + ONE):
         ax, ay = ux[i + x], uy[i + x]
@@ -133,75 +146,89 @@ def _row_by_closed_form(ux, uy, i, j, s, bank, kappa, n):
         dx, dy = bx - ax, by - ay
         q_e = 2.0 * dx + (dx * dx + dy * dy)
         f = kappa * q_e * g(q_e)
-        s[EAST_X + x] = f + f * dx
-        s[EAST_Y + x] = f * dy
+        s[EAST_X + own + x] = f + f * dx
+        s[EAST_Y + own + x] = f * dy
 
         dx, dy = cx - ax, cy - ay
         q_n = 2.0 * dy + (dx * dx + dy * dy)
         f = kappa * q_n * g(q_n)
-        s[bank + NORTH_X + x] = f * dx
-        s[bank + NORTH_Y + x] = f + f * dy
+        s[NORTH_X + own + x] = f * dx
+        s[NORTH_Y + own + x] = f + f * dy
 
         dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
         q_ne = (dy + dx) + 0.5 * (dx * dx + dy * dy)
         f = 0.5 * kappa * q_ne * g(q_ne)
-        s[bank + NE_X + x] = f * dx + f
-        s[bank + NE_Y + x] = f + f * dy
+        s[NE_X + own + x] = f * dx + f
+        s[NE_Y + own + x] = f + f * dy
 
         dx, dy = cx - bx, cy - by
         q_nw = (dy - dx) + 0.5 * (dx * dx + dy * dy)
         f = 0.5 * kappa * q_nw * g(q_nw)
-        s[bank + NW_X + x] = f * dx - f
-        s[bank + NW_Y + x] = f + f * dy
+        s[NW_X + own + x] = f * dx - f
+        s[NW_Y + own + x] = f + f * dy
 
         if not (_is_whole(q_e) & _is_whole(q_n) & _is_whole(q_ne) & _is_whole(q_nw)):
             return x
     return U(0)
 
 
+@njit(inline="always")
+def slot(row, pitch, band):
+    """Return where the springs of `row` stand in scratch: a ring of a band and the row below."""
+    return row % (band + ONE) * pitch
+
+
 @njit(**JIT)
-def clear_bank(s, bank, n):
-    """Set the forces between two rows to zero: beyond the first and the last row there are none."""
-    for field in range(6):
+def _clear(s, own, n):
+    """Set the forces from a row to the next one to zero."""
+    for field in _TO_NEXT_ROW:
         for x in range(n + ONE):
-            s[bank + U(field) * U(PITCH) + x] = 0.0
+            s[field + own + x] = 0.0
 
 
 @njit(**JIT)
-def spring_row(ux, uy, row, pitch, n, s, bank, kappa, axial, diagonal):
-    """Put the forces of all springs from `row` east and north into scratch `s`.
+def spring_band(ux, uy, start, stop, needed, size, s, kappa, axial, diagonal):
+    """Put the forces of all springs from rows [start, stop) east and north into scratch `s`.
 
-    Returns the column (from 1) of a spring that has collapsed, burst or become NaN, else 0.
+    Rows are left out where neither they nor the next row are `needed`. Returns row and column
+    (from 1) of a spring that has collapsed, burst or become NaN; column 0 if there is none.
     """
-    i = row * pitch
-    last = row + ONE == n
-    j = i if last else i + pitch  # the last row has no north: any finite strain will do
-    beyond = U(0)
-    if _row_by_series(ux, uy, i, j, s, bank, axial, diagonal, n) > 0:
-        beyond = _row_by_closed_form(ux, uy, i, j, s, bank, kappa, n)
-    s[EAST_X + n] = 0.0
-    s[EAST_Y + n] = 0.0
-    for field in (NE_X, NE_Y, NW_X, NW_Y):
-        s[bank + field + n] = 0.0
-    if last:
-        clear_bank(s, bank, n)
-    return beyond
+    n, pitch, band = size
+    if start == 0:
+        _clear(s, slot(band, pitch, band), n)  # nothing lies below the first row
+    for row in range(start, stop):
+        if not (needed[row] or needed[row + ONE]):
+            continue
+        i, own = row * pitch, slot(row, pitch, band)
+        last = row + ONE == n
+        j = i if last else i + pitch  # the last row has no north: any finite strain will do
+        if _row_by_series(ux, uy, i, j, s, own, axial, diagonal, n) > 0:
+            beyond = _row_by_closed_form(ux, uy, i, j, s, own, kappa, n)
+            if beyond > 0:
+                return row, beyond
+        s[EAST_X + own + n] = 0.0
+        s[EAST_Y + own + n] = 0.0
+        for field in (NE_X, NE_Y, NW_X, NW_Y):
+            s[field + own + n] = 0.0
+        if last:
+            _clear(s, own, n)
+    return start, U(0)
 
 
 @njit(inline="always")
-def spring_force(s, x, north, south):
-    """Sum the eight springs of the block in column x: the change of its velocity in one step.
+def spring_force(s, own, south):
+    """Sum the eight springs of one block: the change of its velocity in one step.
 
-    The order is the same seen from the north and from the south, so that a mirrored scene moves
-    as a mirror image to the last bit.
+    `own` is its place in scratch, `south` that of the block below. The order is the same seen from
+    the north and from the south, so that a mirrored scene moves as a mirror image to the last bit.
     """
-    w = x - ONE
-    fx = (s[EAST_X + x] - s[EAST_X + w]) + (
-        (s[north + NORTH_X + x] + (s[north + NE_X + x] + s[north + NW_X + w]))
-        - (s[south + NORTH_X + x] + (s[south + NW_X + x] + s[south + NE_X + w]))
+    west, south_west = own - ONE, south - ONE
+    fx = (s[EAST_X + own] - s[EAST_X + west]) + (
+        (s[NORTH_X + own] + (s[NE_X + own] + s[NW_X + west]))
+        - (s[NORTH_X + south] + (s[NW_X + south] + s[NE_X + south_west]))
     )
-    fy = (s[EAST_Y + x] - s[EAST_Y + w]) + (
-        (s[north + NORTH_Y + x] + (s[north + NE_Y + x] + s[north + NW_Y + w]))
-        - (s[south + NORTH_Y + x] + (s[south + NW_Y + x] + s[south + NE_Y + w]))
+    fy = (s[EAST_Y + own] - s[EAST_Y + west]) + (
+        (s[NORTH_Y + own] + (s[NE_Y + own] + s[NW_Y + west]))
+        - (s[NORTH_Y + south] + (s[NW_Y + south] + s[NE_Y + south_west]))
     )
     return fx, fy

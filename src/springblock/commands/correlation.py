@@ -1,0 +1,97 @@
+"""springblock correlation and collect: correlations of scenes, and one table of them all."""
+
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from springblock.commands.options import INPUT, OUTPUT, one_sentence
+from springblock.correlation import Correlation, Length, design_effect, side_times
+from springblock.sources import code_version
+from springblock.tables import (
+    CORRELATION,
+    CORRELATION_LENGTH,
+    Record,
+    read,
+    read_records,
+    rows_to_table,
+    write,
+)
+
+Row = dict[str, Any]
+
+
+@click.command("correlation")
+@click.argument("batches", type=INPUT, nargs=-1, required=True)
+@click.option("--output-correlation", type=OUTPUT, required=True, help="Parquet file of c(r).")
+@click.option("--output-length", type=OUTPUT, required=True, help="Parquet file of l_c.")
+def correlation(batches: tuple[Path, ...], output_correlation: Path, output_length: Path) -> None:
+    """Correlate detachment times along the sides of pillars; BATCHES hold one scene."""
+    with one_sentence():
+        curves: list[Row] = []
+        lengths: list[Row] = []
+        for side, times in _sides(read_records(batches)):
+            found = Correlation(times)
+            curves += [side | row for row in _curve(found)]
+            lengths.append(side | _length(found.length()) | {"design_effect": design_effect(times)})
+        digest = pq.read_schema(batches[0]).metadata[b"configuration_digest"].decode()
+        metadata = {"code_version": code_version(__name__), "configuration_digest": digest}
+        write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
+        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
+
+
+def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
+    """Columns that name each kind of side, and its detachment times."""
+    scene = records[0].scene
+    others = {record.scene.folder for record in records} - {scene.folder}
+    if others:
+        raise ValueError(f"one scene is correlated, not {scene.folder} and {others.pop()}")
+    if not scene.sides:
+        raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
+    columns = {**asdict(scene), "level": scene.level, "realisations": len(records)}
+    for side in scene.sides:
+        yield columns | {"side": side}, side_times(records, scene.pattern, side)
+
+
+def _curve(found: Correlation) -> Iterator[Row]:
+    k, pillars, sides, _ = found.times.shape
+    for r, (mean, low, high, bias) in enumerate(zip(*found.interval, found.bias, strict=True)):
+        yield {
+            "r": r,
+            "correlation": mean,
+            "ci_low": low,
+            "ci_high": high,
+            "bias": bias,
+            "samples": k * pillars * sides,
+        }
+
+
+def _length(length: Length) -> Row:
+    names = {
+        "fitted": ("l_c", "ci_low", "ci_high"),
+        "integral": ("integral", "integral_low", "integral_high"),
+        "tail": ("tail", "tail_low", "tail_high"),
+    }
+    intervals = [zip(columns, getattr(length, key), strict=True) for key, columns in names.items()]
+    return {
+        **{name: float(value) for interval in intervals for name, value in interval},
+        "bias": length.bias,
+        "r_last": length.last,
+        "deviation": length.deviation,
+    }
+
+
+@click.command("collect")
+@click.argument("tables", type=INPUT, nargs=-1, required=True)
+@click.option("--configuration", required=True, help="Digest of the study's configuration.")
+@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
+def collect(tables: tuple[Path, ...], configuration: str, output: Path) -> None:
+    """Collect TABLES of equal columns in one."""
+    with one_sentence():
+        schema: pa.Schema = pq.read_schema(tables[0]).remove_metadata()
+        metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
+        write(read(tables, schema), output, metadata)

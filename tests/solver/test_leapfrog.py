@@ -1,0 +1,113 @@
+"""What the leapfrog leaves out changes no bit."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, draw_friction
+from springblock.solver import leapfrog
+from springblock.solver.lattice import Samples, prepare
+
+STEP, EVERY = 2e-8, 10
+#: Loads ten times faster than the paper's, so that a few thousand steps show a whole run.
+FAST = Material(slider_velocity=5e-3)
+
+
+def random_contact(n, share):
+    contact = np.random.default_rng(3).random((n, n)) < share
+    contact[n // 2] = False  # a row without contact among others
+    return contact
+
+
+SURFACES = {
+    "flat": Pattern.flat(12).contact,
+    "pillars": Pattern.pillars(12, 3, 3).contact,
+    "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1, along="x").contact,
+    "random": random_contact(13, 0.6),
+    "one block": np.outer([0, 1, 0], [0, 1, 0]).astype(bool),
+}
+
+
+def start(contact, seed, keep_peak=False, material=FAST):
+    n = len(contact)
+    time = leapfrog.force_time(STEP, material.gamma)
+    mu = draw_friction(n, seed)
+    return prepare(contact, *mu, material, (0.8, 0.6), STEP, time, 0, keep_peak)
+
+
+def follow(state, constants, steps):
+    samples = Samples.empty(steps // EVERY)
+    assert leapfrog.advance(state, constants, 0, steps, EVERY, samples)[0] == steps
+    return samples
+
+
+def assert_same_to_the_bit(one, other, fields):
+    for name in fields:
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
+
+
+MOTION = ("ux", "uy", "wx", "wy", "t_det", "ledger")
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("surface", SURFACES)
+def test_rows_at_rest_are_left_alone_to_the_bit(surface, seed):
+    """A run that keeps the peak of |F_mot| looks at every block in every step."""
+    all_rows, constants = start(SURFACES[surface], seed, keep_peak=True)
+    awake_rows, _ = start(SURFACES[surface], seed)
+    plain, quick = (follow(state, constants, 4000) for state in (all_rows, awake_rows))
+    assert np.isfinite(awake_rows.t_det).any()  # something has happened
+    assert_same_to_the_bit(all_rows, awake_rows, MOTION)
+    assert_same_to_the_bit(plain, quick, Samples._fields)
+
+
+def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
+    """Nothing is computed of it: a displacement planted there does not spread."""
+    state, constants = start(SURFACES["flat"], 0, material=Material())
+    follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
+    books = leapfrog._row_books.py_func(state.in_contact, 12)
+    blocks = (state.ux, state.uy, state.wx, state.wy, state.static, state.dynamic, state.t_det)
+    assert not any(field.any() for field in blocks[:4])
+    n = constants.n
+    sure = leapfrog._steps_at_rest(
+        blocks,
+        state.scratch,
+        np.uint64(0),
+        np.uint64(0),
+        np.uint64(0),
+        n,
+        constants.k_s,
+        0.0,
+        0.0,
+        constants.k_s * np.hypot(constants.slider_x, constants.slider_y),
+    )
+    weakest = state.static[1:13].min()
+    slide = np.hypot(constants.slider_x, constants.slider_y)
+    assert sure == pytest.approx(weakest / (constants.k_s * slide), rel=1e-3)
+    books[3][:] = 0  # all rows at rest
+    books[2][:] = sure
+    leapfrog._wake_rows(books, sure - 1)
+    assert not books[1].any()
+    leapfrog._wake_rows(books, sure)
+    assert books[1][:12].all()
+
+
+@pytest.mark.parametrize("moving", range(4))
+def test_a_moving_row_wakes_its_neighbours(moving):
+    books = leapfrog._row_books.py_func(np.ones(4, bool), 4)
+    books[3][:] = 0
+    books[3][moving + 1] = 5
+    books[2][:] = 1000
+    leapfrog._wake_rows(books, 7)
+    np.testing.assert_array_equal(books[1][:4], abs(np.arange(4) - moving) <= 1)
+
+
+@pytest.mark.parametrize("surface", ["pillars", "grooves", "random"])
+def test_a_row_without_contact_skips_friction_to_the_bit(surface):
+    """As if it held contact: a block without threshold is not slowed."""
+    short, constants = start(SURFACES[surface], 2)
+    assert not short.in_contact.all()
+    full = short.copy()._replace(in_contact=np.ones_like(short.in_contact))
+    quick, plain = (follow(state, constants, 4000) for state in (short, full))
+    assert np.isfinite(short.t_det).any()
+    assert_same_to_the_bit(short, full, MOTION)
+    assert_same_to_the_bit(quick, plain, Samples._fields)
