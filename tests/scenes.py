@@ -49,7 +49,7 @@ def spring_forces(displacement):
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
     size = lattice_size(n)
-    scratch, springs = np.zeros(SCRATCH_SIZE), (1.0, *coefficients(1.0))
+    scratch, springs = np.zeros(SCRATCH_SIZE), (1.0, coefficients(1.0))
     columns, every_row = np.arange(1, n + 1, dtype=np.uint64), np.ones(n + 1, bool)
     forces = []
     for start in map(np.uint64, range(0, n, band_rows(n))):
@@ -78,6 +78,7 @@ def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
         *uniform(n, 0.0, 0.0), material, (0.0, 0.0), step, force_time, method.WORK_FIELDS
     )
     state.static[:] = 0.0
-    state.ux[:], state.uy[:] = with_border(displacement)
+    for field, u in zip((state.ux, state.uy), displacement, strict=True):
+        field.reshape(n, -1)[:, : n + 2] = np.pad(u, 1, mode="edge")[1:-1]
     assert method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0] == steps
     return np.stack([unpadded(u, n) for u in (state.ux, state.uy)])

@@ -57,7 +57,7 @@ def check_row(u, row=0):
     """Column, from one, of the first spring that `spring_band` finds beyond its range; else 0."""
     n = u.shape[-1]
     needed = np.arange(n + 1) == row
-    rest = lattice_size(n), np.zeros(SCRATCH_SIZE), 1.0, *coefficients(1.0)
+    rest = lattice_size(n), np.zeros(SCRATCH_SIZE), 1.0, coefficients(1.0)
     return spring_band(*with_border(u), np.uint64(row), np.uint64(row + 1), needed, *rest)[1]
 
 

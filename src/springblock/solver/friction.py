@@ -29,6 +29,6 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     """
     speed2, along = wx * wx + wy * wy, wx * vx + wy * vy
     held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)
-    slides = (speed2 > dynamic * dynamic) & (not held)
     left = 1.0 - dynamic / math.sqrt(speed2)
+    slides = (left > 0.0) & (not held)  # False for the NaN of a block without load at rest
     return (left if slides else 0.0), slides, along, speed2

@@ -46,8 +46,7 @@ class Constants(NamedTuple):
     pitch: np.uint64
     band: np.uint64  #: rows of a band, see `springs`
     kappa: float  #: K_int l
-    axial: tuple[float, ...]  #: polynomials of the springs
-    diagonal: tuple[float, ...]
+    series: tuple[float, ...]  #: kappa times the polynomial of the springs
     k_s: float  #: K_s
     damping: float  #: gamma h
     slider_x: float  #: slider's displacement in one step
@@ -88,16 +87,18 @@ def prepare(
     integrator lets a force act in one step.
     """
     n = contact.shape[0]
-    pitch = n + 2
+    pitch = -(-(n + 2) // 4) * 4
     compliance = step * force_time / material.mass  # m per step, per N
     velocity_per_force = compliance / material.spacing
     load = material.block_load * n * n / np.count_nonzero(contact)  # F_n, N
 
-    def padded(field: Array) -> Array:
-        return np.pad(field, 1)[1:-1].ravel()
+    def padded(values: Array) -> Array:
+        lattice = field()
+        unpadded(lattice, n)[:] = values
+        return lattice
 
     def field() -> Array:
-        return np.zeros(n * pitch)
+        return _aligned(n * pitch)
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
     state = State(
@@ -105,31 +106,36 @@ def prepare(
         uy=field(),
         wx=field(),
         wy=field(),
-        t_det=np.full(n * pitch, np.inf),
+        t_det=field() + np.inf,
         static=padded(static),
         dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
-        scratch=np.zeros(SCRATCH_SIZE),
+        scratch=_aligned(SCRATCH_SIZE),
         work=np.zeros((work_fields, n * pitch)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
         in_contact=np.asarray(contact.any(axis=1)),
     )
     kappa = material.k_int * compliance
-    axial, diagonal = coefficients(kappa)
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(
         n=np.uint64(n),
         pitch=np.uint64(pitch),
         band=np.uint64(band_rows(n)),
         kappa=kappa,
-        axial=axial,
-        diagonal=diagonal,
+        series=coefficients(kappa),
         k_s=material.k_s * compliance,
         damping=material.gamma * step,
         slider_x=slide * heading[0],
         slider_y=slide * heading[1],
     )
     return state, constants
+
+
+def _aligned(size: int) -> Array:
+    """Zeros, the second of which begins a cache line."""
+    raw = np.zeros(size + 8)
+    start = (-(raw.ctypes.data // 8) - 1) % 8
+    return raw[start : start + size]
 
 
 def unpadded(field: Array, n: int) -> Array:

@@ -13,7 +13,7 @@ from numba import njit
 from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
 from springblock.solver.lattice import Array, Constants, Samples, State, book, close_edge
-from springblock.solver.springs import ONE, U, slot, spring_band, spring_force
+from springblock.solver.springs import ONE, U, slot, slot_below, spring_band, spring_force
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
@@ -55,11 +55,12 @@ def _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, st
     """Kick and drift those rows of [start, stop) that are awake and hold blocks in contact."""
     ux, uy, wx, wy, static, dynamic, _ = blocks
     n, pitch, band = size
-    in_contact, awake, _, sliding, switching, sums = rows
+    in_contact, awake, _, sliding, switching, _, sums = rows
     for row in range(start, stop):
         if not (in_contact[row] and awake[row]):
             continue
-        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        i, own = row * pitch, slot(row, pitch, band)
+        south = slot_below(own, pitch, band)
         slide, switch = np.int64(0), np.int64(0)
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
@@ -97,11 +98,12 @@ def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
     """As `_move_rows_in_contact` for the other rows, which are always awake; to the bit."""
     ux, uy, wx, wy = blocks[:4]
     n, pitch, band = size
-    in_contact, sums = rows[0], rows[5]
+    in_contact, sums = rows[0], rows[6]
     for row in range(start, stop):
         if in_contact[row]:
             continue
-        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        i, own = row * pitch, slot(row, pitch, band)
+        south = slot_below(own, pitch, band)
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
             b = i + x
@@ -122,13 +124,16 @@ def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
 
 @njit(**JIT)
 def _note_detachments(blocks, i, n, now):
-    """Note the time for blocks of one row that slide and have not done so before."""
+    """Note the time for blocks of one row that slide for the first time; any that have not yet?"""
     _, _, wx, wy, static, _, t_det = blocks
+    left = np.int64(0)
     for x in range(ONE, n + ONE):
         b = i + x
         slides = ((wx[b] != 0.0) | (wy[b] != 0.0)) & (static[b] > 0.0)
         first = t_det[b]
         t_det[b] = now if slides & (first > now) else first
+        left += np.int64((static[b] > 0.0) & (t_det[b] > now))
+    return left > 0
 
 
 @njit(**JIT)
@@ -152,15 +157,17 @@ def _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull):
 def _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, now):
     """See to what rows of [start, stop) have done; return their switches from rest to sliding."""
     n, pitch, band = size
-    in_contact, awake, wake, sliding, switching, _ = rows
+    in_contact, awake, wake, sliding, switching, waiting, _ = rows
     switches = np.int64(0)
     for row in range(start, stop):
-        i, own, south = row * pitch, slot(row, pitch, band), slot(row + band, pitch, band)
+        i = row * pitch
         if in_contact[row] and awake[row]:
             switches += switching[row]
-            if switching[row] > 0:
-                _note_detachments(blocks, i, n, now)
+            if switching[row] > 0 and waiting[row]:
+                waiting[row] = _note_detachments(blocks, i, n, now)
             elif sliding[row + ONE] == 0 and wake[row] <= now:
+                own = slot(row, pitch, band)
+                south = slot_below(own, pitch, band)
                 wake[row] = now + _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull)
         close_edge(blocks[0], blocks[1], i, n)
     return switches
@@ -169,7 +176,7 @@ def _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, now):
 @njit(**JIT)
 def _wake_rows(rows, now):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
-    _, awake, wake, sliding, _, _ = rows
+    _, awake, wake, sliding, _, _, _ = rows
     for row in range(len(wake)):
         disturbed = sliding[row] + sliding[row + 1] + sliding[row + 2] > 0
         if disturbed:
@@ -184,7 +191,8 @@ def _row_books(in_contact, n):
     awake[n] = False
     sliding = np.ones(n + 2, np.int64)
     sliding[0] = sliding[n + 1] = 0
-    return in_contact, awake, wake, sliding, np.zeros(n, np.int64), np.zeros((4, n))
+    switching, waiting = np.zeros(n, np.int64), np.ones(n, np.bool_)
+    return in_contact, awake, wake, sliding, switching, waiting, np.zeros((4, n))
 
 
 @njit(**JIT)
@@ -207,15 +215,16 @@ def advance(state, constants, first, steps, every, samples):
 
     A row at rest among rows at rest is left alone until one of its blocks may let go, which
     changes no bit. The books of all rows: whether they hold contact, whether they are awake and
-    when to wake them, how many blocks slide (with a row beyond each edge) and how many of them come
-    from rest, and the sums of displacement, friction's heat and squared velocity.
+    when to wake them, how many blocks slide (with a row beyond each edge), how many of them come
+    from rest and whether any has yet to detach, and the sums of displacement, friction's heat and
+    squared velocity.
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak, in_contact = state
-    n, pitch, band, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
     blocks, size = (ux, uy, wx, wy, static, dynamic, t_det), (n, pitch, band)
     a, pull = math.exp(-damping), k_s * math.hypot(slider_x, slider_y)
     rows = _row_books(in_contact, np.int64(n))
-    awake, sums = rows[1], rows[5]
+    awake, sums = rows[1], rows[6]
     switches, sample = 0, 0
     for k in range(first, first + steps):
         sx, sy = slider_x * k, slider_y * k
@@ -223,7 +232,7 @@ def advance(state, constants, first, steps, every, samples):
             _wake_rows(rows, k)
         for start in range(U(0), n, band):
             stop = min(start + band, n)
-            row, column = spring_band(ux, uy, start, stop, awake, size, s, kappa, axial, diagonal)
+            row, column = spring_band(ux, uy, start, stop, awake, size, s, kappa, series)
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
             _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, stop)

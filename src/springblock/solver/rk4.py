@@ -18,7 +18,7 @@ from numba import njit
 
 from springblock.solver.compilation import JIT
 from springblock.solver.lattice import Array, Constants, State, book, close_edge, total_displacement
-from springblock.solver.springs import ONE, U, slot, spring_band, spring_force
+from springblock.solver.springs import ONE, U, slot, slot_below, spring_band, spring_force
 
 FORCE_EVALUATIONS = 4
 #: Lattice-sized fields in `State.work`: displacement and velocity of the stage, their weighted
@@ -129,7 +129,7 @@ def advance(state, constants, first, steps, every, samples):
     The row is -1 if all went well, else that of the spring which no longer holds.
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak, _ = state
-    n, pitch, band, kappa, axial, diagonal, k_s, damping, slider_x, slider_y = constants
+    n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
     su, sv, pu, pv = fields[:4]
@@ -142,13 +142,12 @@ def advance(state, constants, first, steps, every, samples):
             sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
             for start in range(U(0), n, band):
                 stop = min(start + band, n)
-                row, column = spring_band(
-                    su, sv, start, stop, every_row, size, s, kappa, axial, diagonal
-                )
+                row, column = spring_band(su, sv, start, stop, every_row, size, s, kappa, series)
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
                 for row in range(start, stop):
-                    own, south = slot(row, pitch, band), slot(row + band, pitch, band)
+                    own = slot(row, pitch, band)
+                    south = slot_below(own, pitch, band)
                     i = row * pitch
                     row_switches, row_squares = _stage_row(
                         blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, sy, k

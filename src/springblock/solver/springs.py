@@ -34,7 +34,7 @@ Q_MIN, Q_MAX = -0.75, 3.0
 MAX_BLOCKS = 4096
 #: Rows are worked on in bands of about this many blocks: all their springs, then all their
 #: blocks. Sums that read what was written an instant ago would have to wait for it.
-_BAND_BLOCKS = 256
+_BAND_BLOCKS = 512
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
@@ -71,63 +71,104 @@ def series() -> Array:
     return np.concatenate([[0.5], rising])
 
 
-def coefficients(kappa: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Polynomials of p = e·d + d²/2 for axial (q = 2p) and diagonal (q = p) springs.
-
-    `kappa` is the velocity change per step by a force of K_int l; p times the polynomial is the
-    pull of a spring divided by its direction e + d.
-    """
-    powers = np.arange(SERIES_DEGREE + 1)
-    axial = 2.0 * kappa * series() * 2.0**powers
-    diagonal = 0.5 * kappa * series()
-    return tuple(axial.tolist()), tuple(diagonal.tolist())
+def coefficients(kappa: float) -> tuple[float, ...]:
+    """Coefficients of kappa g(q), with kappa the velocity change per step by a force of K_int l."""
+    return tuple((kappa * series()).tolist())
 
 
 @njit(inline="always")
-def _pull(p, c):
+def _pull(q, c):
+    """Return kappa q g(q) by the polynomial c: what an axial spring pulls with, over e + d."""
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
-    upper = c4 + p * (c5 + p * (c6 + p * (c7 + p * c8)))
-    return p * (c0 + p * (c1 + p * (c2 + p * (c3 + p * upper))))
+    upper = c4 + q * (c5 + q * (c6 + q * (c7 + q * c8)))
+    return q * (c0 + q * (c1 + q * (c2 + q * (c3 + q * upper))))
+
+
+@njit(inline="always")
+def _next_row(row, n):
+    """Return the row to the north; the last one has none: any finite strain will do."""
+    return min(row + ONE, n - ONE)
 
 
 @njit(**JIT)
-def _row_by_series(ux, uy, i, j, s, own, axial, diagonal, n):
-    """Forces of the springs from row `i` east and to row `j`; the number of pairs out of range.
+def _clear(s, own, n):
+    """Set the forces from a row to the next one to zero."""
+    for field in _TO_NEXT_ROW:
+        for x in range(n + ONE):
+            s[field + own + x] = 0.0
 
-    Axial and diagonal springs take turns: one loop over all four would hold more numbers than a
-    processor has registers for.
+
+@njit(inline="always")
+def _end_row(s, own, row, n):
+    """Take away the springs beyond the eastern edge, and beyond the last row."""
+    for field in (EAST_X, EAST_Y, NE_X, NE_Y, NW_X, NW_Y):
+        s[field + own + n] = 0.0
+    if row + ONE == n:
+        _clear(s, own, n)
+
+
+@njit(inline="always")
+def slot(row, pitch, band):
+    """Return where the springs of `row` stand in scratch: a ring of a band and the row below."""
+    return row % (band + ONE) * pitch
+
+
+@njit(inline="always")
+def slot_below(own, pitch, band):
+    """Return where the springs of the row below stand, from where those of a row do."""
+    return own - pitch if own > 0 else band * pitch
+
+
+@njit(**JIT)
+def _rows_by_series(ux, uy, start, stop, needed, size, s, c):
+    """Forces of the springs from rows [start, stop) to the east and to the next row.
+
+    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
+    a spring out of range, which is not finished, or `stop`. Diagonal springs are entered as if they
+    were as stiff as axial ones; `spring_force` halves them.
     """
-    outside = np.int64(0)
-    for x in range(ONE, n + ONE):
-        ax, ay = ux[i + x], uy[i + x]
-        dx, dy = ux[i + x + ONE] - ax, uy[i + x + ONE] - ay  # east
-        p = dx + 0.5 * (dx * dx + dy * dy)
-        f = _pull(p, axial)
-        s[EAST_X + own + x] = f + f * dx
-        s[EAST_Y + own + x] = f * dy
-        pp = p * p
+    n, pitch, band = size
+    for row in range(start, stop):
+        if not (needed[row] or needed[row + ONE]):
+            continue
+        own, i, j = slot(row, pitch, band), row * pitch, _next_row(row, n) * pitch
+        outside = np.int64(0)
+        for x in range(ONE, n + ONE):
+            ax, ay = ux[i + x], uy[i + x]
+            bx, by = ux[i + x + ONE], uy[i + x + ONE]
+            cx, cy = ux[j + x], uy[j + x]
 
-        dx, dy = ux[j + x] - ax, uy[j + x] - ay  # north
-        p = dy + 0.5 * (dx * dx + dy * dy)
-        f = _pull(p, axial)
-        s[NORTH_X + own + x] = f * dx
-        s[NORTH_Y + own + x] = f + f * dy
-        outside += np.int64(not pp + p * p <= (0.5 * SERIES_RANGE) ** 2)
-    for x in range(ONE, n + ONE):
-        dx, dy = ux[j + x + ONE] - ux[i + x], uy[j + x + ONE] - uy[i + x]  # north-east
-        p = (dy + dx) + 0.5 * (dx * dx + dy * dy)
-        f = _pull(p, diagonal)
-        s[NE_X + own + x] = f * dx + f
-        s[NE_Y + own + x] = f + f * dy
-        pp = p * p
+            dx, dy = bx - ax, by - ay  # east
+            q = 2.0 * dx + (dx * dx + dy * dy)
+            f = _pull(q, c)
+            s[EAST_X + own + x] = f + f * dx
+            s[EAST_Y + own + x] = f * dy
+            qq = q * q
 
-        dx, dy = ux[j + x] - ux[i + x + ONE], uy[j + x] - uy[i + x + ONE]  # north-west
-        p = (dy - dx) + 0.5 * (dx * dx + dy * dy)  # from the next block
-        f = _pull(p, diagonal)
-        s[NW_X + own + x] = f * dx - f
-        s[NW_Y + own + x] = f + f * dy
-        outside += np.int64(not pp + p * p <= SERIES_RANGE**2)
-    return outside
+            dx, dy = cx - ax, cy - ay  # north
+            q = 2.0 * dy + (dx * dx + dy * dy)
+            f = _pull(q, c)
+            s[NORTH_X + own + x] = f * dx
+            s[NORTH_Y + own + x] = f + f * dy
+            qq += q * q
+
+            dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay  # north-east
+            q = (dy + dx) + 0.5 * (dx * dx + dy * dy)
+            f = _pull(q, c)
+            s[NE_X + own + x] = f * dx + f
+            s[NE_Y + own + x] = f + f * dy
+            qq += q * q
+
+            dx, dy = cx - bx, cy - by  # north-west, from the next block
+            q = (dy - dx) + 0.5 * (dx * dx + dy * dy)
+            f = _pull(q, c)
+            s[NW_X + own + x] = f * dx - f
+            s[NW_Y + own + x] = f + f * dy
+            outside += np.int64(not qq + q * q <= SERIES_RANGE**2)
+        if outside > 0:
+            return row
+        _end_row(s, own, row, n)
+    return stop
 
 
 @njit(inline="always")
@@ -157,13 +198,13 @@ def _row_by_closed_form(ux, uy, i, j, s, own, kappa, n):
 
         dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
         q_ne = (dy + dx) + 0.5 * (dx * dx + dy * dy)
-        f = 0.5 * kappa * q_ne * g(q_ne)
+        f = kappa * q_ne * g(q_ne)
         s[NE_X + own + x] = f * dx + f
         s[NE_Y + own + x] = f + f * dy
 
         dx, dy = cx - bx, cy - by
         q_nw = (dy - dx) + 0.5 * (dx * dx + dy * dy)
-        f = 0.5 * kappa * q_nw * g(q_nw)
+        f = kappa * q_nw * g(q_nw)
         s[NW_X + own + x] = f * dx - f
         s[NW_Y + own + x] = f + f * dy
 
@@ -172,22 +213,8 @@ def _row_by_closed_form(ux, uy, i, j, s, own, kappa, n):
     return U(0)
 
 
-@njit(inline="always")
-def slot(row, pitch, band):
-    """Return where the springs of `row` stand in scratch: a ring of a band and the row below."""
-    return row % (band + ONE) * pitch
-
-
 @njit(**JIT)
-def _clear(s, own, n):
-    """Set the forces from a row to the next one to zero."""
-    for field in _TO_NEXT_ROW:
-        for x in range(n + ONE):
-            s[field + own + x] = 0.0
-
-
-@njit(**JIT)
-def spring_band(ux, uy, start, stop, needed, size, s, kappa, axial, diagonal):
+def spring_band(ux, uy, start, stop, needed, size, s, kappa, c):
     """Put the forces of all springs from rows [start, stop) east and north into scratch `s`.
 
     Rows are left out where neither they nor the next row are `needed`. Returns row and column
@@ -196,22 +223,14 @@ def spring_band(ux, uy, start, stop, needed, size, s, kappa, axial, diagonal):
     n, pitch, band = size
     if start == 0:
         _clear(s, slot(band, pitch, band), n)  # nothing lies below the first row
-    for row in range(start, stop):
-        if not (needed[row] or needed[row + ONE]):
-            continue
-        i, own = row * pitch, slot(row, pitch, band)
-        last = row + ONE == n
-        j = i if last else i + pitch  # the last row has no north: any finite strain will do
-        if _row_by_series(ux, uy, i, j, s, own, axial, diagonal, n) > 0:
-            beyond = _row_by_closed_form(ux, uy, i, j, s, own, kappa, n)
-            if beyond > 0:
-                return row, beyond
-        s[EAST_X + own + n] = 0.0
-        s[EAST_Y + own + n] = 0.0
-        for field in (NE_X, NE_Y, NW_X, NW_Y):
-            s[field + own + n] = 0.0
-        if last:
-            _clear(s, own, n)
+    row = _rows_by_series(ux, uy, start, stop, needed, size, s, c)
+    while row < stop:
+        own, i, j = slot(row, pitch, band), row * pitch, _next_row(row, n) * pitch
+        beyond = _row_by_closed_form(ux, uy, i, j, s, own, kappa, n)
+        if beyond > 0:
+            return row, beyond
+        _end_row(s, own, row, n)
+        row = _rows_by_series(ux, uy, row + ONE, stop, needed, size, s, c)
     return start, U(0)
 
 
@@ -224,11 +243,11 @@ def spring_force(s, own, south):
     """
     west, south_west = own - ONE, south - ONE
     fx = (s[EAST_X + own] - s[EAST_X + west]) + (
-        (s[NORTH_X + own] + (s[NE_X + own] + s[NW_X + west]))
-        - (s[NORTH_X + south] + (s[NW_X + south] + s[NE_X + south_west]))
+        (s[NORTH_X + own] + 0.5 * (s[NE_X + own] + s[NW_X + west]))
+        - (s[NORTH_X + south] + 0.5 * (s[NW_X + south] + s[NE_X + south_west]))
     )
     fy = (s[EAST_Y + own] - s[EAST_Y + west]) + (
-        (s[NORTH_Y + own] + (s[NE_Y + own] + s[NW_Y + west]))
-        - (s[NORTH_Y + south] + (s[NW_Y + south] + s[NE_Y + south_west]))
+        (s[NORTH_Y + own] + 0.5 * (s[NE_Y + own] + s[NW_Y + west]))
+        - (s[NORTH_Y + south] + 0.5 * (s[NW_Y + south] + s[NE_Y + south_west]))
     )
     return fx, fy

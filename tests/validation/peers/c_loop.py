@@ -60,9 +60,8 @@ class CLoop:
         mu_static: np.ndarray,
         mu_dynamic: np.ndarray,
         step: float,
-        material: Material | None = None,
     ) -> None:
-        m = material or Material()
+        m = Material()
         self.n = len(contact)
         self.taken = 0  #: steps
         compliance = step * LEAPFROG.force_time(step, m.gamma) / m.mass
@@ -72,19 +71,18 @@ class CLoop:
         self._fields[4] = np.inf
         self._fields[5, :, :-1] = np.where(contact, mu_static * load, 0.0)
         self._fields[6, :, :-1] = np.where(contact, mu_dynamic * load, 0.0)
-        axial, diagonal = (np.array(c) for c in coefficients(m.k_int * compliance))
+        series = np.array(coefficients(m.k_int * compliance))
         number = ctypes.c_double
         self._constants = (
             _address(self._fields),
             self.n,
-            _address(axial),
-            _address(diagonal),
+            _address(series),
             number(math.exp(-m.gamma * step)),
             number(m.k_s * compliance),
             number(m.slider_velocity * step / m.spacing),
             number(0.0),
         )
-        self._kept = (axial, diagonal)  # the addresses above are theirs
+        self._kept = series  # the address above is its
         self._advance = compiled("loop").advance
         self._advance.restype = None
 

@@ -12,14 +12,15 @@
    they do not compete for the same cache lines. */
 enum { PITCH = 4096 + 24, BANK = 6 * PITCH };
 
-/* p times the polynomial c in p, see springblock.solver.springs. */
-static inline double pull(double p, const double *restrict c)
+/* q times the polynomial c in q, see springblock.solver.springs. */
+static inline double pull(double q, const double *restrict c)
 {
-    return p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * (c[4] +
-           p * (c[5] + p * (c[6] + p * (c[7] + p * c[8]))))))));
+    return q * (c[0] + q * (c[1] + q * (c[2] + q * (c[3] + q * (c[4] +
+           q * (c[5] + q * (c[6] + q * (c[7] + q * c[8]))))))));
 }
 
-/* Pull of all springs from one row to the east and to the next row, beyond the last block too. */
+/* Pull of all springs from one row to the east and to the next row, beyond the last block too;
+   diagonal ones as if they were as stiff as the others. */
 static __attribute__((noinline)) void springs(
     const double *restrict ux, const double *restrict uy,
     const double *restrict next_ux, const double *restrict next_uy,
@@ -27,26 +28,29 @@ static __attribute__((noinline)) void springs(
     double *restrict n_x, double *restrict n_y,
     double *restrict ne_x, double *restrict ne_y,
     double *restrict nw_x, double *restrict nw_y,
-    const double *restrict axial, const double *restrict diagonal, int n)
+    const double *restrict series, int n)
 {
     for (int x = 0; x < n; x++) {
         double dx = ux[x + 1] - ux[x], dy = uy[x + 1] - uy[x];
-        double f = pull(dx + 0.5 * (dx * dx + dy * dy), axial);
+        double q_e = 2.0 * dx + (dx * dx + dy * dy), f = pull(q_e, series);
         e_x[x] = f + f * dx;
         e_y[x] = f * dy;
 
         dx = next_ux[x] - ux[x], dy = next_uy[x] - uy[x];
-        f = pull(dy + 0.5 * (dx * dx + dy * dy), axial);
+        double q_n = 2.0 * dy + (dx * dx + dy * dy);
+        f = pull(q_n, series);
         n_x[x] = f * dx;
         n_y[x] = f + f * dy;
 
         dx = next_ux[x + 1] - ux[x], dy = next_uy[x + 1] - uy[x];
-        f = pull(dx + dy + 0.5 * (dx * dx + dy * dy), diagonal);
+        double q_ne = dx + dy + 0.5 * (dx * dx + dy * dy);
+        f = pull(q_ne, series);
         ne_x[x] = f + f * dx;
         ne_y[x] = f + f * dy;
 
         dx = next_ux[x] - ux[x + 1], dy = next_uy[x] - uy[x + 1]; /* from the next block */
-        f = pull(dy - dx + 0.5 * (dx * dx + dy * dy), diagonal);
+        double q_nw = dy - dx + 0.5 * (dx * dx + dy * dy);
+        f = pull(q_nw, series);
         nw_x[x] = f * dx - f;
         nw_y[x] = f + f * dy;
     }
@@ -66,20 +70,20 @@ static __attribute__((noinline)) void move(
     const double *sw_x = s_x + 2 * PITCH, *sw_y = s_y + 2 * PITCH; /* north-east, from below */
     const double *se_x = s_x + 4 * PITCH, *se_y = s_y + 4 * PITCH; /* north-west, from below */
     for (int x = 0; x < n; x++) {
-        double fx = e_x[x] - e_x[x - 1] + n_x[x] + ne_x[x] + nw_x[x - 1]
-                    - s_x[x] - sw_x[x - 1] - se_x[x] + k_s * (slider_x - ux[x]);
-        double fy = e_y[x] - e_y[x - 1] + n_y[x] + ne_y[x] + nw_y[x - 1]
-                    - s_y[x] - sw_y[x - 1] - se_y[x] + k_s * (slider_y - uy[x]);
+        double fx = e_x[x] - e_x[x - 1] + (n_x[x] + 0.5 * (ne_x[x] + nw_x[x - 1]))
+                    - (s_x[x] + 0.5 * (sw_x[x - 1] + se_x[x])) + k_s * (slider_x - ux[x]);
+        double fy = e_y[x] - e_y[x - 1] + (n_y[x] + 0.5 * (ne_y[x] + nw_y[x - 1]))
+                    - (s_y[x] + 0.5 * (sw_y[x - 1] + se_y[x])) + k_s * (slider_y - uy[x]);
         double vx = wx[x], vy = wy[x];
         double trial_x = a * vx + fx, trial_y = a * vy + fy;
         double speed2 = trial_x * trial_x + trial_y * trial_y;
         double left = 1.0 - mu_d_load[x] / sqrt(speed2);
-        int turned = trial_x * vx + trial_y * vy <= 0.0;
-        int held = turned & (fx * fx + fy * fy <= mu_s_load[x] * mu_s_load[x]);
+        double along = trial_x * vx + trial_y * vy;
+        int held = (along <= 0.0) & (fx * fx + fy * fy <= mu_s_load[x] * mu_s_load[x]);
         left = (speed2 > mu_d_load[x] * mu_d_load[x]) & !held ? left : 0.0;
-        trial_x *= left, trial_y *= left;
-        wx[x] = trial_x, wy[x] = trial_y;
-        ux[x] += trial_x, uy[x] += trial_y;
+        double new_x = left * trial_x, new_y = left * trial_y;
+        wx[x] = new_x, wy[x] = new_y;
+        ux[x] += new_x, uy[x] += new_y;
         double first = t_det[x];
         t_det[x] = (left > 0.0) & (mu_s_load[x] > 0.0) & (first > now) ? now : first;
     }
@@ -103,8 +107,8 @@ static void clear(double *bank, int n)
 /* Take `steps` steps from step `first`. `fields` holds ux, uy, wx, wy, t_det, mu_s F_n and mu_d F_n,
    (n, n + 1) each, the last column being a border; `force` gets the two components of the slider's
    force after each step. */
-void advance(double *fields, int n, const double *axial, const double *diagonal, double a,
-             double k_s, double slider_x, double slider_y, int first, int steps, double *force)
+void advance(double *fields, int n, const double *series, double a, double k_s, double slider_x,
+             double slider_y, int first, int steps, double *force)
 {
     static double scratch[8 + 2 * PITCH + 2 * BANK];
     const size_t pitch = n + 1, field = n * pitch;
@@ -117,7 +121,7 @@ void advance(double *fields, int n, const double *axial, const double *diagonal,
             double *next = row + 1 < n ? u + pitch : u; /* the last row has no next: any will do */
             springs(u, u + field, next, next + field, east, east + PITCH,
                     north, north + PITCH, north + 2 * PITCH, north + 3 * PITCH,
-                    north + 4 * PITCH, north + 5 * PITCH, axial, diagonal, n);
+                    north + 4 * PITCH, north + 5 * PITCH, series, n);
             east[n - 1] = east[PITCH + n - 1] = 0.0; /* no springs across the edges */
             for (int diagonal_field = 2; diagonal_field < 6; diagonal_field++)
                 north[diagonal_field * PITCH + n - 1] = 0.0;
