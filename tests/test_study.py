@@ -7,7 +7,8 @@ import pytest
 import yaml
 
 from springblock.scene import Scene
-from springblock.study import Ensemble, check, configuration_digest, ensembles
+from springblock.sources import configuration_digest
+from springblock.study import Ensemble, check, ensembles
 
 ROOT = Path(__file__).parents[1]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())

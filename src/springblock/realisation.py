@@ -74,10 +74,9 @@ class Realisation:
         ends before, or the force does not fall.
         """
         minimum = first_minimum(self.force)
-        return math.nan if minimum is None else self._mean_force(minimum)
-
-    def _mean_force(self, start: int) -> float:
-        return float(self.force[start:].mean()) / self.normal_force
+        return (
+            math.nan if minimum is None else float(self.force[minimum:].mean()) / self.normal_force
+        )
 
     @property
     def t_avg(self) -> float:

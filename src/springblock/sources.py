@@ -1,10 +1,13 @@
-"""Digests of the package's own sources: which code made a result, and whether it has changed."""
+"""Digests of the package's own sources and of configurations: what made a result."""
 
 import ast
 import hashlib
+import json
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 _PACKAGE = "springblock"
 _ROOT = Path(__file__).parent
@@ -50,6 +53,12 @@ def digest(*modules: str) -> str:
     for file in files(*modules):
         content.update(file.relative_to(_ROOT).as_posix().encode() + file.read_bytes())
     return content.hexdigest()[:16]
+
+
+def configuration_digest(configuration: Mapping[str, Any]) -> str:
+    """Digest of all that decides about results; 16 hexadecimal digits."""
+    text = json.dumps(configuration, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def code_version(*modules: str) -> str:

@@ -1,7 +1,5 @@
 """The study's configuration: checked, and expanded into scenes and batches of seeds."""
 
-import hashlib
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, product
@@ -138,9 +136,3 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
         spacing = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(gap, gap)
         scene = Scene(n, size, spacing, *rest)
         yield Ensemble(scene, range(first, first + count), grid.get("duration"))
-
-
-def configuration_digest(configuration: Configuration) -> str:
-    """Digest of all that decides about the results; 16 hexadecimal digits."""
-    text = json.dumps(configuration, sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -27,7 +27,7 @@ rule claims:
         runtime=10,
     params:
         code=sources.digest("springblock.commands.claims"),
-        configuration=study.configuration_digest(config),
+        configuration=sources.configuration_digest(config),
         tables=" ".join(f"--{option} {table}" for option, table in CLAIM_TABLES.items()),
     message:
         "Testing the paper's statements"

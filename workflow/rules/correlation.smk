@@ -36,7 +36,7 @@ rule correlations:
         runtime=5,
     params:
         code=sources.digest("springblock.commands.correlation"),
-        configuration=study.configuration_digest(config),
+        configuration=sources.configuration_digest(config),
     message:
         "Collecting correlations in one table: {wildcards.table}"
     shell:

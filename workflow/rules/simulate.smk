@@ -108,7 +108,7 @@ rule aggregate:
         runtime=5,
     params:
         code=sources.digest("springblock.commands.aggregate"),
-        configuration=study.configuration_digest(config),
+        configuration=sources.configuration_digest(config),
     message:
         "Collecting all realisations in one table"
     shell:

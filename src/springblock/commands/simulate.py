@@ -1,6 +1,5 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
-import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import asdict
@@ -24,7 +23,7 @@ from springblock.prelude import Prelude
 from springblock.realisation import STEP, Realisation, SimulationError, load, simulate
 from springblock.scene import Scene
 from springblock.solver import INTEGRATORS
-from springblock.sources import code_version
+from springblock.sources import code_version, configuration_digest
 from springblock.tables import BATCH, rows_to_table, write
 
 
@@ -149,11 +148,10 @@ def simulate_batch(
 
 
 def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
-    text = json.dumps(configuration, sort_keys=True)
     return {
         "code_version": code_version(__name__),
-        "configuration": text,
-        "configuration_digest": hashlib.sha256(text.encode()).hexdigest()[:16],
+        "configuration": json.dumps(configuration, sort_keys=True),
+        "configuration_digest": configuration_digest(configuration),
     }
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from springblock.accuracy import standard_error
+from springblock.accuracy import ensemble_error
 from springblock.claims import Claim, Evidence, Finding
 from springblock.statistics import Interval
 
@@ -25,7 +25,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
         scatter = [r for r in evidence.precision if all(r[k] == v for k, v in keys.items())]
         if not scatter:
             continue
-        limit = standard_error(scatter[0])
+        limit = ensemble_error(scatter[0])
         kind = "bias" if row["comparison"] == "paired" else "error"
         yield Finding(
             {key: row[key] for key in ("integrator", "scene", "quantity")},
