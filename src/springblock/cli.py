@@ -27,6 +27,7 @@ COMMANDS = {
     "supplement_angle": "springblock.commands.figures:supplement_angle",
     "supplement_levels": "springblock.commands.figures:supplement_levels",
     "supplement_repetitions": "springblock.commands.figures:supplement_repetitions",
+    "supplement_restick": "springblock.commands.figures:supplement_restick",
     "work_precision": "springblock.commands.figures:work_precision",
     "stability": "springblock.commands.figures:stability",
 }

@@ -7,6 +7,7 @@ SUPPLEMENT = {
     "supplement_angle": (["grooves", "angles"], "Sliding at an angle to grooves"),
     "supplement_levels": (["grooves", "third_level"], "A third level"),
     "supplement_repetitions": (["flat", "pillars", "grooves"], "Number of realisations"),
+    "supplement_restick": (["flat", "pillars", "grooves"], "Blocks that let go again"),
 }
 #: Those whose groups the configuration simulates.
 SUPPLEMENT = {

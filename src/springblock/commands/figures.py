@@ -199,3 +199,15 @@ def supplement_repetitions(batches: tuple[Path, ...], outputs: tuple[Path, ...])
         outputs,
         lambda: (dict(_ensembles(batches, "n_p", "n_p2", "direction")),),
     )
+
+
+@click.command("supplement_restick")
+@_batches
+@_outputs
+def supplement_restick(batches: tuple[Path, ...], outputs: tuple[Path, ...]) -> None:
+    """Draw how many blocks let go again over time."""
+    _draw(
+        "supplement_restick",
+        outputs,
+        lambda: (dict(_ensembles(batches, "n_p", "n_p2", "direction")),),
+    )

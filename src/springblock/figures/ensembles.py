@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seaborn import color_palette
 
 from springblock.figures import style
-from springblock.figures.style import BLACK, GREY, MICRO
+from springblock.figures.style import BLACK, GREY, MICRO, PURPLE, VERMILION
 from springblock.run import Array, Run
 from springblock.statistics import Curve, Interval, load_peaks, mean_interval, standard_error
 
@@ -24,6 +24,9 @@ FRICTION = "static friction coefficient"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
 Runs = Sequence[Run]
+Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
+
+_GROOVED = {"x": ("along grooves", VERMILION), "y": ("across grooves", PURPLE)}
 
 # Two panels above each other in one column, mm.
 _PANELS = {"left": 16.0, "width": 71.0, "height": 38.0}
@@ -156,6 +159,14 @@ def size_colors(sizes: Iterable[int]) -> dict[int, Any]:
     """Black for the flat surface, n_p = 0, and a palette in order of n_p for pillars."""
     pillars = sorted({size for size in sizes if size})
     return {0: BLACK} | dict(zip(pillars, color_palette("viridis", len(pillars)), strict=True))
+
+
+def name_surface(key: Key, colors: dict[int, Any]) -> tuple[str, Any]:
+    """Name and color of a surface."""
+    n_p, n_p2, direction = key
+    if n_p2:
+        return _GROOVED.get(direction, (f"{direction}° to grooves", GREY))
+    return (f"$n_p$ = {n_p}" if n_p else "flat"), colors[n_p]
 
 
 def logarithmic(panels: Sequence[Axes], places: Sequence[int]) -> None:

@@ -14,22 +14,21 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from springblock.figures.ensembles import (
+    Key,
     Runs,
     highest_and_lag,
     logarithmic,
+    name_surface,
     size_colors,
     two_panels,
 )
-from springblock.figures.style import GREY, PURPLE, VERMILION, journal
+from springblock.figures.style import GREY, journal
 from springblock.run import Array
 from springblock.statistics import half_widths
 
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)
 _MILLI = 1e3  #: 10⁻³ per unit
 _NORMAL = 1.96  #: half a 95 % interval in standard errors
-_GROOVED = {"x": ("along grooves", VERMILION), "y": ("across grooves", PURPLE)}
-
-Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction
 
 
 @journal
@@ -42,7 +41,7 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     picture, panels = two_panels("number of realisations", above=12.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
     for key, marker in zip(sorted(ensembles), cycle("os^vDP*X"), strict=False):
-        name, color = _look(key, colors)
+        name, color = name_surface(key, colors)
         highest, lag = highest_and_lag(ensembles[key])
         for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):
             _draw_widths(ax, values, {"color": color, "marker": marker, "label": name})
@@ -57,13 +56,6 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     handles.append(Line2D([], [], color=GREY, linewidth=0.5))
     picture.legend(handles, [*labels, r"$\propto 1/\sqrt{k}$"], loc="upper center", ncols=3)
     return picture
-
-
-def _look(key: Key, colors: dict[int, Any]) -> tuple[str, Any]:
-    n_p, n_p2, direction = key
-    if n_p2:
-        return _GROOVED.get(direction, (f"{direction}° to grooves", GREY))
-    return (f"$n_p$ = {n_p}" if n_p else "flat"), colors[n_p]
 
 
 def _draw_widths(ax: Axes, values: Array, look: dict[str, Any]) -> None:
