@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import drawn
-from springblock import Material, Pattern, simulate
+from springblock import Material, Pattern, draw_friction, simulate
 from springblock.prelude import Prelude
 from springblock.realisation import load
 
@@ -29,9 +29,17 @@ def test_a_run_from_the_prelude_is_the_run_from_zero(prelude, seed):
 
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 @pytest.mark.parametrize("direction", ["y", 30.0])
-def test_so_it_is_for_every_direction_and_integrator(direction, integrator):
+@pytest.mark.parametrize("surface", ["flat", "pillars", "grooves", "random"])
+def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction, integrator):
+    contact = {
+        "flat": Pattern.flat(8).contact,
+        "pillars": PILLARS.contact,
+        "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1).contact,
+        "random": np.random.default_rng(5).random((9, 9)) < 0.7,
+    }[surface]
     how = {"direction": direction, "integrator": integrator}
-    scene, prelude = drawn(PILLARS, seed=1), load(PILLARS.contact, **how)
+    scene, prelude = (contact, *draw_friction(len(contact), seed=1)), load(contact, **how)
+    assert prelude.samples.max() > 0
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 
 
