@@ -124,16 +124,16 @@ def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
 
 @njit(**JIT)
 def _note_detachments(blocks, i, n, now):
-    """Note the time for blocks of one row that slide for the first time; any that have not yet?"""
+    """Note the time for blocks of one row that slide for the first time; are others yet to?"""
     _, _, wx, wy, static, _, t_det = blocks
-    left = np.int64(0)
+    remaining = np.int64(0)
     for x in range(ONE, n + ONE):
         b = i + x
         slides = ((wx[b] != 0.0) | (wy[b] != 0.0)) & (static[b] > 0.0)
         first = t_det[b]
         t_det[b] = now if slides & (first > now) else first
-        left += np.int64((static[b] > 0.0) & (t_det[b] > now))
-    return left > 0
+        remaining += np.int64((static[b] > 0.0) & (t_det[b] > now))
+    return remaining > 0
 
 
 @njit(**JIT)
