@@ -113,3 +113,18 @@ def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
     assert verdicts.pop("t_max < t_avg on flat surfaces") == "not settled"  # a single run
     assert set(verdicts.values()) == {"not tested"}
     assert "not tested" in text.read_text()
+
+
+def test_cases_that_differ_in_several_keys_are_told_apart_by_all_of_them():
+    wide = {"n_p": 10, "ring": 0}, {"n_p": 10, "ring": 1}, {"n_p": 6, "ring": 0}
+    findings = [
+        Finding(case, "", Interval(np.array(v), np.array(v - 0.1), np.array(v + 0.1)), (0, 9), "")
+        for case, v in zip(wide, (1.5, -1.5, -1.5), strict=True)
+    ]
+    judged, depends_on = verdict(findings)
+    assert judged == "depends on"
+    keys, cases = depends_on.split(": ")
+    assert keys == "n_p, ring"
+    assert cases == (
+        "holds for n_p = 10, ring = 0; fails for n_p = 10, ring = 1 and n_p = 6, ring = 0"
+    )

@@ -122,6 +122,9 @@ def _together(findings: Iterable[Finding]) -> str:
     return "fails" if "fails" in outcomes else "open"
 
 
+_BOTH = ("holds", "fails")
+
+
 def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
     """Say by which keys the cases that hold differ from those that fail, and which are which.
 
@@ -131,12 +134,15 @@ def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
     keys = dict.fromkeys(key for case, _ in outcomes for key in case)
     holds, fails = (
         {key: {case[key] for case, outcome in outcomes if outcome == which} for key in keys}
-        for which in ("holds", "fails")
+        for which in _BOTH
     )
     telling = [key for key in keys if not holds[key] & fails[key]]
     telling = telling or [key for key in keys if holds[key] != fails[key]]
+    names = [{_name(c, telling) for c, outcome in outcomes if outcome == which} for which in _BOTH]
+    if names[0] & names[1]:  # no key tells them apart without the others
+        telling = [key for key in keys if len({case[key] for case, _ in outcomes}) > 1]
     lists = []
-    for which in ("holds", "fails", "open"):
+    for which in (*_BOTH, "open"):
         cases = [_name(case, telling) for case, outcome in outcomes if outcome == which]
         if cases:
             lists.append(f"{which} for {' and '.join(dict.fromkeys(cases))}")

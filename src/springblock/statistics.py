@@ -18,6 +18,8 @@ from springblock.pattern import Pattern
 from springblock.run import Array, Run, friction, percent
 
 _INTERVAL = (2.5, 97.5)  #: percentiles
+#: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
+_LOAD = 0.9
 
 
 class Interval(NamedTuple):
@@ -206,10 +208,11 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
     """Find the peaks of a mean force curve, (n,), up to the onset of sliding; their indices.
 
     A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
-    by `share` of the largest force, which keeps out the small waves of loading. Section 3.3.
+    by `share` of the largest force, which keeps out the small waves of loading; and it must reach
+    `_LOAD` of the largest force, which keeps out those of sliding. Section 3.3.
     """
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
-    return find_peaks(curve, prominence=needed)[0]
+    return find_peaks(curve, prominence=needed, height=_LOAD * curve.max())[0]
 
 
 def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:

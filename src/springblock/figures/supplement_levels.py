@@ -41,7 +41,7 @@ def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
         ax = style.axes(picture, left, bottom, width, height)
         shown = {level: curve for (name, level), curve in curves.items() if name == direction}
         _draw_direction(ax, shown, span)
-        ax.text(0.02, 0.95, sliding(direction), transform=ax.transAxes, va="top")
+        ax.text(0.98, 0.95, sliding(direction), transform=ax.transAxes, ha="right", va="top")
         style.panel_letter(ax, letter, left=12.0, above=1.5)
     upper, lower = picture.axes
     upper.tick_params(labelbottom=False)
