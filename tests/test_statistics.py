@@ -177,7 +177,7 @@ def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
 
 def test_load_peaks_of_a_mean_are_counted_with_their_interval(rng):
     x, k = np.arange(100.0), 12
-    clear = 1.0 + (hill(x, 30, 0.3) + hill(x, 60, 0.25)) * rng.normal(1.0, 0.05, (k, 1))
+    clear = 1.0 + (hill(x, 30, 0.1) + hill(x, 60, 0.09)) * rng.normal(1.0, 0.05, (k, 1))
     assert tuple(load_peak_number(clear)) == (2.0, 2.0, 2.0)
     sometimes = clear + np.arange(k)[:, None] % 6 // 5 * 0.3 * hill(x, 85, 1.0)
     number, low, high = load_peak_number(sometimes)
