@@ -148,7 +148,8 @@ def lengths() -> list[dict[str, Any]]:
     rows = []
     for *sizes, l_c in SURFACES:
         for side, value in (("x", l_c), ("y", 0.5)):
-            values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2}
+            free = {"tail": value, "tail_low": value - 0.3, "tail_high": value + 0.3}
+            values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2, **free}
             rows.append({**surface(*sizes), "side": side, "r_last": 8, **values})
     return rows
 

@@ -96,11 +96,11 @@ CHANGES = [
 ]
 
 
-def multiplied(rows: Any, key: str, factor: float, **wanted: Any) -> list[dict[str, Any]]:
-    """Multiply a value and its interval where rows have what is wanted."""
-    keys = (key, "ci_low", "ci_high")
+def multiplied(rows: Any, factor: float, **wanted: Any) -> list[dict[str, Any]]:
+    """Multiply all correlations, or lengths, and their intervals where rows have what is wanted."""
+    keys = {"correlation", "l_c", "ci_low", "ci_high", "tail", "tail_low", "tail_high"}
     return [
-        {**row, **{k: factor * row[k] for k in keys}}
+        {**row, **{k: factor * row[k] for k in keys & set(row)}}
         if all(row[name] == value for name, value in wanted.items())
         else row
         for row in rows
@@ -135,10 +135,10 @@ def test_other_realisations_change_the_verdict(name, scenes, change, expected):
 def test_other_correlations_change_the_verdict(name, factor, wanted, expected):
     judged, lengths = paper.evidence(records()), "r" not in wanted and "side" not in wanted
     if lengths:
-        rows = multiplied(judged.correlation_length, "l_c", factor, **wanted)
+        rows = multiplied(judged.correlation_length, factor, **wanted)
         judged = replace(judged, correlation_length=rows)
     else:
-        rows = multiplied(judged.correlation, "correlation", factor, **wanted)
+        rows = multiplied(judged.correlation, factor, **wanted)
         judged = replace(judged, correlation=rows)
     assert judge(BY_NAME[name], judged) == expected
 

@@ -125,17 +125,21 @@ def _exactly(r: int, l_c: float) -> Interval:
 
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
-    """l_c of c_x is three blocks or more."""
+    """l_c of c_x is three blocks or more, in a fit through c(0) = 1 or in one free of it."""
     for surface in _surfaces(evidence.correlation_length, 1, _FEW):
         for fit in _fits(evidence, surface):
-            yield Finding(
-                _place(surface),
-                "l_c of c_x",
-                _interval(fit, "l_c"),
-                (_FAR, INF),
-                _row_of("correlation_length", surface, side="x"),
-                "blocks",
-            )
+            free = Interval(*(np.array(fit[key]) for key in ("tail", "tail_low", "tail_high")))
+            for model, length in (("exp(-r/l_c)", _interval(fit, "l_c")), ("A exp(-r/l_c)", free)):
+                if np.isnan(length.mean):
+                    continue
+                yield Finding(
+                    {**_place(surface), "fit": model},
+                    "l_c of c_x",
+                    length,
+                    (_FAR, INF),
+                    _row_of("correlation_length", surface, side="x"),
+                    "blocks",
+                )
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
