@@ -197,3 +197,13 @@ def test_the_command_takes_one_scene_that_has_sides():
         next(_sides([pillars, near]))
     with pytest.raises(ValueError, match=r"n_p=3.* has no whole sides"):
         next(_sides([small]))
+
+
+def test_the_bias_of_the_length_is_no_noise_of_the_fit(rng):
+    """The jackknife multiplies differences by k: they must not come from steps of the estimate."""
+    steps = rng.normal(size=(200, 1, 2, 41))
+    field = np.zeros_like(steps)
+    for i in range(41):
+        before = field[..., i - 1] if i else 0.0
+        field[..., i] = np.exp(-1 / 3.0) * before + steps[..., i]
+    assert abs(Correlation(field).length().bias) < 0.05

@@ -226,8 +226,9 @@ to hold; one that fails makes it fail. The statement is
 - **not tested** where what it needs was not simulated or measured.
 
 Intervals are bootstrap intervals over realisations unless the statistic says otherwise.
-Differences between scenes are paired: the same seed draws the same coefficients. Other seeds must
-not change a verdict called reproduced:
+Differences between scenes are paired, the same seed drawing the same coefficients, save those of
+correlation lengths, which combine the intervals of both. Other seeds must not change a verdict
+called reproduced:
 
     snakemake --config first_seed=1000 results=results/offset
 

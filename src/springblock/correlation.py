@@ -26,7 +26,8 @@ from springblock.pattern import Pattern
 from springblock.run import Array, Run
 from springblock.statistics import Interval, bootstrap_weights, limits
 
-#: Correlation lengths among which the fit looks for the best, blocks: 0.2 % apart.
+#: Correlation lengths among which the fit looks for the best, blocks: 0.2 % apart. A parabola does
+#: the rest: what the jackknife multiplies by k must be smooth.
 _LENGTHS = np.geomspace(0.1, 1000.0, 4606)
 
 
@@ -199,8 +200,19 @@ def fit_length(correlation: Array, error: Array) -> Array:
     Errors at neighbouring r are correlated, but their covariance is known too badly to be used.
     """
     decays, weight = _decays(correlation.shape[-1]), error**-2.0
-    misfit = weight @ decays**2 - 2.0 * (correlation * weight) @ decays
-    return _LENGTHS[misfit.argmin(axis=-1)]
+    return _lowest(weight @ decays**2 - 2.0 * (correlation * weight) @ decays)
+
+
+def _lowest(misfit: Array) -> Array:
+    """Length of the lowest misfit, (b, lengths): of the parabola through it and its neighbours."""
+    best = np.clip(misfit.argmin(axis=-1), 1, len(_LENGTHS) - 2)
+    before, at, after = (
+        np.take_along_axis(misfit, (best + step)[:, None], axis=-1)[:, 0] for step in (-1, 0, 1)
+    )
+    bend = before - 2.0 * at + after
+    shift = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend > 0.0)
+    ratio = _LENGTHS[1] / _LENGTHS[0]
+    return _LENGTHS[best] * ratio ** np.clip(shift, -1.0, 1.0)
 
 
 def fit_tail(correlation: Array, error: Array) -> Array:
@@ -209,7 +221,7 @@ def fit_tail(correlation: Array, error: Array) -> Array:
         return np.full(len(correlation), np.nan)
     decays, weight = _decays(correlation.shape[-1]), error**-2.0
     gain = np.maximum((correlation * weight) @ decays, 0.0) ** 2 / (weight @ decays**2)
-    return _LENGTHS[gain.argmax(axis=-1)]
+    return _lowest(-gain)
 
 
 def integral_length(correlation: Array, error: Array) -> Array:

@@ -56,7 +56,7 @@ def digest(*modules: str) -> str:
 
 
 def configuration_digest(configuration: Mapping[str, Any]) -> str:
-    """Digest of all that decides about results; 16 hexadecimal digits."""
+    """Digest of a configuration, of the study or of one batch; 16 hexadecimal digits."""
     text = json.dumps(configuration, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -205,7 +205,7 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
 
 
 def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray[np.intp]:
-    """Find the peaks of a mean force curve, (n,), up to the onset of sliding; their indices.
+    """Find the peaks of a force curve, (n,), under load; their indices.
 
     A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
     by `share` of the largest force, which keeps out the small waves of loading; and it must reach

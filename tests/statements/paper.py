@@ -15,7 +15,7 @@ from springblock.tables import Record
 N, SEEDS = 48, range(24)
 FLAT = Scene(N)
 ALONG, ACROSS = (Scene(N, 23, 25, 5, 1, direction=direction) for direction in "xy")
-DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 5, 1, direction) for direction in "xy")
+DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
 PILLARS = [Scene(N, n_p, n_p) for n_p in (2, 6, 24)]
 
 #: t_max in µs, static friction, width of the force peak in µs; other load peaks as (µs, height).

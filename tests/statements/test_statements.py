@@ -72,7 +72,6 @@ CHANGES = [
     ("peak_before_average", [FLAT], shifted(9.0), "not reproduced"),
     ("uniform", [FLAT], tilted, "depends on"),
     ("pillars_alike", PILLARS, tilted, "not reproduced"),
-    ("small_pillars", PILLARS[:1], sticking(0.60), "depends on"),
     ("small_pillars", PILLARS[:1], peaks((200.0, 0.78), width=40.0), "depends on"),
     ("detachment_order", PILLARS, mirrored, "not reproduced"),
     ("detachment_order", PILLARS[1:2], mirrored, "depends on"),

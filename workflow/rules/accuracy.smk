@@ -7,6 +7,11 @@ COMPARISONS = expand(
     scene=["flat", "pillared", "grooved"],
 )
 
+#: Digest of all of the package that the comparisons run.
+COMPARED = sources.digest(
+    *(f"springblock.{module}" for module in ("realisation", "asperities", "pattern", "tables"))
+)
+
 
 rule compare:
     input:
@@ -25,7 +30,7 @@ rule compare:
         mem_mb=600,
         runtime=20,
     params:
-        code=sources.digest("springblock.realisation"),
+        code=COMPARED,
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
@@ -65,7 +70,7 @@ rule work_precision:
 rule stability:
     input:
         rules.compile.output,
-        code="tests/validation/stability.py",
+        code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
     output:
         table=f"{RESULTS}/tables/stability.parquet",
         pdf=f"{RESULTS}/figures/stability.pdf",
@@ -83,7 +88,7 @@ rule stability:
         mem_mb=1000,
         runtime=10,
     params:
-        code=[sources.digest("springblock.realisation"), figure_code("stability")],
+        code=[COMPARED, figure_code("stability")],
     message:
         "Trying stiff and extreme cases"
     shell:

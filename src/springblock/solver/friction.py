@@ -12,10 +12,9 @@ from numba import njit
 
 @njit(inline="always")
 def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
-    """Return the share of the trial velocity w that friction leaves, 0 for a block at rest.
+    """Return the share of the trial velocity w that friction leaves, and whether the block slides.
 
-    And whether the block was at rest at an instant of this step.
-
+    The share is 0 for a block at rest; w·v and w² are returned as well, for the balance of energy.
     w is the velocity after a step under all forces but friction, v the one before, and f the
     velocity that F_mot alone would add; `static` and `dynamic` are what mu_s F_n and mu_d F_n
     would take away. Two cases end in rest:

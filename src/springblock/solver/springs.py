@@ -8,7 +8,7 @@ cancel all but a few digits. With q = (2 e·d + d²)/L² = (r/L)² - 1,
     1 - L/r = 1 - (1 + q)^(-1/2) = q g(q),    g(q) = 1/((1 + q) + √(1 + q)),
 
 has neither cancellation nor, with g as a short polynomial, a root or a division. Rows in which
-some |q| leaves the polynomial's range are computed again with the closed form.
+the springs of some block leave the polynomial's range are computed again with the closed form.
 
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """

@@ -109,10 +109,10 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
             }
             if not gaps:
                 continue
-            worst = max(gaps, key=lambda r: abs(float(gaps[r].mean)))
+            worst = max(gaps, key=lambda r: max(abs(gaps[r].low), abs(gaps[r].high)))
             yield Finding(
                 _place(surface),
-                f"c_x(r) - exp(-r/l_c), the largest in the range of the fit, at r = {worst}",
+                f"c_x(r) - exp(-r/l_c) where its interval reaches furthest from 0, at r = {worst}",
                 gaps[worst],
                 (-_CLOSE, _CLOSE),
                 _row_of("correlation", surface, side="x", r=worst),

@@ -12,6 +12,7 @@ from springblock.statements.samples import (
     ALIKE,
     INF,
     NEGATIVE,
+    POSITIVE,
     in_files,
     in_table,
     lag,
@@ -24,6 +25,7 @@ from springblock.statistics import mean_interval, repeatability
 
 Mask = NDArray[np.bool_]
 
+_EARLY = 0.9  #: of t_max
 _CORE = 10  #: blocks from the edges of the surface to its core
 _SMALL = 0.2  #: difference in standard deviations that is called small (Cohen 1988)
 _FLAT = "realisations of the flat surface"
@@ -46,9 +48,12 @@ def isolated(run: Run, until: float) -> float:
 
 
 def lonely(run: Run) -> float:
-    """Share of the blocks detaching before t_max around which no other has by then."""
+    """Share of the blocks detaching before 0.9 t_max around which no other has by t_max.
+
+    None of these has started a front by itself in a tenth of t_max.
+    """
     alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_max), axis=0)
-    return _share(alone, run.t_det < run.t_max)
+    return _share(alone, run.t_det < _EARLY * run.t_max)
 
 
 def _share(blocks: Mask, among: Mask) -> float:
@@ -58,7 +63,7 @@ def _share(blocks: Mask, among: Mask) -> float:
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Precursors come one by one; up to t_max and up to a tenth of t_max before it."""
     for scene in scenes_along_x(evidence.records, 0):
-        for until in (0.9, 1.0):
+        for until in (_EARLY, 1.0):
             shares = over_runs(partial(isolated, until=until), evidence.records[scene])
             yield Finding(
                 {"N": scene.n_blocks, "t/t_max below": until},
@@ -71,13 +76,13 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
-    """Some precursors stay alone until the force maximum, others do not."""
+    """Some early precursors stay alone until the force maximum."""
     for scene in scenes_along_x(evidence.records, 0):
         yield Finding(
             place(scene),
-            "share of the blocks detached before t_max around which no other had",
+            "share of the blocks detached before 0.9 t_max around which no other has by t_max",
             mean(over_runs(lonely, evidence.records[scene])),
-            (0.0, 1.0),
+            POSITIVE,
             in_files(scene),
         )
 

@@ -37,11 +37,11 @@ _WAYS = "realisations of a grooved surface that slides along and across its groo
 
 
 def second_peak(run: Run) -> float:
-    """Force at the last load peak minus that at the first, over P l² N²; NaN below two."""
+    """Force at the second load peak minus that at the first, over P l² N²; NaN without."""
     peaks = load_peaks(run.force, 0.0)
     if len(peaks) < 2:
         return float("nan")
-    return float(run.force[peaks[-1]] - run.force[peaks[0]]) / run.normal_force
+    return float(run.force[peaks[1]] - run.force[peaks[0]]) / run.normal_force
 
 
 def resting_core(run: Run, core: Mask) -> float:
@@ -50,7 +50,7 @@ def resting_core(run: Run, core: Mask) -> float:
     if len(peaks) < 2:
         return float("nan")
     between = peaks[0] + int(np.argmin(run.force[peaks[0] : peaks[1]]))
-    return float(np.mean(run.t_det[core] > run.time[between]))
+    return float(np.mean(~(run.t_det[core] <= run.time[between])))  # NaN: never
 
 
 def edge(contact: Mask) -> Mask:
@@ -77,9 +77,14 @@ def grooved_parts(scene: Scene) -> dict[str, Mask]:
 
 
 def _grooved(evidence: Evidence, level: int = 2) -> list[tuple[dict[str, int], Scene, Scene]]:
-    """Grooved surfaces that were slid both along and across: lengths and both scenes."""
+    """Grooved surfaces that were slid both along and across: lengths and both scenes.
+
+    Those that look the same from both sides are left out: they have no along and across.
+    """
     pairs = []
     for along in scenes_along_x(evidence.records, level):
+        if np.array_equal(along.pattern.contact, along.pattern.contact.T):
+            continue
         across = next((s for s in evidence.records if _turned(s, along)), None)
         if across is not None:
             pairs.append((place(along), along, across))
@@ -124,8 +129,8 @@ def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
         if sample:
             yield Finding(
                 place(scene),
-                "force at the last load peak minus that at the first, over the normal force, in "
-                "runs with several",
+                "force at the second load peak minus that at the first, over the normal force, "
+                f"in the {len(sample)} runs that have both",
                 mean(sample),
                 POSITIVE,
                 in_files(scene),
@@ -142,7 +147,7 @@ def rest_between_peaks(evidence: Evidence) -> Iterator[Finding]:
             yield Finding(
                 place(scene),
                 "share of the blocks off the edges yet to detach at the lowest force between the "
-                "load peaks, in runs with several",
+                f"load peaks, in the {len(sample)} runs that have both",
                 mean(sample),
                 (0.5, INF),
                 in_files(scene),

@@ -84,11 +84,18 @@ def difference(first: Sample, second: Sample) -> Interval:
 
 
 def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
-    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; paired."""
+    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; paired.
+
+    The interval is NaN where those of `zero` and `one` cannot be told apart.
+    """
     seeds = sorted(sample.keys() & zero.keys() & one.keys())
-    return ratio_interval(
+    place = ratio_interval(
         [sample[seed] - zero[seed] for seed in seeds], [one[seed] - zero[seed] for seed in seeds]
     )
+    scale = difference(one, zero)
+    if scale.low <= 0.0 <= scale.high:
+        return Interval(place.mean, np.array(np.nan), np.array(np.nan))
+    return place
 
 
 def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:
