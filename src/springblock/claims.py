@@ -123,6 +123,7 @@ def _together(findings: Iterable[Finding]) -> str:
 
 
 _BOTH = ("holds", "fails")
+_LINE = 100  #: characters
 
 
 def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
@@ -138,8 +139,8 @@ def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
     )
     telling = [key for key in keys if not holds[key] & fails[key]]
     telling = telling or [key for key in keys if holds[key] != fails[key]]
-    names = [{_name(c, telling) for c, outcome in outcomes if outcome == which} for which in _BOTH]
-    if names[0] & names[1]:  # no key tells them apart without the others
+    names = {(_name(case, telling), outcome) for case, outcome in outcomes}
+    if len({name for name, _ in names}) < len(names):  # no key tells them apart without the others
         telling = [key for key in keys if len({case[key] for case, _ in outcomes}) > 1]
     lists = []
     for which in (*_BOTH, "open"):
@@ -246,12 +247,18 @@ def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
     summary = [
-        [f"{i}. {part[0]['claim']}", _verdict(part[0])] for i, part in enumerate(by_claim, 1)
+        [f"{i}. {part[0]['claim']}", _in_short(part[0])] for i, part in enumerate(by_claim, 1)
     ]
     sections = [_section(i, part) for i, part in enumerate(by_claim, 1)]
     return _PAGE.format(
         summary=markdown_table(["statement", "verdict"], summary), sections="\n\n".join(sections)
     )
+
+
+def _in_short(row: Row) -> str:
+    """The verdict, without a list of cases that would not fit a line."""
+    whole = _verdict(row)
+    return whole if len(whole) <= _LINE else whole.split(":")[0]
 
 
 def _verdict(row: Row) -> str:

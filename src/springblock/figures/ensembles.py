@@ -161,6 +161,11 @@ def size_colors(sizes: Iterable[int]) -> dict[int, Any]:
     return {0: BLACK} | dict(zip(pillars, color_palette("viridis", len(pillars)), strict=True))
 
 
+def in_order(keys: Iterable[Key]) -> list[Key]:
+    """The flat surface, pillars by their size, grooved ones."""
+    return sorted(keys, key=lambda key: (key[1] > 0, key))
+
+
 def name_surface(key: Key, colors: dict[int, Any]) -> tuple[str, Any]:
     """Name and color of a surface."""
     n_p, n_p2, direction = key

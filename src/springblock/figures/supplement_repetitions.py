@@ -17,6 +17,7 @@ from springblock.figures.ensembles import (
     Key,
     Runs,
     highest_and_lag,
+    in_order,
     logarithmic,
     name_surface,
     size_colors,
@@ -40,7 +41,7 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     """
     picture, panels = two_panels("number of realisations", above=12.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
-    for key, marker in zip(sorted(ensembles), cycle("os^vDP*X"), strict=False):
+    for key, marker in zip(in_order(ensembles), cycle("os^vDP*X"), strict=False):
         name, color = name_surface(key, colors)
         highest, lag = highest_and_lag(ensembles[key])
         for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):

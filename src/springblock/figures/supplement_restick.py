@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from springblock.figures import style
-from springblock.figures.ensembles import Key, Runs, name_surface, size_colors
+from springblock.figures.ensembles import Key, Runs, in_order, name_surface, size_colors
 from springblock.figures.style import journal
 from springblock.run import Array, Run, percent
 from springblock.statistics import mean_interval
@@ -32,10 +32,10 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     `ensembles` holds runs by (n_p, n_p2, direction). Bands are 95 % bootstrap intervals of the
     mean over runs.
     """
-    picture = style.figure(style.COLUMN, 66.0)
+    picture = style.figure(style.COLUMN, 74.0)
     ax = style.axes(picture, 16.0, 11.0, 71.0, 41.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
-    for key in sorted(ensembles):
+    for key in in_order(ensembles):
         name, color = name_surface(key, colors)
         mean, low, high = mean_interval([let_go_again(run) for run in ensembles[key]])
         ax.plot(_TIMES, mean, color=color, label=name)
