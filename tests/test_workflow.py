@@ -16,7 +16,8 @@ from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
-FIGURES = [*(f"figure_{k}" for k in range(1, 10)), "supplement_repetitions"]
+SUPPLEMENT = ["supplement_repetitions", "supplement_restick"]
+FIGURES = [*(f"figure_{k}" for k in range(1, 10)), *SUPPLEMENT]
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
 
 TINY = {
@@ -68,6 +69,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("study")
     for part in ("src", "workflow", "config", "profiles", "tests/validation"):
         shutil.copytree(ROOT / part, folder / part)
+    shutil.copy(ROOT / "tests/scenes.py", folder / "tests")
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
     outcome = snakemake(folder)
@@ -126,6 +128,17 @@ def test_each_job_leaves_a_log_and_a_benchmark(study):
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
         files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
         assert files == jobs
+
+
+def test_the_whole_study_can_be_planned(study):
+    """With all its groups of scenes and its comparisons, from nothing."""
+    paper = {"configuration": ("config/config.yaml",)}
+    jobs = planned(study, "--config", "results=elsewhere", **paper)
+    assert {"compare", "stability", "work_precision", "accuracy", "claims", *FIGURES} <= set(jobs)
+    assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
+    sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **paper)
+    assert set(sizes) == {"compile", "prelude", "simulate", "correlation", "figure_7"}
+    assert sizes["simulate"] < jobs["simulate"]
 
 
 def test_a_finished_study_has_nothing_to_do(study):
