@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from springblock.files import whole_file
 from springblock.scene import Scene
 
-if TYPE_CHECKING:  # simulation jobs do without pandas
+if TYPE_CHECKING:  # read here by those who draw, and only then
     import pandas as pd
 
 

@@ -25,7 +25,7 @@ RESULTS = ROOT / "results"
 N = 120
 REPETITIONS = 3
 SAMPLE_INTERVAL = 2e-7
-BATCH_SIZE = 5  #: realisations in a file
+BATCH_SIZE = 10  #: realisations in a file
 
 
 @dataclass(frozen=True)

@@ -178,7 +178,7 @@ def _is_whole(q):
 
 @njit(**JIT)
 def _row_by_closed_form(ux, uy, i, j, s, own, kappa, n):
-    """As `_row_by_series` at any strain; returns the first x with a spring beyond all, or 0."""
+    """As `_rows_by_series`, one row, any strain; the first x with a spring beyond all, or 0."""
     for x in range(ONE, n + ONE):
         ax, ay = ux[i + x], uy[i + x]
         bx, by = ux[i + x + ONE], uy[i + x + ONE]

@@ -6,7 +6,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from springblock.claims import Claim, Evidence, Finding
+from springblock.claims import Case, Claim, Evidence, Finding
 from springblock.run import Array, Run
 from springblock.scene import Scene
 from springblock.statements.samples import (
@@ -126,38 +126,39 @@ def ring_times(runs: Sequence[Run], scene: Scene, depth: int) -> dict[str, Array
     return {name: times[:, mask].mean(axis=1) for name, mask in parts.items()}
 
 
-def detachment_order(evidence: Evidence) -> Iterator[Finding]:
-    """Corners, edges across, edges along, centre; on the edge and on the ring inside it."""
+def _outer_rings(evidence: Evidence) -> Iterator[tuple[Scene, Case, dict[str, Array]]]:
+    """The edge of pillars and the ring inside it: scene, case and times of the parts."""
     for scene in scenes_along_x(evidence.records, 1, SMALLEST):
         for depth in (0, 1):
-            if 2 * (depth + 1) >= scene.n_p:
-                continue
-            parts = ring_times(evidence.records[scene], scene, depth)
-            for (early, before), (late, after) in pairwise(parts.items()):
-                yield Finding(
-                    place(scene) | {"distance from the edge": depth},
-                    f"t_det/t_max of the {late} minus that of the {early}",
-                    mean_interval(after - before),
-                    POSITIVE,
-                    in_files(scene),
-                )
+            if 2 * (depth + 1) < scene.n_p:
+                case = place(scene) | {"distance from the edge": depth}
+                yield scene, case, ring_times(evidence.records[scene], scene, depth)
+
+
+def detachment_order(evidence: Evidence) -> Iterator[Finding]:
+    """Corners, edges across, edges along, centre; on the edge and on the ring inside it."""
+    for scene, case, parts in _outer_rings(evidence):
+        for (early, before), (late, after) in pairwise(parts.items()):
+            yield Finding(
+                case,
+                f"t_det/t_max of the {late} minus that of the {early}",
+                mean_interval(after - before),
+                POSITIVE,
+                in_files(scene),
+            )
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """All parts of the edge let go before the force maximum, and so do the blocks beside it."""
-    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
-        for depth in (0, 1):
-            if 2 * (depth + 1) >= scene.n_p:
-                continue
-            parts = ring_times(evidence.records[scene], scene, depth)
-            for name in list(parts)[:-1]:
-                yield Finding(
-                    place(scene) | {"distance from the edge": depth},
-                    f"t_det/t_max of the {name}",
-                    mean_interval(parts[name]),
-                    (-INF, 1.0),
-                    in_files(scene),
-                )
+    for scene, case, parts in _outer_rings(evidence):
+        for name in list(parts)[:-1]:
+            yield Finding(
+                case,
+                f"t_det/t_max of the {name}",
+                mean_interval(parts[name]),
+                (-INF, 1.0),
+                in_files(scene),
+            )
 
 
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
