@@ -6,15 +6,17 @@ from springblock import Material, Pattern, draw_friction
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import (
-    SCRATCH_SIZE,
+    FORCE_X,
+    FORCE_Y,
     band_rows,
     coefficients,
-    slot,
-    spring_band,
-    spring_force,
+    forces_on_band,
+    scratch,
 )
 
 UNDAMPED = Material(gamma=0.0)
+#: Stiffness, its polynomial, and the slider's stiffness and place, of a lattice by itself.
+SPRINGS = (1.0, coefficients(1.0), 0.0, 0.0, 0.0)
 
 
 def uniform(n, mu_static, mu_dynamic):
@@ -48,18 +50,17 @@ def spring_forces(displacement):
     """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l."""
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
-    size = lattice_size(n)
-    scratch, springs = np.zeros(SCRATCH_SIZE), (1.0, coefficients(1.0))
-    columns, every_row = np.arange(1, n + 1, dtype=np.uint64), np.ones(n + 1, bool)
+    s, size, every_row = scratch(n), lattice_size(n), np.ones(n + 1, bool)
     forces = []
     for start in map(np.uint64, range(0, n, band_rows(n))):
         stop = min(start + size[2], size[0])
-        _, beyond = spring_band(ux, uy, start, stop, every_row, size, scratch, *springs)
-        assert beyond == 0
-        for row in map(np.uint64, range(start, stop)):
-            own, south = (slot.py_func(y, *size[1:]) + columns for y in (row, row + size[2]))
-            forces.append(spring_force.py_func(scratch, own, south))
-    return np.stack(forces, axis=1)
+        _, broken = forces_on_band(ux, uy, start, stop, every_row, size, s, *SPRINGS)
+        assert broken == 0
+        rows = np.stack(
+            [s[int(field) :][: int(stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
+        )
+        forces.append(rows.reshape(2, -1, n + 2)[:, :, 1 : n + 1])
+    return np.concatenate(forces, axis=1)
 
 
 def lattice_size(n):

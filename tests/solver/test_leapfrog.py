@@ -6,6 +6,7 @@ import pytest
 from springblock import Material, Pattern, draw_friction
 from springblock.solver import leapfrog
 from springblock.solver.lattice import Samples, prepare
+from springblock.solver.springs import scratch
 
 STEP, EVERY = 2e-8, 10
 #: Loads ten times faster than the paper's, so that a few thousand steps show a whole run.
@@ -45,7 +46,7 @@ def assert_same_to_the_bit(one, other, fields):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
 
 
-MOTION = ("ux", "uy", "wx", "wy", "t_det", "ledger")
+MOTION = ("ux", "uy", "wx", "wy", "t_det")
 
 
 @pytest.mark.parametrize("band", [1, 2, 5, None])
@@ -60,7 +61,7 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
     banded = constants if band is None else constants._replace(band=np.uint64(band))
     plain, quick = follow(all_rows, constants, 4000), follow(awake_rows, banded, 4000)
     assert np.isfinite(awake_rows.t_det).any()  # something has happened
-    assert_same_to_the_bit(all_rows, awake_rows, MOTION)
+    assert_same_to_the_bit(all_rows, awake_rows, (*MOTION, "ledger"))
     assert_same_to_the_bit(plain, quick, Samples._fields)
 
 
@@ -69,24 +70,11 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
     books = leapfrog._row_books.py_func(state.in_contact, 12)
-    blocks = (state.ux, state.uy, state.wx, state.wy, state.static, state.dynamic, state.t_det)
-    assert not any(field.any() for field in blocks[:4])
-    n = constants.n
-    sure = leapfrog._steps_at_rest(
-        blocks,
-        state.scratch,
-        np.uint64(0),
-        np.uint64(0),
-        np.uint64(0),
-        n,
-        constants.k_s,
-        0.0,
-        0.0,
-        constants.k_s * np.hypot(constants.slider_x, constants.slider_y),
-    )
-    weakest = state.static[1:13].min()
-    slide = np.hypot(constants.slider_x, constants.slider_y)
-    assert sure == pytest.approx(weakest / (constants.k_s * slide), rel=1e-3)
+    assert not any(field.any() for field in (state.ux, state.uy, state.wx, state.wy))
+    pull = constants.k_s * np.hypot(constants.slider_x, constants.slider_y)
+    first_row = np.uint64(0), np.uint64(0), constants.n
+    sure = leapfrog._steps_at_rest(state.static, scratch(12), *first_row, pull)  # free of force
+    assert sure == pytest.approx(state.static[1:13].min() / pull, rel=1e-3)
     books[3][:] = 0  # all rows at rest
     books[2][:] = sure
     leapfrog._wake_rows(books, sure - 1)
@@ -107,11 +95,16 @@ def test_a_moving_row_wakes_its_neighbours(moving):
 
 @pytest.mark.parametrize("surface", ["pillars", "grooves", "random"])
 def test_a_row_without_contact_skips_friction_to_the_bit(surface):
-    """As if it held contact: a block without threshold is not slowed."""
+    """As if it held contact: a block without threshold is not slowed.
+
+    Sums over its blocks may be taken in another order, and differ by their rounding.
+    """
     short, constants = start(SURFACES[surface], 2)
     assert not short.in_contact.all()
     full = short.copy()._replace(in_contact=np.ones_like(short.in_contact))
     quick, plain = (follow(state, constants, 4000) for state in (short, full))
     assert np.isfinite(short.t_det).any()
     assert_same_to_the_bit(short, full, MOTION)
-    assert_same_to_the_bit(quick, plain, Samples._fields)
+    np.testing.assert_array_equal(quick.switches, plain.switches)
+    for one, other in zip((*quick[:2], short.ledger), (*plain[:2], full.ledger), strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-13 * np.abs(other).max())

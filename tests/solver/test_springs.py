@@ -4,16 +4,15 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes import lattice_size, spring_forces, with_border
+from scenes import SPRINGS, lattice_size, spring_forces, with_border
 from springblock.solver.springs import (
     Q_MAX,
     Q_MIN,
-    SCRATCH_SIZE,
     SERIES_RANGE,
-    coefficients,
+    forces_on_band,
     g,
+    scratch,
     series,
-    spring_band,
 )
 
 EPS = np.finfo(float).eps
@@ -54,11 +53,10 @@ def exact_forces(u):
 
 
 def check_row(u, row=0):
-    """Column, from one, of the first spring that `spring_band` finds beyond its range; else 0."""
+    """Column, from one, of the first broken spring that `forces_on_band` finds; else 0."""
     n = u.shape[-1]
-    needed = np.arange(n + 1) == row
-    rest = lattice_size(n), np.zeros(SCRATCH_SIZE), 1.0, coefficients(1.0)
-    return spring_band(*with_border(u), np.uint64(row), np.uint64(row + 1), needed, *rest)[1]
+    needed, band = np.arange(n + 1) == row, (np.uint64(row), np.uint64(row + 1))
+    return forces_on_band(*with_border(u), *band, needed, lattice_size(n), scratch(n), *SPRINGS)[1]
 
 
 def test_the_series_is_exact_to_rounding_over_its_range():

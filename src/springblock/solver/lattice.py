@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from springblock.material import Material
 from springblock.solver.compilation import JIT, add
-from springblock.solver.springs import ONE, SCRATCH_SIZE, band_rows, coefficients
+from springblock.solver.springs import ONE, aligned, band_rows, coefficients, scratch
 
 Array = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ class State(NamedTuple):
     t_det: Array  #: first detachment; infinite before
     static: Array  #: mu_s F_n; 0 where there is no contact
     dynamic: Array  #: mu_d F_n
-    scratch: Array  #: rows of springs, see `springs`
+    scratch: Array  #: springs and forces of a band of rows, see `springs`
     work: Array  #: lattice-sized fields of the integrator's own
     ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
@@ -98,7 +98,7 @@ def prepare(
         return lattice
 
     def field() -> Array:
-        return _aligned(n * pitch)
+        return aligned(n * pitch)
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
     state = State(
@@ -109,7 +109,7 @@ def prepare(
         t_det=field() + np.inf,
         static=padded(static),
         dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
-        scratch=_aligned(SCRATCH_SIZE),
+        scratch=scratch(n),
         work=np.zeros((work_fields, n * pitch)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
@@ -129,13 +129,6 @@ def prepare(
         slider_y=slide * heading[1],
     )
     return state, constants
-
-
-def _aligned(size: int) -> Array:
-    """Zeros, the second of which begins a cache line."""
-    raw = np.zeros(size + 8)
-    start = (-(raw.ctypes.data // 8) - 1) % 8
-    return raw[start : start + size]
 
 
 def unpadded(field: Array, n: int) -> Array:

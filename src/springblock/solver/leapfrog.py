@@ -13,7 +13,7 @@ from numba import njit
 from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
 from springblock.solver.lattice import Array, Constants, Samples, State, book, close_edge
-from springblock.solver.springs import ONE, U, slot, slot_below, spring_band, spring_force
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
@@ -51,23 +51,20 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 @njit(**JIT)
-def _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, stop):
+def _move_rows_in_contact(blocks, rows, size, s, a, start, stop):
     """Kick and drift those rows of [start, stop) that are awake and hold blocks in contact."""
     ux, uy, wx, wy, static, dynamic, _ = blocks
-    n, pitch, band = size
+    n, pitch, _ = size
     in_contact, awake, _, sliding, switching, _, sums = rows
     for row in range(start, stop):
         if not (in_contact[row] and awake[row]):
             continue
-        i, own = row * pitch, slot(row, pitch, band)
-        south = slot_below(own, pitch, band)
+        i, own = row * pitch, (row - start) * pitch
         slide, switch = np.int64(0), np.int64(0)
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
             b = i + x
-            fx, fy = spring_force(s, own + x, south + x)
-            fx += k_s * (sx - ux[b])
-            fy += k_s * (sy - uy[b])
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
             trial_x, trial_y = a * vx + fx, a * vy + fy
             left, slides, along, speed2 = coulomb(
@@ -87,29 +84,27 @@ def _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, st
             kept = left * speed2
             heat = add(heat, (1.0 - left) * (along + kept))
             squares = add(squares, left * kept)
-            if peak is not None:
-                peak[b] = max(peak[b], fx * fx + fy * fy)
         sliding[row + ONE], switching[row] = slide, switch
         sums[0, row], sums[1, row], sums[2, row], sums[3, row] = sum_x, sum_y, 0.5 * heat, squares
 
 
 @njit(**JIT)
-def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
-    """As `_move_rows_in_contact` for the other rows, which are always awake; to the bit."""
+def _move_free_rows(blocks, rows, size, s, a, start, stop):
+    """As `_move_rows_in_contact` for the other rows, which are always awake.
+
+    To the bit, but for the order of the sums.
+    """
     ux, uy, wx, wy = blocks[:4]
-    n, pitch, band = size
+    n, pitch, _ = size
     in_contact, sums = rows[0], rows[6]
     for row in range(start, stop):
         if in_contact[row]:
             continue
-        i, own = row * pitch, slot(row, pitch, band)
-        south = slot_below(own, pitch, band)
+        i, own = row * pitch, (row - start) * pitch
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
             b = i + x
-            fx, fy = spring_force(s, own + x, south + x)
-            fx += k_s * (sx - ux[b])
-            fy += k_s * (sy - uy[b])
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
             there_x, there_y = ux[b] + new_x, uy[b] + new_y
             wx[b] = new_x
@@ -120,6 +115,18 @@ def _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop):
             sum_y = add(sum_y, there_y)
             squares = add(squares, new_x * new_x + new_y * new_y)
         sums[0, row], sums[1, row], sums[3, row] = sum_x, sum_y, squares
+
+
+@njit(**JIT)
+def _keep_peaks(peak, size, s, start, stop):
+    """Keep the largest |F_mot|² of each block in rows [start, stop), for a prelude."""
+    if peak is not None:
+        n, pitch, _ = size
+        for row in range(start, stop):
+            i, own = row * pitch, (row - start) * pitch
+            for x in range(ONE, n + ONE):
+                fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+                peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 
 @njit(**JIT)
@@ -137,26 +144,22 @@ def _note_detachments(blocks, i, n, now):
 
 
 @njit(**JIT)
-def _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull):
+def _steps_at_rest(static, s, own, i, n, pull):
     """Steps for which a row at rest among rows at rest is sure to stay there.
 
     As long as nothing moves, only the slider changes F_mot of a block, by `pull` per step.
     """
-    ux, uy, _, _, static, _, _ = blocks
     least = np.inf
     for x in range(ONE, n + ONE):
-        b = i + x
-        fx, fy = spring_force(s, own + x, south + x)
-        fx += k_s * (sx - ux[b])
-        fy += k_s * (sy - uy[b])
-        least = min(least, static[b] - math.sqrt(fx * fx + fy * fy))
+        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+        least = min(least, static[i + x] - math.sqrt(fx * fx + fy * fy))
     return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
 
 
 @njit(**JIT)
-def _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, now):
+def _settle(blocks, rows, size, s, pull, start, stop, now):
     """See to what rows of [start, stop) have done; return their switches from rest to sliding."""
-    n, pitch, band = size
+    n, pitch, _ = size
     in_contact, awake, wake, sliding, switching, waiting, _ = rows
     switches = np.int64(0)
     for row in range(start, stop):
@@ -166,9 +169,8 @@ def _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, now):
             if switching[row] > 0 and waiting[row]:
                 waiting[row] = _note_detachments(blocks, i, n, now)
             elif sliding[row + ONE] == 0 and wake[row] <= now:
-                own = slot(row, pitch, band)
-                south = slot_below(own, pitch, band)
-                wake[row] = now + _steps_at_rest(blocks, s, own, south, i, n, k_s, sx, sy, pull)
+                own = (row - start) * pitch
+                wake[row] = now + _steps_at_rest(blocks[4], s, own, i, n, pull)
         close_edge(blocks[0], blocks[1], i, n)
     return switches
 
@@ -232,12 +234,15 @@ def advance(state, constants, first, steps, every, samples):
             _wake_rows(rows, k)
         for start in range(U(0), n, band):
             stop = min(start + band, n)
-            row, column = spring_band(ux, uy, start, stop, awake, size, s, kappa, series)
+            row, column = forces_on_band(
+                ux, uy, start, stop, awake, size, s, kappa, series, k_s, sx, sy
+            )
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
-            _move_rows_in_contact(blocks, peak, rows, size, s, a, k_s, sx, sy, start, stop)
-            _move_free_rows(blocks, rows, size, s, a, k_s, sx, sy, start, stop)
-            switches += _settle(blocks, rows, size, s, k_s, sx, sy, pull, start, stop, k)
+            _keep_peaks(peak, size, s, start, stop)
+            _move_rows_in_contact(blocks, rows, size, s, a, start, stop)
+            _move_free_rows(blocks, rows, size, s, a, start, stop)
+            switches += _settle(blocks, rows, size, s, pull, start, stop, k)
         force = book(ledger, constants, k, _totals(sums))
         if (k + 1) % every == 0:
             samples.force_x[sample], samples.force_y[sample] = force

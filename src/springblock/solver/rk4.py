@@ -18,7 +18,7 @@ from numba import njit
 
 from springblock.solver.compilation import JIT
 from springblock.solver.lattice import Array, Constants, State, book, close_edge, total_displacement
-from springblock.solver.springs import ONE, U, slot, slot_below, spring_band, spring_force
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 4
 #: Lattice-sized fields in `State.work`: displacement and velocity of the stage, their weighted
@@ -61,17 +61,15 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _stage_row(blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, sy, now):
+def _stage_row(blocks, peak, fields, stage, i, n, s, own, damping, now):
     """One stage on one row; returns the switches from rest to sliding, and the squared speed."""
-    ux, uy, wx, wy, t_det, static, dynamic, s = blocks
+    ux, uy, wx, wy, t_det, static, dynamic = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
     weight, reach = WEIGHTS[stage], NODES[stage + 1] if stage < 3 else 0.0
     switches, squares = 0, 0.0
     for x in range(ONE, n + ONE):
         b = i + x
-        fx, fy = spring_force(s, own + x, south + x)
-        fx += k_s * (sx - su[b])
-        fy += k_s * (sy - sv[b])
+        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
         if stage == 0:
             ex[b], ey[b] = 1.0, 0.0
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
@@ -105,7 +103,7 @@ def _stage_row(blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, 
 @njit(**JIT)
 def _finish_row(blocks, fields, i, n):
     """Complete the step on one row; returns friction's heat."""
-    ux, uy, wx, wy, _, static, dynamic, _ = blocks
+    ux, uy, wx, wy, _, static, dynamic = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
     heat = 0.0
     for x in range(ONE, n + ONE):
@@ -130,7 +128,7 @@ def advance(state, constants, first, steps, every, samples):
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak, _ = state
     n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
-    blocks = (ux, uy, wx, wy, t_det, static, dynamic, s)
+    blocks = (ux, uy, wx, wy, t_det, static, dynamic)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
     su, sv, pu, pv = fields[:4]
     su[:], sv[:], pu[:], pv[:] = ux, uy, wx, wy
@@ -142,15 +140,15 @@ def advance(state, constants, first, steps, every, samples):
             sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
             for start in range(U(0), n, band):
                 stop = min(start + band, n)
-                row, column = spring_band(su, sv, start, stop, every_row, size, s, kappa, series)
+                row, column = forces_on_band(
+                    su, sv, start, stop, every_row, size, s, kappa, series, k_s, sx, sy
+                )
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
                 for row in range(start, stop):
-                    own = slot(row, pitch, band)
-                    south = slot_below(own, pitch, band)
-                    i = row * pitch
+                    i, own = row * pitch, (row - start) * pitch
                     row_switches, row_squares = _stage_row(
-                        blocks, peak, fields, stage, i, n, own, south, damping, k_s, sx, sy, k
+                        blocks, peak, fields, stage, i, n, s, own, damping, k
                     )
                     close_edge(su, sv, i, n)
                     switches += row_switches

@@ -10,6 +10,10 @@ cancel all but a few digits. With q = (2 e·d + d²)/L² = (r/L)² - 1,
 has neither cancellation nor, with g as a short polynomial, a root or a division. Rows in which
 the springs of some block leave the polynomial's range are computed again with the closed form.
 
+A band of rows is worked on in short loops, first what its springs pull with, then what its blocks
+feel: in one long loop the processor would run out of registers before it could overlap the work on
+several blocks.
+
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """
 
@@ -32,19 +36,18 @@ Q_MIN, Q_MAX = -0.75, 3.0
 
 #: A lattice row may hold at most this many blocks.
 MAX_BLOCKS = 4096
-#: Rows are worked on in bands of about this many blocks: all their springs, then all their
-#: blocks. Sums that read what was written an instant ago would have to wait for it.
-_BAND_BLOCKS = 512
+
+#: Rows are worked on in bands of about this many blocks.
+_BAND_BLOCKS = 1024
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: the springs of one band of rows and of the row below it. Their distance is a
-# constant, so that the compiler can see that they do not overlap, and no power of two, so that
+# Fields of scratch: a band of rows each, but for the last four, which are one row. Their distance
+# is a constant, so that the compiler can see that they do not overlap, and no power of two, so that
 # they do not compete for the same cache lines.
-_FIELD = 2 * MAX_BLOCKS + 72
-EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y = (U(k * _FIELD) for k in range(8))
-_TO_NEXT_ROW = (NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y)
-SCRATCH_SIZE = 8 * _FIELD
+_FIELD = MAX_BLOCKS + 72
+_FIELDS = (U(k * _FIELD) for k in range(10))
+FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y, DIAGONAL, NO_DIAGONAL = _FIELDS
 
 
 def band_rows(n: int) -> int:
@@ -77,97 +80,79 @@ def coefficients(kappa: float) -> tuple[float, ...]:
 
 
 @njit(inline="always")
-def _pull(q, c):
-    """Return kappa q g(q) by the polynomial c: what an axial spring pulls with, over e + d."""
+def _horner(p, q, c):
+    """Return c + q p for four springs: side by side, for one alone would wait for itself."""
+    return c + q[0] * p[0], c + q[1] * p[1], c + q[2] * p[2], c + q[3] * p[3]
+
+
+@njit(inline="always")
+def _series(q, c):
+    """Return kappa g(q) of four springs by the polynomial c."""
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
-    upper = c4 + q * (c5 + q * (c6 + q * (c7 + q * c8)))
-    return q * (c0 + q * (c1 + q * (c2 + q * (c3 + q * upper))))
+    p = _horner((c8, c8, c8, c8), q, c7)
+    p = _horner(p, q, c6)
+    p = _horner(p, q, c5)
+    p = _horner(p, q, c4)
+    p = _horner(p, q, c3)
+    p = _horner(p, q, c2)
+    p = _horner(p, q, c1)
+    return _horner(p, q, c0)
 
 
 @njit(inline="always")
-def _next_row(row, n):
-    """Return the row to the north; the last one has none: any finite strain will do."""
-    return min(row + ONE, n - ONE)
+def _stretch(ux, uy, i, j, x, diagonal):
+    """Return q of the four springs from block (i, x) to the east, north, and along diagonals.
 
-
-@njit(**JIT)
-def _clear(s, own, n):
-    """Set the forces from a row to the next one to zero."""
-    for field in _TO_NEXT_ROW:
-        for x in range(n + ONE):
-            s[field + own + x] = 0.0
-
-
-@njit(inline="always")
-def _end_row(s, own, row, n):
-    """Take away the springs beyond the eastern edge, and beyond the last row."""
-    for field in (EAST_X, EAST_Y, NE_X, NE_Y, NW_X, NW_Y):
-        s[field + own + n] = 0.0
-    if row + ONE == n:
-        _clear(s, own, n)
-
-
-@njit(inline="always")
-def slot(row, pitch, band):
-    """Return where the springs of `row` stand in scratch: a ring of a band and the row below."""
-    return row % (band + ONE) * pitch
-
-
-@njit(inline="always")
-def slot_below(own, pitch, band):
-    """Return where the springs of the row below stand, from where those of a row do."""
-    return own - pitch if own > 0 else band * pitch
-
-
-@njit(**JIT)
-def _rows_by_series(ux, uy, start, stop, needed, size, s, c):
-    """Forces of the springs from rows [start, stop) to the east and to the next row.
-
-    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
-    a spring out of range, which is not finished, or `stop`. Diagonal springs are entered as if they
-    were as stiff as axial ones; `spring_force` halves them.
+    Row j is the next one; the last spring goes north-west from the block to the east.
     """
-    n, pitch, band = size
+    ax, ay = ux[i + x], uy[i + x]
+    bx, by = ux[i + x + ONE], uy[i + x + ONE]
+    cx, cy = ux[j + x], uy[j + x]
+    dx, dy = bx - ax, by - ay
+    east = 2.0 * dx + (dx * dx + dy * dy)
+    dx, dy = cx - ax, cy - ay
+    north = 2.0 * dy + (dx * dx + dy * dy)
+    dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
+    ne = diagonal * ((dy + dx) + 0.5 * (dx * dx + dy * dy))
+    dx, dy = cx - bx, cy - by
+    nw = diagonal * ((dy - dx) + 0.5 * (dx * dx + dy * dy))
+    return east, north, ne, nw
+
+
+@njit(inline="always")
+def _neighbours(row, size):
+    """Return where a row and the next one stand, and which of its blocks have diagonal springs.
+
+    The last row has no next one: with itself in its place, northern springs are free of strain.
+    """
+    n, pitch, _ = size
+    i = row * pitch
+    return (i, i + pitch, DIAGONAL) if row + ONE < n else (i, i, NO_DIAGONAL)
+
+
+@njit(**JIT)
+def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
+    """Enter kappa q g(q), which a spring pulls with over e + d, for rows [start, stop).
+
+    The band begins with row `first`. Rows are left out where neither they nor the next row are
+    `needed`. Returns the first row with a spring out of range, which is not finished, or `stop`.
+    Diagonal springs are entered as if they were as stiff as axial ones; `_forces` halves them.
+    """
+    n, pitch, _ = size
     for row in range(start, stop):
         if not (needed[row] or needed[row + ONE]):
             continue
-        own, i, j = slot(row, pitch, band), row * pitch, _next_row(row, n) * pitch
-        outside = np.int64(0)
+        i, j, diagonal = _neighbours(row, size)
+        own, outside = (row - first) * pitch, np.int64(0)
         for x in range(ONE, n + ONE):
-            ax, ay = ux[i + x], uy[i + x]
-            bx, by = ux[i + x + ONE], uy[i + x + ONE]
-            cx, cy = ux[j + x], uy[j + x]
-
-            dx, dy = bx - ax, by - ay  # east
-            q = 2.0 * dx + (dx * dx + dy * dy)
-            f = _pull(q, c)
-            s[EAST_X + own + x] = f + f * dx
-            s[EAST_Y + own + x] = f * dy
-            qq = q * q
-
-            dx, dy = cx - ax, cy - ay  # north
-            q = 2.0 * dy + (dx * dx + dy * dy)
-            f = _pull(q, c)
-            s[NORTH_X + own + x] = f * dx
-            s[NORTH_Y + own + x] = f + f * dy
-            qq += q * q
-
-            dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay  # north-east
-            q = (dy + dx) + 0.5 * (dx * dx + dy * dy)
-            f = _pull(q, c)
-            s[NE_X + own + x] = f * dx + f
-            s[NE_Y + own + x] = f + f * dy
-            qq += q * q
-
-            dx, dy = cx - bx, cy - by  # north-west, from the next block
-            q = (dy - dx) + 0.5 * (dx * dx + dy * dy)
-            f = _pull(q, c)
-            s[NW_X + own + x] = f * dx - f
-            s[NW_Y + own + x] = f + f * dy
-            outside += np.int64(not qq + q * q <= SERIES_RANGE**2)
+            q = _stretch(ux, uy, i, j, x, s[diagonal + x])
+            p = _series(q, c)
+            q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
+            outside += np.int64(not q_squared <= SERIES_RANGE**2)  # also for NaN
+            s[EAST + own + x], s[NORTH + own + x] = q[0] * p[0], q[1] * p[1]
+            s[NE + own + x], s[NW + own + x] = q[2] * p[2], q[3] * p[3]
         if outside > 0:
             return row
-        _end_row(s, own, row, n)
     return stop
 
 
@@ -177,77 +162,91 @@ def _is_whole(q):
 
 
 @njit(**JIT)
-def _row_by_closed_form(ux, uy, i, j, s, own, kappa, n):
-    """As `_rows_by_series`, one row, any strain; the first x with a spring beyond all, or 0."""
+def _pulls_by_closed_form(ux, uy, row, first, size, s, kappa):
+    """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
+    n, pitch, _ = size
+    i, j, diagonal = _neighbours(row, size)
+    own, broken = (row - first) * pitch, np.int64(n + ONE)
     for x in range(ONE, n + ONE):
-        ax, ay = ux[i + x], uy[i + x]
-        bx, by = ux[i + x + ONE], uy[i + x + ONE]
-        cx, cy = ux[j + x], uy[j + x]
-
-        dx, dy = bx - ax, by - ay
-        q_e = 2.0 * dx + (dx * dx + dy * dy)
-        f = kappa * q_e * g(q_e)
-        s[EAST_X + own + x] = f + f * dx
-        s[EAST_Y + own + x] = f * dy
-
-        dx, dy = cx - ax, cy - ay
-        q_n = 2.0 * dy + (dx * dx + dy * dy)
-        f = kappa * q_n * g(q_n)
-        s[NORTH_X + own + x] = f * dx
-        s[NORTH_Y + own + x] = f + f * dy
-
-        dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
-        q_ne = (dy + dx) + 0.5 * (dx * dx + dy * dy)
-        f = kappa * q_ne * g(q_ne)
-        s[NE_X + own + x] = f * dx + f
-        s[NE_Y + own + x] = f + f * dy
-
-        dx, dy = cx - bx, cy - by
-        q_nw = (dy - dx) + 0.5 * (dx * dx + dy * dy)
-        f = kappa * q_nw * g(q_nw)
-        s[NW_X + own + x] = f * dx - f
-        s[NW_Y + own + x] = f + f * dy
-
-        if not (_is_whole(q_e) & _is_whole(q_n) & _is_whole(q_ne) & _is_whole(q_nw)):
-            return x
-    return U(0)
+        q = _stretch(ux, uy, i, j, x, s[diagonal + x])
+        s[EAST + own + x], s[NORTH + own + x] = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
+        s[NE + own + x], s[NW + own + x] = kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])
+        whole = _is_whole(q[0]) & _is_whole(q[1]) & _is_whole(q[2]) & _is_whole(q[3])
+        broken = min(broken, np.int64(n + ONE) if whole else np.int64(x))
+    return U(broken) % (n + ONE)
 
 
 @njit(**JIT)
-def spring_band(ux, uy, start, stop, needed, size, s, kappa, c):
-    """Put the forces of all springs from rows [start, stop) east and north into scratch `s`.
+def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
+    """Enter F_mot of the blocks of rows [start, stop), of which those are right that are `needed`.
 
-    Rows are left out where neither they nor the next row are `needed`. Returns row and column
-    (from 1) of a spring that has collapsed, burst or become NaN; column 0 if there is none.
+    What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
+    seen from the north and from the south, from the east and from the west, so that a mirrored
+    scene moves as a mirror image to the last bit.
     """
-    n, pitch, band = size
-    if start == 0:
-        _clear(s, slot(band, pitch, band), n)  # nothing lies below the first row
-    row = _rows_by_series(ux, uy, start, stop, needed, size, s, c)
+    n, pitch, _ = size
+    if start == 0:  # nothing lies below the first row
+        for x in range(ONE, n + ONE):
+            s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
+    for row in range(start, stop):
+        if not (needed[row] or needed[row + ONE]):
+            continue
+        i, j, _ = _neighbours(row, size)
+        own = (row - start) * pitch
+        e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
+        for x in range(ONE, n + ONE):
+            ax, ay = ux[i + x], uy[i + x]
+            bx, by = ux[i + x + ONE], uy[i + x + ONE]
+            cx, cy = ux[j + x], uy[j + x]
+            # Springs from the block to the west: east, north-east, and the one that ends here.
+            w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
+            pull = s[EAST + own + x]
+            e_x, e_y = pull + pull * (bx - ax), pull * (by - ay)
+            pull = s[NORTH + own + x]
+            n_x, n_y = pull * (cx - ax), pull + pull * (cy - ay)
+            pull = s[NE + own + x]
+            ne_x, ne_y = pull + pull * (ux[j + x + ONE] - ax), pull + pull * (uy[j + x + ONE] - ay)
+            pull = s[NW + own + x]
+            nw_x, nw_y = pull * (cx - bx) - pull, pull + pull * (cy - by)
+
+            north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
+            fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
+            fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
+            s[FORCE_X + own + x] = fx + k_s * (sx - ax)
+            s[FORCE_Y + own + x] = fy + k_s * (sy - ay)
+            s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
+
+
+@njit(**JIT)
+def forces_on_band(ux, uy, start, stop, needed, size, s, kappa, c, k_s, sx, sy):
+    """Put F_mot of rows [start, stop) into FORCE_X and FORCE_Y of scratch `s`.
+
+    Bands come in ascending order. Rows that are not `needed` are not computed, or not right.
+    Returns row and column (from 1) of a spring that has collapsed, burst or become NaN; column 0 if
+    there is none.
+    """
+    row = _pulls_by_series(ux, uy, start, stop, start, needed, size, s, c)
     while row < stop:
-        own, i, j = slot(row, pitch, band), row * pitch, _next_row(row, n) * pitch
-        beyond = _row_by_closed_form(ux, uy, i, j, s, own, kappa, n)
-        if beyond > 0:
-            return row, beyond
-        _end_row(s, own, row, n)
-        row = _rows_by_series(ux, uy, row + ONE, stop, needed, size, s, c)
+        broken = _pulls_by_closed_form(ux, uy, row, start, size, s, kappa)
+        if broken > 0:
+            return row, broken
+        row = _pulls_by_series(ux, uy, row + ONE, stop, start, needed, size, s, c)
+    _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy)
     return start, U(0)
 
 
-@njit(inline="always")
-def spring_force(s, own, south):
-    """Sum the eight springs of one block: the change of its velocity in one step.
+def scratch(n: int) -> Array:
+    """Room for what is known of one band of rows.
 
-    `own` is its place in scratch, `south` that of the block below. The order is the same seen from
-    the north and from the south, so that a mirrored scene moves as a mirror image to the last bit.
+    DIAGONAL holds a 1 for each block with diagonal springs to and from its eastern neighbour.
     """
-    west, south_west = own - ONE, south - ONE
-    fx = (s[EAST_X + own] - s[EAST_X + west]) + (
-        (s[NORTH_X + own] + 0.5 * (s[NE_X + own] + s[NW_X + west]))
-        - (s[NORTH_X + south] + 0.5 * (s[NW_X + south] + s[NE_X + south_west]))
-    )
-    fy = (s[EAST_Y + own] - s[EAST_Y + west]) + (
-        (s[NORTH_Y + own] + 0.5 * (s[NE_Y + own] + s[NW_Y + west]))
-        - (s[NORTH_Y + south] + 0.5 * (s[NW_Y + south] + s[NE_Y + south_west]))
-    )
-    return fx, fy
+    s = aligned(10 * _FIELD)
+    s[int(DIAGONAL) + 1 : int(DIAGONAL) + n] = 1.0
+    return s
+
+
+def aligned(size: int) -> Array:
+    """Zeros, the second of which begins a cache line."""
+    raw = np.zeros(size + 8)
+    start = (-(raw.ctypes.data // 8) - 1) % 8
+    return raw[start : start + size]
