@@ -12,7 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.material import Material
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT
 from springblock.solver.springs import ONE, aligned, band_rows, coefficients, scratch
 
 Array = NDArray[np.float64]
@@ -134,17 +134,6 @@ def prepare(
 def unpadded(field: Array, n: int) -> Array:
     """View of a flat field as (N, N), [y, x], without its border."""
     return field.reshape(n, -1)[:, 1 : n + 1]
-
-
-@njit(**JIT)
-def total_displacement(ux, uy, pitch, n):
-    """Sum the displacement of all blocks."""
-    sum_x, sum_y = 0.0, 0.0
-    for row in range(n):
-        for x in range(ONE, n + ONE):
-            sum_x = add(sum_x, ux[row * pitch + x])
-            sum_y = add(sum_y, uy[row * pitch + x])
-    return sum_x, sum_y
 
 
 @njit(inline="always")

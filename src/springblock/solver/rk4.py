@@ -16,8 +16,8 @@ import math
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT
-from springblock.solver.lattice import Array, Constants, State, book, close_edge, total_displacement
+from springblock.solver.compilation import JIT, add
+from springblock.solver.lattice import Array, Constants, State, book, close_edge
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 4
@@ -26,7 +26,8 @@ FORCE_EVALUATIONS = 4
 WORK_FIELDS = 10
 
 WEIGHTS = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
-NODES = (0.0, 0.5, 0.5, 1.0)  #: of the stages; also how far each one goes from the step's start
+NODES = (0.0, 0.5, 0.5, 1.0)  #: of the stages
+REACHES = (0.5, 0.5, 1.0, 0.0)  #: from the step's start to the next stage
 
 
 def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
@@ -61,63 +62,93 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _stage_row(blocks, peak, fields, stage, i, n, s, own, damping, now):
-    """One stage on one row; returns the switches from rest to sliding, and the squared speed."""
-    ux, uy, wx, wy, t_det, static, dynamic = blocks
-    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    weight, reach = WEIGHTS[stage], NODES[stage + 1] if stage < 3 else 0.0
-    switches, squares = 0, 0.0
-    for x in range(ONE, n + ONE):
-        b = i + x
-        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-        if stage == 0:
-            ex[b], ey[b] = 1.0, 0.0
-            du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
-            if static[b] > 0.0:
-                ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
-                if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
-                    switches += 1
-                    t_det[b] = min(t_det[b], now)
-                    # It has slid since the threshold was reached, half a step ago on average.
-                    excess = fx * ex[b] + fy * ey[b] - dynamic[b]
-                    wx[b], wy[b] = 0.5 * excess * ex[b], 0.5 * excess * ey[b]
-                    pu[b], pv[b] = wx[b], wy[b]
-                    du[b], dv[b] = 0.125 * excess * ex[b], 0.125 * excess * ey[b]
+def _set_out(blocks, fields, peak, size, s, start, stop, now):
+    """Choose friction's direction in rows [start, stop), and let go; returns how many let go.
+
+    The stage's velocity is that of the step's start; all sums over stages are zero.
+    """
+    _, _, wx, wy, t_det, static, dynamic = blocks
+    _, _, pu, pv, du, dv, _, _, ex, ey = fields
+    n, pitch, _ = size
+    switches = 0
+    for row in range(start, stop):
+        i, own = row * pitch, (row - start) * pitch
+        for x in range(ONE, n + ONE):
+            b = i + x
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             if peak is not None:
                 peak[b] = max(peak[b], fx * fx + fy * fy)
-        moves = 1.0 if (ex[b] != 0.0 or ey[b] != 0.0) else 0.0
-        ax = moves * (fx - damping * pu[b] - dynamic[b] * ex[b])
-        ay = moves * (fy - damping * pv[b] - dynamic[b] * ey[b])
-        du[b] += weight * pu[b]
-        dv[b] += weight * pv[b]
-        qu[b] += weight * ax
-        qv[b] += weight * ay
-        squares += weight * (pu[b] * pu[b] + pv[b] * pv[b])
-        su[b] = ux[b] + reach * pu[b]
-        sv[b] = uy[b] + reach * pv[b]
-        pu[b] = wx[b] + reach * ax
-        pv[b] = wy[b] + reach * ay
-    return switches, squares
+            if static[b] == 0.0:
+                continue
+            ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
+            if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
+                switches += 1
+                t_det[b] = min(t_det[b], now)
+                # It has slid since the threshold was reached, half a step ago on average.
+                excess = fx * ex[b] + fy * ey[b] - dynamic[b]
+                wx[b], wy[b] = 0.5 * excess * ex[b], 0.5 * excess * ey[b]
+                pu[b], pv[b] = wx[b], wy[b]
+                du[b], dv[b] = 0.125 * excess * ex[b], 0.125 * excess * ey[b]
+    return switches
 
 
 @njit(**JIT)
-def _finish_row(blocks, fields, i, n):
-    """Complete the step on one row; returns friction's heat."""
+def _stage(blocks, fields, weight, reach, size, s, start, stop, damping):
+    """Take one stage on rows [start, stop); returns the squared speed."""
+    ux, uy, wx, wy, _, _, dynamic = blocks
+    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
+    n, pitch, _ = size
+    squares = 0.0
+    for row in range(start, stop):
+        i, own = row * pitch, (row - start) * pitch
+        for x in range(ONE, n + ONE):
+            b = i + x
+            vx, vy = pu[b], pv[b]
+            ax = s[FORCE_X + own + x] - damping * vx - dynamic[b] * ex[b]
+            ay = s[FORCE_Y + own + x] - damping * vy - dynamic[b] * ey[b]
+            rests = (ex[b] == 0.0) & (ey[b] == 0.0)
+            ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
+            du[b] += weight * vx
+            dv[b] += weight * vy
+            qu[b] += weight * ax
+            qv[b] += weight * ay
+            squares = add(squares, vx * vx + vy * vy)
+            su[b] = ux[b] + reach * vx
+            sv[b] = uy[b] + reach * vy
+            pu[b] = wx[b] + reach * ax
+            pv[b] = wy[b] + reach * ay
+        close_edge(su, sv, i, n)
+    return weight * squares
+
+
+@njit(**JIT)
+def _finish(blocks, fields, size):
+    """Complete the step and clear the sums over stages.
+
+    Returns the sums of displacement and of friction's heat.
+    """
     ux, uy, wx, wy, _, static, dynamic = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    heat = 0.0
-    for x in range(ONE, n + ONE):
-        b = i + x
-        ux[b] += du[b]
-        uy[b] += dv[b]
-        wx[b] += qu[b]
-        wy[b] += qv[b]
-        heat += dynamic[b] * (du[b] * ex[b] + dv[b] * ey[b])
-        if static[b] > 0.0 and wx[b] * ex[b] + wy[b] * ey[b] <= 0.0:
-            heat += 0.5 * (wx[b] * wx[b] + wy[b] * wy[b])  # what it still had when it turned back
-            wx[b], wy[b] = 0.0, 0.0
-        su[b], sv[b], pu[b], pv[b] = ux[b], uy[b], wx[b], wy[b]
-    return heat
+    n, pitch, _ = size
+    sum_x, sum_y, heat = 0.0, 0.0, 0.0
+    for row in range(n):
+        i = row * pitch
+        for x in range(ONE, n + ONE):
+            b = i + x
+            new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
+            turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
+            lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
+            work = dynamic[b] * (du[b] * ex[b] + dv[b] * ey[b])
+            heat = add(heat, work + (lost if turned else 0.0))
+            new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
+            there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
+            sum_x, sum_y = add(sum_x, there_x), add(sum_y, there_y)
+            ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
+            wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
+            du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
+        close_edge(ux, uy, i, n)
+        close_edge(su, sv, i, n)
+    return sum_x, sum_y, heat
 
 
 @njit(**JIT)
@@ -130,14 +161,16 @@ def advance(state, constants, first, steps, every, samples):
     n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
-    su, sv, pu, pv = fields[:4]
+    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
     su[:], sv[:], pu[:], pv[:] = ux, uy, wx, wy
+    du[:], dv[:], qu[:], qv[:], ex[:], ey[:] = 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
     size, every_row = (n, pitch, band), np.ones(n + ONE, np.bool_)
     switches, sample = 0, 0
     for k in range(first, first + steps):
-        heat, squares = 0.0, 0.0
+        squares = 0.0
         for stage in range(4):
             sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
+            weight, reach = WEIGHTS[stage], REACHES[stage]
             for start in range(U(0), n, band):
                 stop = min(start + band, n)
                 row, column = forces_on_band(
@@ -145,19 +178,10 @@ def advance(state, constants, first, steps, every, samples):
                 )
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
-                for row in range(start, stop):
-                    i, own = row * pitch, (row - start) * pitch
-                    row_switches, row_squares = _stage_row(
-                        blocks, peak, fields, stage, i, n, s, own, damping, k
-                    )
-                    close_edge(su, sv, i, n)
-                    switches += row_switches
-                    squares += row_squares
-        for row in range(n):
-            heat += _finish_row(blocks, fields, row * pitch, n)
-            close_edge(ux, uy, row * pitch, n)
-            close_edge(su, sv, row * pitch, n)
-        total_x, total_y = total_displacement(ux, uy, pitch, n)
+                if stage == 0:
+                    switches += _set_out(blocks, fields, peak, size, s, start, stop, k)
+                squares += _stage(blocks, fields, weight, reach, size, s, start, stop, damping)
+        total_x, total_y, heat = _finish(blocks, fields, size)
         force = book(ledger, constants, k, (total_x, total_y, heat, squares))
         if (k + 1) % every == 0:
             samples.force_x[sample], samples.force_y[sample] = force
