@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import ndtr
 
 from springblock.files import whole_file
 from springblock.material import Material
@@ -142,6 +141,8 @@ def compute(
 
 def _expected_detachments(state: State, load: Array, material: Material) -> float:
     """Blocks whose threshold, drawn at random, lies below their running maximum: the mean."""
+    from scipy.special import ndtr  # loading it takes a third of a second; only a prelude needs it
+
     bound = load > 0.0
     assert state.peak is not None
     needed = np.sqrt(state.peak[bound]) / load[bound]

@@ -107,9 +107,12 @@ def test_a_translation_strains_nothing_at_all():
     assert not spring_forces(np.broadcast_to(shift, (2, N, N))).any()
 
 
-@pytest.mark.parametrize("angle", [1e-9, 1e-3, 0.1, -0.5])
+@pytest.mark.parametrize("angle", [1e-9, 1e-3, 0.1, -0.5, 1.2, np.pi])
 def test_a_rotation_strains_nothing_beyond_rounding(angle):
-    """The springs are exact in the angle; linear ones would pull with angle²/2."""
+    """The springs are exact in the angle; linear ones would pull with angle²/2.
+
+    Nor does anything break beyond the edges, where there are no springs.
+    """
     x, y = np.meshgrid(np.arange(N), np.arange(N))
     cosine, sine = -2.0 * np.sin(angle / 2.0) ** 2, np.sin(angle)  # cos - 1, without cancellation
     u = np.stack([cosine * x - sine * y, sine * x + cosine * y])
