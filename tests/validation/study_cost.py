@@ -65,6 +65,8 @@ def _rule(path: Path) -> str:
     """Kind of job that left this file."""
     if path.stem.startswith("seeds="):
         return "simulate"
+    if path.stem.startswith("compile-"):
+        return "compile"
     if path.stem.startswith("figure_"):
         return "figures"
     if path.parent.name == "accuracy" or path.stem in ("work_precision", "stability"):

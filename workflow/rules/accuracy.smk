@@ -7,6 +7,8 @@ COMPARISONS = expand(
     scene=["flat", "pillared", "grooved"],
 )
 
+COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
+
 #: Digest of all of the package that the comparisons run.
 COMPARED = sources.digest(
     *(f"springblock.{module}" for module in ("realisation", "asperities", "pattern", "tables"))
@@ -15,7 +17,7 @@ COMPARED = sources.digest(
 
 rule compare:
     input:
-        rules.compile.output,
+        COMPILED,
         code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
@@ -69,7 +71,7 @@ rule work_precision:
 
 rule stability:
     input:
-        rules.compile.output,
+        COMPILED,
         code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
     output:
         table=f"{RESULTS}/tables/stability.parquet",

@@ -28,25 +28,27 @@ wildcard_constraints:
 
 rule compile:
     output:
-        touch(f"{RESULTS}/realisations/.compiled"),
+        touch(f"{RESULTS}/compiled/{{integrator}}"),
     log:
-        f"{RESULTS}/logs/compile.log",
+        f"{RESULTS}/logs/compile-{{integrator}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/compile.tsv"
+        f"{RESULTS}/benchmarks/compile-{{integrator}}.tsv"
+    wildcard_constraints:
+        integrator="[a-z0-9]+",
     resources:
         mem_mb=600,
         runtime=5,
     params:
         code=sources.digest("springblock.solver"),
     message:
-        "Compiling the solver"
+        "Compiling the solver: {wildcards.integrator}"
     shell:
-        "{SPRINGBLOCK} compile > {log} 2>&1"
+        "{SPRINGBLOCK} compile --integrator {wildcards.integrator} > {log} 2>&1"
 
 
 rule prelude:
     input:
-        rules.compile.output,
+        f"{RESULTS}/compiled/{config['integrator']}",
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:

@@ -156,10 +156,10 @@ def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
 
 
 @click.command("compile")
-def compile_kernels() -> None:
-    """Compile the solver once, so that no job has to."""
+@click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog")
+def compile_kernels(integrator: str) -> None:
+    """Compile an integrator once, so that no job has to."""
     surface = Scene(n_blocks=4).pattern.contact
-    for integrator in INTEGRATORS:
-        prelude = load(surface, integrator=integrator)
-        simulate(surface, *draw_friction(4, 0), integrator=integrator, prelude=prelude)
-        click.echo(f"{integrator} is compiled")
+    prelude = load(surface, integrator=integrator)
+    simulate(surface, *draw_friction(4, 0), integrator=integrator, prelude=prelude)
+    click.echo(f"{integrator} is compiled")
