@@ -96,10 +96,10 @@ class _Units:
 
 
 class _Lattice:
-    """Springs between blocks: a list of bonds and its incidence matrix. Scaled units.
+    """Springs between blocks: a list of bonds and its incidence matrix for both components.
 
-    Displacements have the shape (2, n, k): component, block (y * N + x), and any number k of
-    states to be evaluated at once.
+    Scaled units. Displacements have the shape (2, n, k): component, block (y * N + x), and any
+    number k of states to be evaluated at once.
     """
 
     def __init__(self, size: int, spacing: float, stiffness: float) -> None:
@@ -116,7 +116,8 @@ class _Lattice:
         ends = np.concatenate([first, second]).astype(int)
         signs = np.repeat([-1.0, 1.0], len(bonds))
         shape = (len(bonds), size * size)
-        self._difference = sparse.csr_array((signs, (np.tile(bonds, 2), ends)), shape=shape)
+        difference = sparse.csr_array((signs, (np.tile(bonds, 2), ends)), shape=shape)
+        self._difference = sparse.block_diag([difference, difference], format="csr")
         self._net = sparse.csr_array(-self._difference.T)
         self._axis = np.array(axes, dtype=float).reshape(-1, 2).T[:, :, None]  # L e
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
@@ -124,16 +125,16 @@ class _Lattice:
 
     def _stretch(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Bond vectors r, and q = r²/L² - 1 without the cancellation this form has."""
-        d = np.stack([self._difference @ u[0], self._difference @ u[1]])
-        q = np.sum((2.0 * self._axis + d) * d, axis=0) / self._rest_squared
-        return self._axis + d, q
+        d = _times(self._difference, u)
+        q = (2.0 * self._axis + d) * d
+        return self._axis + d, (q[0] + q[1]) / self._rest_squared
 
     def force(self, u: np.ndarray) -> np.ndarray:
         """F_int (2, n, k): the sum of k (r - L) r/|r| over the bonds of each block."""
         r, q = self._stretch(u)
         # 1 - L/r = 1 - (1 + q)^(-1/2), rationalised
         pull = self._stiffness * (q / ((1.0 + q) + np.sqrt(1.0 + q))) * r
-        return np.stack([self._net @ pull[0], self._net @ pull[1]])
+        return _times(self._net, pull)
 
     def energy(self, u: np.ndarray) -> float:
         """Sum of k (r - L)² / 2 for one state, (2, n, 1)."""
@@ -141,6 +142,11 @@ class _Lattice:
         # r - L = L (sqrt(1 + q) - 1), rationalised
         squared = self._rest_squared * (q / (1.0 + np.sqrt(1.0 + q))) ** 2
         return 0.5 * float(np.sum(self._stiffness * squared))
+
+
+def _times(matrix: sparse.csr_array, u: np.ndarray) -> np.ndarray:
+    """Both components (2, n, k) of u, multiplied at once."""
+    return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
 
 
 class _System:
@@ -224,8 +230,8 @@ class _System:
         acceleration[:, self.state == STUCK] = 0.0
         works = (
             np.sum(pull[:, :, 0] * self._drift),
-            np.sum(friction * v),
-            self._gamma * np.sum(v * v),
+            np.vdot(friction, v),
+            self._gamma * np.vdot(v, v),
         )
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
