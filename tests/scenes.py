@@ -15,8 +15,10 @@ from springblock.solver.springs import (
 )
 
 UNDAMPED = Material(gamma=0.0)
+#: Not 1, so that it would be missed; a power of 2, so that it rounds nothing.
+STIFFNESS = 0.25
 #: Stiffness, its polynomial, and the slider's stiffness and place, of a lattice by itself.
-SPRINGS = (1.0, coefficients(1.0), 0.0, 0.0, 0.0)
+SPRINGS = (STIFFNESS, coefficients(STIFFNESS), 0.0, 0.0, 0.0)
 
 
 def uniform(n, mu_static, mu_dynamic):
@@ -46,26 +48,29 @@ def with_border(displacement):
     return [np.pad(u, 1, mode="edge")[1:-1].ravel() for u in displacement]
 
 
-def spring_forces(displacement):
-    """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l."""
+def spring_forces(displacement, band=None):
+    """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l.
+
+    Bands are of as many rows as the solver chooses, or of `band`.
+    """
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
-    s, size, every_row = scratch(n), lattice_size(n), np.ones(n + 1, bool)
+    size, s, every_row = lattice_size(n), scratch(n), np.ones(n + 1, bool)
+    band = band or band_rows(n)
     forces = []
-    for start in map(np.uint64, range(0, n, band_rows(n))):
-        stop = min(start + size[2], size[0])
-        _, broken = forces_on_band(ux, uy, start, stop, every_row, size, s, *SPRINGS)
+    for start in range(0, n, band):
+        stop = min(start + band, n)
+        between = np.uint64(start), np.uint64(stop)
+        _, broken = forces_on_band(ux, uy, *between, every_row, size, s, *SPRINGS)
         assert broken == 0
-        rows = np.stack(
-            [s[int(field) :][: int(stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
-        )
-        forces.append(rows.reshape(2, -1, n + 2)[:, :, 1 : n + 1])
-    return np.concatenate(forces, axis=1)
+        rows = [s[int(field) :][: (stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
+        forces.append(np.reshape(rows, (2, -1, n + 2))[:, :, 1 : n + 1])
+    return np.concatenate(forces, axis=1) / STIFFNESS
 
 
 def lattice_size(n):
-    """N, pitch and rows in a band, as the kernels want them."""
-    return np.uint64(n), np.uint64(n + 2), np.uint64(band_rows(n))
+    """N and pitch, as the kernels want them."""
+    return np.uint64(n), np.uint64(n + 2)
 
 
 def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):

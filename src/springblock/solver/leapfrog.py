@@ -54,7 +54,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 def _move_rows_in_contact(blocks, rows, size, s, a, start, stop):
     """Kick and drift those rows of [start, stop) that are awake and hold blocks in contact."""
     ux, uy, wx, wy, static, dynamic, _ = blocks
-    n, pitch, _ = size
+    n, pitch = size
     in_contact, awake, _, sliding, switching, _, sums = rows
     for row in range(start, stop):
         if not (in_contact[row] and awake[row]):
@@ -95,7 +95,7 @@ def _move_free_rows(blocks, rows, size, s, a, start, stop):
     To the bit, but for the order of the sums.
     """
     ux, uy, wx, wy = blocks[:4]
-    n, pitch, _ = size
+    n, pitch = size
     in_contact, sums = rows[0], rows[6]
     for row in range(start, stop):
         if in_contact[row]:
@@ -121,7 +121,7 @@ def _move_free_rows(blocks, rows, size, s, a, start, stop):
 def _keep_peaks(peak, size, s, start, stop):
     """Keep the largest |F_mot|² of each block in rows [start, stop), for a prelude."""
     if peak is not None:
-        n, pitch, _ = size
+        n, pitch = size
         for row in range(start, stop):
             i, own = row * pitch, (row - start) * pitch
             for x in range(ONE, n + ONE):
@@ -159,7 +159,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
 @njit(**JIT)
 def _settle(blocks, rows, size, s, pull, start, stop, now):
     """See to what rows of [start, stop) have done; return their switches from rest to sliding."""
-    n, pitch, _ = size
+    n, pitch = size
     in_contact, awake, wake, sliding, switching, waiting, _ = rows
     switches = np.int64(0)
     for row in range(start, stop):
@@ -223,7 +223,7 @@ def advance(state, constants, first, steps, every, samples):
     """
     ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak, in_contact = state
     n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
-    blocks, size = (ux, uy, wx, wy, static, dynamic, t_det), (n, pitch, band)
+    blocks, size = (ux, uy, wx, wy, static, dynamic, t_det), (n, pitch)
     a, pull = math.exp(-damping), k_s * math.hypot(slider_x, slider_y)
     rows = _row_books(in_contact, np.int64(n))
     awake, sums = rows[1], rows[6]

@@ -69,7 +69,7 @@ def _set_out(blocks, fields, peak, size, s, start, stop, now):
     """
     _, _, wx, wy, t_det, static, dynamic = blocks
     _, _, pu, pv, du, dv, _, _, ex, ey = fields
-    n, pitch, _ = size
+    n, pitch = size
     switches = 0
     for row in range(start, stop):
         i, own = row * pitch, (row - start) * pitch
@@ -97,10 +97,11 @@ def _stage(blocks, fields, weight, reach, size, s, start, stop, damping):
     """Take one stage on rows [start, stop); returns the squared speed."""
     ux, uy, wx, wy, _, _, dynamic = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    n, pitch, _ = size
-    squares = 0.0
+    n, pitch = size
+    total = 0.0
     for row in range(start, stop):
         i, own = row * pitch, (row - start) * pitch
+        squares = 0.0
         for x in range(ONE, n + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
@@ -117,22 +118,24 @@ def _stage(blocks, fields, weight, reach, size, s, start, stop, damping):
             sv[b] = uy[b] + reach * vy
             pu[b] = wx[b] + reach * ax
             pv[b] = wy[b] + reach * ay
+        total += squares
         close_edge(su, sv, i, n)
-    return weight * squares
+    return weight * total
 
 
 @njit(**JIT)
 def _finish(blocks, fields, size):
     """Complete the step and clear the sums over stages.
 
-    Returns the sums of displacement and of friction's heat.
+    Returns the sums of displacement and of friction's heat, row by row lest rounding adds up.
     """
     ux, uy, wx, wy, _, static, dynamic = blocks
     su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    n, pitch, _ = size
-    sum_x, sum_y, heat = 0.0, 0.0, 0.0
+    n, pitch = size
+    total_x, total_y, total_heat = 0.0, 0.0, 0.0
     for row in range(n):
         i = row * pitch
+        sum_x, sum_y, heat = 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
@@ -146,9 +149,10 @@ def _finish(blocks, fields, size):
             ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
+        total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + heat
         close_edge(ux, uy, i, n)
         close_edge(su, sv, i, n)
-    return sum_x, sum_y, heat
+    return total_x, total_y, total_heat
 
 
 @njit(**JIT)
@@ -161,10 +165,9 @@ def advance(state, constants, first, steps, every, samples):
     n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
     blocks = (ux, uy, wx, wy, t_det, static, dynamic)
     fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
-    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    su[:], sv[:], pu[:], pv[:] = ux, uy, wx, wy
-    du[:], dv[:], qu[:], qv[:], ex[:], ey[:] = 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
-    size, every_row = (n, pitch, band), np.ones(n + ONE, np.bool_)
+    su, sv, pu, pv, _, _, _, _, ex, ey = fields
+    su[:], sv[:], pu[:], pv[:], ex[:], ey[:] = ux, uy, wx, wy, 1.0, 0.0
+    size, every_row = (n, pitch), np.ones(n + ONE, np.bool_)
     switches, sample = 0, 0
     for k in range(first, first + steps):
         squares = 0.0

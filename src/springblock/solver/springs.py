@@ -1,4 +1,4 @@
-"""Exact non-linear springs in displacement form, one row of the lattice at a time.
+"""Exact non-linear springs in displacement form, one band of rows at a time.
 
 A spring of stiffness k, rest length L and rest direction e (in units of the lattice spacing)
 whose ends have moved apart by d pulls with F = k (1 - L/r) (e + d), r = |e + d| (section 2 of the
@@ -46,8 +46,9 @@ ONE = U(1)
 # is a constant, so that the compiler can see that they do not overlap, and no power of two, so that
 # they do not compete for the same cache lines.
 _FIELD = MAX_BLOCKS + 72
-_FIELDS = (U(k * _FIELD) for k in range(10))
-FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y, DIAGONAL, NO_DIAGONAL = _FIELDS
+FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y, DIAGONAL, NO_DIAGONAL = (
+    U(k * _FIELD) for k in range(10)
+)
 
 
 def band_rows(n: int) -> int:
@@ -125,7 +126,7 @@ def _neighbours(row, size):
 
     The last row has no next one: with itself in its place, northern springs are free of strain.
     """
-    n, pitch, _ = size
+    n, pitch = size
     i = row * pitch
     return (i, i + pitch, DIAGONAL) if row + ONE < n else (i, i, NO_DIAGONAL)
 
@@ -138,7 +139,7 @@ def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
     `needed`. Returns the first row with a spring out of range, which is not finished, or `stop`.
     Diagonal springs are entered as if they were as stiff as axial ones; `_forces` halves them.
     """
-    n, pitch, _ = size
+    n, pitch = size
     for row in range(start, stop):
         if not (needed[row] or needed[row + ONE]):
             continue
@@ -164,7 +165,7 @@ def _is_whole(q):
 @njit(**JIT)
 def _pulls_by_closed_form(ux, uy, row, first, size, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
-    n, pitch, _ = size
+    n, pitch = size
     i, j, diagonal = _neighbours(row, size)
     own, broken = (row - first) * pitch, np.int64(n + ONE)
     for x in range(ONE, n + ONE):
@@ -184,7 +185,7 @@ def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
     seen from the north and from the south, from the east and from the west, so that a mirrored
     scene moves as a mirror image to the last bit.
     """
-    n, pitch, _ = size
+    n, pitch = size
     if start == 0:  # nothing lies below the first row
         for x in range(ONE, n + ONE):
             s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
@@ -198,7 +199,7 @@ def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
             ax, ay = ux[i + x], uy[i + x]
             bx, by = ux[i + x + ONE], uy[i + x + ONE]
             cx, cy = ux[j + x], uy[j + x]
-            # Springs from the block to the west: east, north-east, and the one that ends here.
+            # Of the column to the west: east, north-east, and the one that goes there from here.
             w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
             pull = s[EAST + own + x]
             e_x, e_y = pull + pull * (bx - ax), pull * (by - ay)
