@@ -10,7 +10,7 @@ VENV := .venv
 PEERS := tests/validation/peers/peers.lock
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-INSTALL := $(PIP) install --quiet --no-user --compile --no-build-isolation
+INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
@@ -38,7 +38,8 @@ bench: setup
 setup: $(VENV)/installed
 
 # Both stamps are written last, so an interrupted setup is done again.
-# setuptools comes first because one of the packages is built with it.
+# setuptools comes first because one of the packages is built with it. Bytecode is compiled at last,
+# on all cores, which pip would do on one.
 $(VENV)/locked: environment.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "Python 3.11 or newer is needed; name one with: make PYTHON=/path/to/python3" >&2; exit 1; }
@@ -46,6 +47,7 @@ $(VENV)/locked: environment.lock
 	$(PYTHON) -m venv $(VENV)
 	sed -n '/^setuptools==/,/[^\\]$$/p' $< | $(INSTALL) --require-hashes -r /dev/stdin
 	$(INSTALL) --require-hashes -r $<
+	$(BIN)/python -m compileall -q -j 0 $(VENV)/lib
 	touch $@
 
 $(VENV)/installed: $(VENV)/locked pyproject.toml

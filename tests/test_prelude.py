@@ -7,6 +7,7 @@ from scenes import drawn
 from springblock import Material, Pattern, draw_friction, simulate
 from springblock.prelude import Prelude
 from springblock.realisation import load
+from springblock.solver.springs import band_rows
 
 PILLARS = Pattern.pillars(12, 4, 2)
 
@@ -39,6 +40,16 @@ def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction,
     }[surface]
     how = {"direction": direction, "integrator": integrator}
     scene, prelude = (contact, *draw_friction(len(contact), seed=1)), load(contact, **how)
+    assert prelude.samples.max() > 0
+    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_so_it_is_for_a_surface_of_several_bands(integrator):
+    surface = Pattern.pillars(36, 10, 8)
+    assert band_rows(surface.n_blocks) < surface.n_blocks
+    how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
+    scene, prelude = drawn(surface, seed=1), load(surface.contact, **how)
     assert prelude.samples.max() > 0
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 

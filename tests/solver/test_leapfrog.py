@@ -66,14 +66,14 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
 
 
 def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
-    """Nothing is computed of it: a displacement planted there does not spread."""
+    """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
     books = leapfrog._row_books.py_func(state.in_contact, 12)
     assert not any(field.any() for field in (state.ux, state.uy, state.wx, state.wy))
     pull = constants.k_s * np.hypot(constants.slider_x, constants.slider_y)
-    first_row = np.uint64(0), np.uint64(0), constants.n
-    sure = leapfrog._steps_at_rest(state.static, scratch(12), *first_row, pull)  # free of force
+    own, i = np.uint64(0), np.uint64(0)
+    sure = leapfrog._steps_at_rest(state.static, scratch(12), own, i, constants.n, pull)
     assert sure == pytest.approx(state.static[1:13].min() / pull, rel=1e-3)
     books[3][:] = 0  # all rows at rest
     books[2][:] = sure

@@ -8,6 +8,7 @@ from scenes import SPRINGS, lattice_size, spring_forces, with_border
 from springblock.solver.springs import (
     Q_MAX,
     Q_MIN,
+    SERIES_ERROR,
     SERIES_RANGE,
     forces_on_band,
     g,
@@ -52,18 +53,22 @@ def exact_forces(u):
     return np.array([[[float(f[i]) for f in row] for row in total] for i in range(2)])
 
 
-def check_row(u, row=0):
-    """Column, from one, of the first broken spring that `forces_on_band` finds; else 0."""
+def broken_spring(u):
+    """Row, and column from one, of the first broken spring that is found; column 0 if none is."""
     n = u.shape[-1]
-    needed, band = np.arange(n + 1) == row, (np.uint64(row), np.uint64(row + 1))
-    return forces_on_band(*with_border(u), *band, needed, lattice_size(n), scratch(n), *SPRINGS)[1]
+    all_rows, needed = (np.uint64(0), np.uint64(n)), np.ones(n + 1, bool)
+    found = forces_on_band(
+        *with_border(u), *all_rows, needed, lattice_size(n), scratch(n), *SPRINGS
+    )
+    return tuple(map(int, found))
 
 
-def test_the_series_is_exact_to_rounding_over_its_range():
+def test_the_series_is_as_good_as_it_says():
     q = np.linspace(-SERIES_RANGE, SERIES_RANGE, 101)[np.arange(101) != 50]
     polynomial = np.polynomial.polynomial.polyval(q, series())
     exact = np.array([float(exact_g(x)) for x in q])
-    np.testing.assert_allclose(polynomial, exact, rtol=2 * EPS)  # as its definition promises
+    error = np.abs(polynomial / exact - 1.0)
+    assert 0.5 * SERIES_ERROR < error.max() <= SERIES_ERROR
 
 
 @pytest.mark.parametrize("q", [Q_MIN, -0.5, -SERIES_RANGE, 1e-300, SERIES_RANGE, 1.0, Q_MAX])
@@ -77,12 +82,12 @@ def test_the_closed_form_is_exact_to_rounding_at_any_strain(q):
 def test_forces_are_exact_to_the_rounding_of_differences(amplitude, rng):
     """Displacements of size a round by a·eps in each difference; eight springs meet in a block.
 
-    No digit depends on the strain: 1 - L/r would leave but four of them at a strain of 1e-12.
+    The series adds its own error to each of them. No digit depends on the strain: 1 - L/r would
+    leave but four of them at a strain of 1e-12.
     """
     u = amplitude * rng.uniform(-1.0, 1.0, (2, N, N))
-    np.testing.assert_allclose(
-        spring_forces(u), exact_forces(u), rtol=0, atol=8 * 4 * EPS * amplitude
-    )
+    each = 4 * EPS * amplitude + SERIES_ERROR * min(amplitude, SERIES_RANGE)
+    np.testing.assert_allclose(spring_forces(u), exact_forces(u), rtol=0, atol=8 * each)
 
 
 @pytest.mark.parametrize("beside", [-1e-6, 1e-6])
@@ -91,7 +96,33 @@ def test_series_and_closed_form_meet_at_the_border(side, beside):
     """A single axial pair with q = 2 d + d² on either side of the series' range."""
     u = np.zeros((2, 2, 2))
     u[0, :, 1] = np.sqrt(1.0 + side * SERIES_RANGE * (1.0 + beside)) - 1.0
-    np.testing.assert_allclose(spring_forces(u), exact_forces(u), rtol=0, atol=4 * EPS)
+    exact = exact_forces(u)
+    off = SERIES_ERROR * np.abs(exact).max() if beside < 0.0 else 0.0
+    np.testing.assert_allclose(spring_forces(u), exact, rtol=0, atol=4 * EPS + off)
+
+
+@pytest.mark.parametrize(
+    ("spring", "swung", "pivot"),
+    [("north", (0, 1), (1, 0)), ("north-east", (1, 1), (1, 0)), ("north-west", (0, 1), (0, 0))],
+)
+def test_one_spring_out_of_range_calls_for_the_closed_form(spring, swung, pivot):
+    """Of four blocks one swings about another: one spring from the first row changes its length.
+
+    One from the second row does too, the only one there: the eastern one.
+    """
+    arm = complex(*swung) - complex(*pivot)
+    moved = arm * (np.exp(0.3j) - 1.0)
+    u = np.zeros((2, 2, 2))
+    u[:, swung[1], swung[0]] = moved.real, moved.imag
+    np.testing.assert_allclose(
+        spring_forces(u), exact_forces(u), rtol=0, atol=8 * EPS, err_msg=spring
+    )
+
+
+@pytest.mark.parametrize("band", [1, 2, 3])
+def test_no_bit_depends_on_the_rows_of_a_band(band, rng):
+    u = 0.01 * rng.uniform(-1.0, 1.0, (2, N, N))  # some rows within the series' range, some not
+    np.testing.assert_array_equal(spring_forces(u, band), spring_forces(u))
 
 
 @pytest.mark.parametrize("amplitude", [1e-9, 1e-2, 0.2])
@@ -143,14 +174,30 @@ def test_a_spring_that_no_longer_holds_is_found(case, move):
     """Blocks 2 to 4 of every row move away from block 1: its east spring is the first to go."""
     u = np.zeros((2, N, N))
     u[0, :, 2:], u[1, :, 2:] = move
-    assert check_row(u) == 2, case
+    assert broken_spring(u) == (0, 2), case
+
+
+@pytest.mark.parametrize(
+    ("spring", "x", "move", "column"),
+    [
+        ("east", 0, (0.51, 0.0), 1),
+        ("north", 0, (0.0, 0.51), 1),
+        ("north-east", 0, (0.51, 0.51), 1),
+        ("north-west", N - 1, (-0.51, 0.51), N - 1),
+    ],
+)
+def test_each_spring_is_watched(spring, x, move, column):
+    """A block at the edge in row 2 comes too near to just one neighbour."""
+    u = np.zeros((2, N, N))
+    u[:, 2, x] = move
+    assert broken_spring(u) == (2, column), spring
 
 
 @pytest.mark.parametrize("move", [-0.49, 0.99])
 def test_a_spring_short_of_half_or_double_its_length_holds(move):
     u = np.zeros((2, N, N))
     u[0, :, 2:] = move
-    assert check_row(u) == 0
+    assert broken_spring(u)[1] == 0
 
 
 @pytest.mark.parametrize("axis", [0, 1])

@@ -74,7 +74,7 @@ SHARES = (0.0, 0.25, 0.5, 0.75)
 #: Floating-point operations per block and step of the leapfrog, counted in peers/loop.c. A fused
 #: multiply-add is two, a division or a root one. The solver's energy balance comes on top.
 OPERATIONS = {
-    "springs": 2 * (2 + 5 + 17 + 3) + 2 * (2 + 6 + 17 + 4),  # ends, q, polynomial, two components
+    "springs": 2 * (2 + 5 + 13 + 3) + 2 * (2 + 6 + 13 + 4),  # ends, q, polynomial, two components
     "gather": 2 * (9 + 3),  # eight springs and the slider, two components
     "friction": 4 + 3 + 3 + 4 + 1 + 3 + 2,  # trial, |w|², turned, held, stops, left, new velocity
     "drift": 4,  # new displacement, and its sum

@@ -15,8 +15,7 @@ enum { PITCH = 4096 + 24, BANK = 6 * PITCH };
 /* q times the polynomial c in q, see springblock.solver.springs. */
 static inline double pull(double q, const double *restrict c)
 {
-    return q * (c[0] + q * (c[1] + q * (c[2] + q * (c[3] + q * (c[4] +
-           q * (c[5] + q * (c[6] + q * (c[7] + q * c[8]))))))));
+    return q * (c[0] + q * (c[1] + q * (c[2] + q * (c[3] + q * (c[4] + q * (c[5] + q * c[6]))))));
 }
 
 /* Pull of all springs from one row to the east and to the next row, beyond the last block too;
