@@ -55,7 +55,7 @@ def spring_forces(displacement, band=None):
     """
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
-    size, s, every_row = lattice_size(n), scratch(n), np.ones(n + 1, bool)
+    size, s, every_row = lattice_size(n), scratch(), np.ones(n + 1, bool)
     band = band or band_rows(n)
     forces = []
     for start in range(0, n, band):

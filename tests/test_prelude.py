@@ -46,7 +46,7 @@ def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction,
 
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 def test_so_it_is_for_a_surface_of_several_bands(integrator):
-    surface = Pattern.pillars(36, 10, 8)
+    surface = Pattern.pillars(48, 10, 14)
     assert band_rows(surface.n_blocks) < surface.n_blocks
     how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
     scene, prelude = drawn(surface, seed=1), load(surface.contact, **how)

@@ -73,7 +73,7 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     assert not any(field.any() for field in (state.ux, state.uy, state.wx, state.wy))
     pull = constants.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
-    sure = leapfrog._steps_at_rest(state.static, scratch(12), own, i, constants.n, pull)
+    sure = leapfrog._steps_at_rest(state.static, scratch(), own, i, constants.n, pull)
     assert sure == pytest.approx(state.static[1:13].min() / pull, rel=1e-3)
     books[3][:] = 0  # all rows at rest
     books[2][:] = sure

@@ -57,9 +57,7 @@ def broken_spring(u):
     """Row, and column from one, of the first broken spring that is found; column 0 if none is."""
     n = u.shape[-1]
     all_rows, needed = (np.uint64(0), np.uint64(n)), np.ones(n + 1, bool)
-    found = forces_on_band(
-        *with_border(u), *all_rows, needed, lattice_size(n), scratch(n), *SPRINGS
-    )
+    found = forces_on_band(*with_border(u), *all_rows, needed, lattice_size(n), scratch(), *SPRINGS)
     return tuple(map(int, found))
 
 

@@ -109,7 +109,7 @@ def prepare(
         t_det=field() + np.inf,
         static=padded(static),
         dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
-        scratch=scratch(n),
+        scratch=scratch(),
         work=np.zeros((work_fields, n * pitch)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,

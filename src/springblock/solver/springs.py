@@ -40,17 +40,15 @@ Q_MIN, Q_MAX = -0.75, 3.0
 MAX_BLOCKS = 4096
 
 #: Rows are worked on in bands of about this many blocks.
-_BAND_BLOCKS = 1024
+_BAND_BLOCKS = 2048
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: a band of rows each, but for the last four, which are one row. Their distance
+# Fields of scratch: a band of rows each, but for the last two, which are one row. Their distance
 # is a constant, so that the compiler can see that they do not overlap, and no power of two, so that
 # they do not compete for the same cache lines.
 _FIELD = MAX_BLOCKS + 72
-FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y, DIAGONAL, NO_DIAGONAL = (
-    U(k * _FIELD) for k in range(10)
-)
+FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y = (U(k * _FIELD) for k in range(8))
 
 
 def band_rows(n: int) -> int:
@@ -101,7 +99,7 @@ def _series(q, c):
 
 
 @njit(inline="always")
-def _stretch(ux, uy, i, j, x, diagonal):
+def _stretch(ux, uy, i, j, x):
     """Return q of the four springs from block (i, x) to the east, north, and along diagonals.
 
     Row j is the next one; the last spring goes north-west from the block to the east.
@@ -114,21 +112,30 @@ def _stretch(ux, uy, i, j, x, diagonal):
     dx, dy = cx - ax, cy - ay
     north = 2.0 * dy + (dx * dx + dy * dy)
     dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
-    ne = diagonal * ((dy + dx) + 0.5 * (dx * dx + dy * dy))
+    ne = (dy + dx) + 0.5 * (dx * dx + dy * dy)
     dx, dy = cx - bx, cy - by
-    nw = diagonal * ((dy - dx) + 0.5 * (dx * dx + dy * dy))
+    nw = (dy - dx) + 0.5 * (dx * dx + dy * dy)
     return east, north, ne, nw
 
 
 @njit(inline="always")
-def _neighbours(row, size):
-    """Return where a row and the next one stand, and which of its blocks have diagonal springs.
+def _places(row, size):
+    """Return where a row and the next one stand.
 
     The last row has no next one: with itself in its place, northern springs are free of strain.
     """
     n, pitch = size
     i = row * pitch
-    return (i, i + pitch, DIAGONAL) if row + ONE < n else (i, i, NO_DIAGONAL)
+    return i, i + pitch if row + ONE < n else i
+
+
+@njit(inline="always")
+def _cut(s, own, row, n):
+    """Take away the diagonal springs beyond the eastern edge, and beyond the last row."""
+    s[NE + own + n] = s[NW + own + n] = 0.0
+    if row + ONE == n:
+        for x in range(ONE, n):
+            s[NE + own + x] = s[NW + own + x] = 0.0
 
 
 @njit(**JIT)
@@ -143,10 +150,10 @@ def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
     for row in range(start, stop):
         if not (needed[row] or needed[row + ONE]):
             continue
-        i, j, diagonal = _neighbours(row, size)
+        i, j = _places(row, size)
         own, outside = (row - first) * pitch, np.int64(0)
         for x in range(ONE, n + ONE):
-            q = _stretch(ux, uy, i, j, x, s[diagonal + x])
+            q = _stretch(ux, uy, i, j, x)
             p = _series(q, c)
             q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
             outside += np.int64(not q_squared <= SERIES_RANGE**2)  # also for NaN
@@ -154,6 +161,7 @@ def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
             s[NE + own + x], s[NW + own + x] = q[2] * p[2], q[3] * p[3]
         if outside > 0:
             return row
+        _cut(s, own, row, n)
     return stop
 
 
@@ -166,14 +174,16 @@ def _is_whole(q):
 def _pulls_by_closed_form(ux, uy, row, first, size, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
     n, pitch = size
-    i, j, diagonal = _neighbours(row, size)
+    i, j = _places(row, size)
     own, broken = (row - first) * pitch, np.int64(n + ONE)
     for x in range(ONE, n + ONE):
-        q = _stretch(ux, uy, i, j, x, s[diagonal + x])
+        q = _stretch(ux, uy, i, j, x)
         s[EAST + own + x], s[NORTH + own + x] = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
         s[NE + own + x], s[NW + own + x] = kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])
-        whole = _is_whole(q[0]) & _is_whole(q[1]) & _is_whole(q[2]) & _is_whole(q[3])
+        cut = (x == n) | (row + ONE == n)
+        whole = _is_whole(q[0]) & _is_whole(q[1]) & (cut | _is_whole(q[2]) & _is_whole(q[3]))
         broken = min(broken, np.int64(n + ONE) if whole else np.int64(x))
+    _cut(s, own, row, n)
     return U(broken) % (n + ONE)
 
 
@@ -192,7 +202,7 @@ def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
     for row in range(start, stop):
         if not (needed[row] or needed[row + ONE]):
             continue
-        i, j, _ = _neighbours(row, size)
+        i, j = _places(row, size)
         own = (row - start) * pitch
         e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
         for x in range(ONE, n + ONE):
@@ -236,14 +246,9 @@ def forces_on_band(ux, uy, start, stop, needed, size, s, kappa, c, k_s, sx, sy):
     return start, U(0)
 
 
-def scratch(n: int) -> Array:
-    """Room for what is known of one band of rows.
-
-    DIAGONAL holds a 1 for each block with diagonal springs to and from its eastern neighbour.
-    """
-    s = aligned(10 * _FIELD)
-    s[int(DIAGONAL) + 1 : int(DIAGONAL) + n] = 1.0
-    return s
+def scratch() -> Array:
+    """Room for what is known of one band of rows."""
+    return aligned(8 * _FIELD)
 
 
 def aligned(size: int) -> Array:
