@@ -65,6 +65,16 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
     assert_same_to_the_bit(plain, quick, Samples._fields)
 
 
+@pytest.mark.parametrize("band", [1, 2, 5])
+def test_peaks_are_kept_of_every_band(band):
+    whole, constants = start(SURFACES["pillars"], 0, keep_peak=True)
+    banded, _ = start(SURFACES["pillars"], 0, keep_peak=True)
+    follow(whole, constants, 400)
+    follow(banded, constants._replace(band=np.uint64(band)), 400)
+    assert (whole.peak[whole.static > 0.0] > 0.0).all()
+    assert_same_to_the_bit(whole, banded, ("peak",))
+
+
 def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
