@@ -13,7 +13,15 @@ from numpy.typing import NDArray
 
 from springblock.material import Material
 from springblock.solver.compilation import JIT
-from springblock.solver.springs import ONE, aligned, band_rows, coefficients, scratch
+from springblock.solver.springs import (
+    FORCE_X,
+    FORCE_Y,
+    ONE,
+    aligned,
+    band_rows,
+    coefficients,
+    scratch,
+)
 
 Array = NDArray[np.float64]
 
@@ -141,6 +149,18 @@ def close_edge(ux, uy, i, n):
     """Let the spring across the eastern edge of a row be free of strain."""
     ux[i + n + ONE] = ux[i + n]
     uy[i + n + ONE] = uy[i + n]
+
+
+@njit(**JIT)
+def keep_peaks(peak, size, s, start, stop):
+    """Keep the largest |F_mot|² of each block in rows [start, stop), for a prelude."""
+    if peak is not None:
+        n, pitch = size
+        for row in range(start, stop):
+            i, own = row * pitch, (row - start) * pitch
+            for x in range(ONE, n + ONE):
+                fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+                peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 
 @njit(**JIT)

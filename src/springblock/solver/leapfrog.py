@@ -12,7 +12,15 @@ from numba import njit
 
 from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
-from springblock.solver.lattice import Array, Constants, Samples, State, book, close_edge
+from springblock.solver.lattice import (
+    Array,
+    Constants,
+    Samples,
+    State,
+    book,
+    close_edge,
+    keep_peaks,
+)
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 1
@@ -115,18 +123,6 @@ def _move_free_rows(blocks, rows, size, s, a, start, stop):
             sum_y = add(sum_y, there_y)
             squares = add(squares, new_x * new_x + new_y * new_y)
         sums[0, row], sums[1, row], sums[3, row] = sum_x, sum_y, squares
-
-
-@njit(**JIT)
-def _keep_peaks(peak, size, s, start, stop):
-    """Keep the largest |F_mot|² of each block in rows [start, stop), for a prelude."""
-    if peak is not None:
-        n, pitch = size
-        for row in range(start, stop):
-            i, own = row * pitch, (row - start) * pitch
-            for x in range(ONE, n + ONE):
-                fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-                peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 
 @njit(**JIT)
@@ -239,7 +235,7 @@ def advance(state, constants, first, steps, every, samples):
             )
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
-            _keep_peaks(peak, size, s, start, stop)
+            keep_peaks(peak, size, s, start, stop)
             _move_rows_in_contact(blocks, rows, size, s, a, start, stop)
             _move_free_rows(blocks, rows, size, s, a, start, stop)
             switches += _settle(blocks, rows, size, s, pull, start, stop, k)

@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 
 from springblock.solver.compilation import JIT, add
-from springblock.solver.lattice import Array, Constants, State, book, close_edge
+from springblock.solver.lattice import Array, Constants, State, book, close_edge, keep_peaks
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 4
@@ -62,7 +62,7 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _set_out(blocks, fields, peak, size, s, start, stop, now):
+def _set_out(blocks, fields, size, s, start, stop, now):
     """Choose friction's direction in rows [start, stop), and let go; returns how many let go.
 
     The stage's velocity is that of the step's start; all sums over stages are zero.
@@ -75,11 +75,9 @@ def _set_out(blocks, fields, peak, size, s, start, stop, now):
         i, own = row * pitch, (row - start) * pitch
         for x in range(ONE, n + ONE):
             b = i + x
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            if peak is not None:
-                peak[b] = max(peak[b], fx * fx + fy * fy)
             if static[b] == 0.0:
                 continue
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
             if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
                 switches += 1
@@ -182,7 +180,8 @@ def advance(state, constants, first, steps, every, samples):
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
                 if stage == 0:
-                    switches += _set_out(blocks, fields, peak, size, s, start, stop, k)
+                    keep_peaks(peak, size, s, start, stop)
+                    switches += _set_out(blocks, fields, size, s, start, stop, k)
                 squares += _stage(blocks, fields, weight, reach, size, s, start, stop, damping)
         total_x, total_y, heat = _finish(blocks, fields, size)
         force = book(ledger, constants, k, (total_x, total_y, heat, squares))
