@@ -8,8 +8,9 @@ from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
+    Band,
+    Springs,
     band_rows,
-    coefficients,
     forces_on_band,
     scratch,
 )
@@ -17,8 +18,8 @@ from springblock.solver.springs import (
 UNDAMPED = Material(gamma=0.0)
 #: Not 1, so that it would be missed; a power of 2, so that it rounds nothing.
 STIFFNESS = 0.25
-#: Stiffness, its polynomial, and the slider's stiffness and place, of a lattice by itself.
-SPRINGS = (STIFFNESS, coefficients(STIFFNESS), 0.0, 0.0, 0.0)
+#: Springs and slider of a lattice by itself.
+SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
 
 
 def uniform(n, mu_static, mu_dynamic):
@@ -55,22 +56,21 @@ def spring_forces(displacement, band=None):
     """
     n = displacement.shape[-1]
     ux, uy = with_border(displacement)
-    size, s, every_row = lattice_size(n), scratch(), np.ones(n + 1, bool)
+    s, every_row = scratch(), np.ones(n + 1, bool)
     band = band or band_rows(n)
     forces = []
     for start in range(0, n, band):
         stop = min(start + band, n)
-        between = np.uint64(start), np.uint64(stop)
-        _, broken = forces_on_band(ux, uy, *between, every_row, size, s, *SPRINGS)
+        _, broken = forces_on_band(ux, uy, rows(n, start, stop), every_row, s, *SPRINGS)
         assert broken == 0
-        rows = [s[int(field) :][: (stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
-        forces.append(np.reshape(rows, (2, -1, n + 2))[:, :, 1 : n + 1])
+        found = [s[int(field) :][: (stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
+        forces.append(np.reshape(found, (2, -1, n + 2))[:, :, 1 : n + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
 
 
-def lattice_size(n):
-    """N and pitch, as the kernels want them."""
-    return np.uint64(n), np.uint64(n + 2)
+def rows(n, start, stop):
+    """Rows [start, stop) of N with a border, as the kernels want them."""
+    return Band(*map(np.uint64, (start, stop, n, n + 2)))
 
 
 def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
@@ -79,12 +79,11 @@ def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
     Returns its displacement after so many steps.
     """
     method, n = INTEGRATORS[integrator], displacement.shape[-1]
-    force_time = method.force_time(step, material.gamma)
-    state, constants = prepare(
-        *uniform(n, 0.0, 0.0), material, (0.0, 0.0), step, force_time, method.WORK_FIELDS
-    )
-    state.static[:] = 0.0
-    for field, u in zip((state.ux, state.uy), displacement, strict=True):
+    surface = uniform(n, 0.0, 0.0)
+    state, constants = prepare(*surface, material, (0.0, 0.0), method, step)
+    blocks = state.blocks
+    blocks.static[:] = 0.0
+    for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):
         field.reshape(n, -1)[:, : n + 2] = np.pad(u, 1, mode="edge")[1:-1]
     assert method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0] == steps
-    return np.stack([unpadded(u, n) for u in (state.ux, state.uy)])
+    return np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from scenes import drawn
-from springblock import Material, Pattern, draw_friction, simulate
-from springblock.prelude import Prelude
-from springblock.realisation import load
+from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
 from springblock.solver.springs import band_rows
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -14,7 +12,7 @@ PILLARS = Pattern.pillars(12, 4, 2)
 
 @pytest.fixture(scope="module")
 def prelude():
-    return load(PILLARS.contact)
+    return compute_prelude(PILLARS.contact)
 
 
 def answer(run):
@@ -39,7 +37,10 @@ def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction,
         "random": np.random.default_rng(5).random((9, 9)) < 0.7,
     }[surface]
     how = {"direction": direction, "integrator": integrator}
-    scene, prelude = (contact, *draw_friction(len(contact), seed=1)), load(contact, **how)
+    scene, prelude = (
+        (contact, *draw_friction(len(contact), seed=1)),
+        compute_prelude(contact, **how),
+    )
     assert prelude.samples.max() > 0
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 
@@ -49,7 +50,7 @@ def test_so_it_is_for_a_surface_of_several_bands(integrator):
     surface = Pattern.pillars(48, 10, 14)
     assert band_rows(surface.n_blocks) < surface.n_blocks
     how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
-    scene, prelude = drawn(surface, seed=1), load(surface.contact, **how)
+    scene, prelude = drawn(surface, seed=1), compute_prelude(surface.contact, **how)
     assert prelude.samples.max() > 0
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 
@@ -105,5 +106,5 @@ def test_a_prelude_of_another_pattern_is_refused(prelude):
     ],
 )
 def test_a_prelude_ends_where_blocks_are_few_or_springs_fail_first(pattern, material):
-    prelude = load(pattern.contact, material)
+    prelude = compute_prelude(pattern.contact, material)
     assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1

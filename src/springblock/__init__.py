@@ -7,6 +7,17 @@ doi:10.1016/j.ijsolstr.2022.111525.
 from springblock.asperities import draw_friction
 from springblock.material import Material
 from springblock.pattern import Pattern
-from springblock.realisation import Realisation, SimulationError, simulate
+from springblock.prelude import Prelude, compute_prelude
+from springblock.realisation import Realisation
+from springblock.simulation import SimulationError, simulate
 
-__all__ = ["Material", "Pattern", "Realisation", "SimulationError", "draw_friction", "simulate"]
+__all__ = [
+    "Material",
+    "Pattern",
+    "Prelude",
+    "Realisation",
+    "SimulationError",
+    "compute_prelude",
+    "draw_friction",
+    "simulate",
+]

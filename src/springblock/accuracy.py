@@ -9,7 +9,7 @@ import numpy as np
 from scipy.stats import t
 
 from springblock.files import markdown_table
-from springblock.realisation import STEP
+from springblock.setup import STEP
 
 Row = dict[str, Any]
 

@@ -6,7 +6,7 @@ import click
 
 COMMANDS = {
     "compile": "springblock.commands.simulate:compile_kernels",
-    "prelude": "springblock.commands.simulate:compute_prelude",
+    "prelude": "springblock.commands.simulate:prelude",
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
     "correlation": "springblock.commands.correlation:correlation",

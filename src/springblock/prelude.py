@@ -14,15 +14,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.checks import checked_surface
 from springblock.files import whole_file
 from springblock.material import Material
-from springblock.solver import INTEGRATORS
+from springblock.realisation import heading
+from springblock.setup import PAPER, SAMPLE_INTERVAL, STEP, Setup
 from springblock.solver.lattice import Samples, State, prepare
 
 Array = NDArray[np.float64]
 
 #: Sample intervals between two stored states.
-SPACING = 10
+_BETWEEN = 10
 #: States are kept while the expected number of blocks that should have detached lies between
 #: these: hardly any seed needs an earlier one, or can use a later one. Where there are few blocks,
 #: until nine in ten should have.
@@ -64,75 +66,69 @@ class Prelude:
         No further than `latest` sample intervals. Returns the sample intervals gone by and their
         samples; none if no stored state will do.
         """
-        threshold = np.maximum(state.static, state.dynamic) ** 2
-        bound = state.static > 0.0
+        blocks = state.blocks
+        threshold = np.maximum(blocks.static, blocks.dynamic) ** 2
+        bound = blocks.static > 0.0
         holds = (self.peak[:, bound] * (1.0 + _SLACK) <= threshold[bound]).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:
             return 0, Samples.empty(0)
         last = int(fit[-1])
-        state.ux[:], state.uy[:], state.wx[:], state.wy[:] = self.fields[last]
+        blocks.ux[:], blocks.uy[:], blocks.wx[:], blocks.wy[:] = self.fields[last]
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
         return skipped, Samples(force_x, force_y, np.zeros(skipped, np.int64))
 
 
-def conditions(
-    contact: NDArray[np.bool_],
-    material: Material,
-    heading: tuple[float, float],
-    integrator: str,
-    step: float,
-    every: int,
-) -> str:
+def conditions(contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float]) -> str:
     """All that the motion before the first detachment depends on, as text."""
     mask = np.packbits(contact).tobytes().hex()
-    constants = dict(material.items())
-    return json.dumps([len(contact), mask, constants, heading, integrator, step, every])
+    constants = dict(setup.material.items())
+    how = setup.integrator, setup.step, setup.every
+    return json.dumps([len(contact), mask, constants, towards, *how])
 
 
-def compute(
+def compute_prelude(
     contact: ArrayLike,
-    material: Material,
-    heading: tuple[float, float],
-    integrator: str,
-    step: float,
-    every: int,
+    material: Material = PAPER,
+    direction: str | float = "x",
+    integrator: str = "leapfrog",
+    step: float = STEP,
+    sample_interval: float = SAMPLE_INTERVAL,
 ) -> Prelude:
-    """Load a surface whose blocks never let go, until most seeds would have let one go."""
-    mask = np.asarray(contact)
-    method = INTEGRATORS[integrator]
+    """Load a surface whose blocks never let go, until most seeds would have let one go.
+
+    What comes out is shared by `simulate` among all seeds. Arguments and errors are those of
+    `simulate`.
+    """
+    ones = np.ones(np.shape(contact))
+    mask, _, _ = checked_surface(contact, ones, ones)
+    setup, towards = Setup(material, integrator, step, sample_interval), heading(direction)
+    nothing = np.zeros(mask.shape)
     state, constants = prepare(
-        mask,
-        np.ones(mask.shape),
-        np.zeros(mask.shape),
-        material,
-        heading,
-        step,
-        method.force_time(step, material.gamma),
-        method.WORK_FIELDS,
-        keep_peak=True,
+        mask, ones, nothing, material, towards, setup.method, step, keep_peak=True
     )
-    load = state.static.copy()
-    state.static[load > 0.0] = _NEVER
+    advance, every, blocks = setup.method.advance, setup.every, state.blocks
+    load = blocks.static.copy()
+    blocks.static[load > 0.0] = _NEVER
     kept = [(0, state.copy())]
     record = [Samples.empty(0)]
     expected, enough = 0.0, min(EXPECTED[1], 0.9 * np.count_nonzero(mask))
     while expected < enough:
-        done, taken = (len(record) - 1) * SPACING, Samples.empty(SPACING)
-        _, broken, _ = method.advance(state, constants, done * every, SPACING * every, every, taken)
+        done, taken = (len(record) - 1) * _BETWEEN, Samples.empty(_BETWEEN)
+        _, broken, _ = advance(state, constants, done * every, _BETWEEN * every, every, taken)
         if broken >= 0:  # a spring fails before blocks let go: realisations will find out
             break
         record.append(taken)
         expected = _expected_detachments(state, load, material)
         if expected < EXPECTED[0]:
             kept.clear()
-        kept.append((done + SPACING, state.copy()))
+        kept.append((done + _BETWEEN, state.copy()))
     return Prelude(
-        conditions=conditions(mask, material, heading, integrator, step, every),
+        conditions=conditions(mask, setup, towards),
         samples=np.array([samples for samples, _ in kept]),
-        fields=np.array([(s.ux, s.uy, s.wx, s.wy) for _, s in kept]),
+        fields=np.array([(b.ux, b.uy, b.wx, b.wy) for b in (s.blocks for _, s in kept)]),
         peak=np.array([s.peak for _, s in kept]),
         ledger=np.array([s.ledger for _, s in kept]),
         force=np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1),

@@ -8,8 +8,8 @@ from typing import Any
 import jsonschema
 
 from springblock.material import Material
-from springblock.realisation import check_times
 from springblock.scene import LENGTHS, Scene
+from springblock.setup import Setup
 
 Configuration = Mapping[str, Any]
 
@@ -49,13 +49,12 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    material = Material(**configuration["material"])
-    times = (configuration["integrator"], configuration["step"], configuration["sample_interval"])
-    check_times(material, *times)
+    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    setup = Setup(Material(**configuration["material"]), **times)
     for group, members in ensembles(configuration).items():
         for ensemble in members:
             try:
-                _check_ensemble(ensemble, group, times[2])
+                _check_ensemble(ensemble, group, setup.sample_interval)
             except ValueError as reason:
                 raise ValueError(f"scenes.{group}: {reason}") from reason
     for figure in ("figure_5", "figure_7"):

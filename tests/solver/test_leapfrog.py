@@ -30,9 +30,8 @@ SURFACES = {
 
 def start(contact, seed, keep_peak=False, material=FAST):
     n = len(contact)
-    time = leapfrog.force_time(STEP, material.gamma)
     mu = draw_friction(n, seed)
-    return prepare(contact, *mu, material, (0.8, 0.6), STEP, time, 0, keep_peak)
+    return prepare(contact, *mu, material, (0.8, 0.6), leapfrog, STEP, keep_peak)
 
 
 def follow(state, constants, steps):
@@ -58,10 +57,11 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
     """
     all_rows, constants = start(SURFACES[surface], 0, keep_peak=True)
     awake_rows, _ = start(SURFACES[surface], 0)
-    banded = constants if band is None else constants._replace(band=np.uint64(band))
+    banded = constants if band is None else constants._replace(band_rows=np.uint64(band))
     plain, quick = follow(all_rows, constants, 4000), follow(awake_rows, banded, 4000)
-    assert np.isfinite(awake_rows.t_det).any()  # something has happened
-    assert_same_to_the_bit(all_rows, awake_rows, (*MOTION, "ledger"))
+    assert np.isfinite(awake_rows.blocks.t_det).any()  # something has happened
+    assert_same_to_the_bit(all_rows.blocks, awake_rows.blocks, MOTION)
+    assert_same_to_the_bit(all_rows, awake_rows, ("ledger",))
     assert_same_to_the_bit(plain, quick, Samples._fields)
 
 
@@ -70,8 +70,8 @@ def test_peaks_are_kept_of_every_band(band):
     whole, constants = start(SURFACES["pillars"], 0, keep_peak=True)
     banded, _ = start(SURFACES["pillars"], 0, keep_peak=True)
     follow(whole, constants, 400)
-    follow(banded, constants._replace(band=np.uint64(band)), 400)
-    assert (whole.peak[whole.static > 0.0] > 0.0).all()
+    follow(banded, constants._replace(band_rows=np.uint64(band)), 400)
+    assert (whole.peak[whole.blocks.static > 0.0] > 0.0).all()
     assert_same_to_the_bit(whole, banded, ("peak",))
 
 
@@ -79,28 +79,28 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
-    books = leapfrog._row_books.py_func(state.in_contact, 12)
-    assert not any(field.any() for field in (state.ux, state.uy, state.wx, state.wy))
-    pull = constants.k_s * np.hypot(constants.slider_x, constants.slider_y)
+    rows, blocks = leapfrog._rows.py_func(state.in_contact, 12), state.blocks
+    assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.wx, blocks.wy))
+    pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
-    sure = leapfrog._steps_at_rest(state.static, scratch(), own, i, constants.n, pull)
-    assert sure == pytest.approx(state.static[1:13].min() / pull, rel=1e-3)
-    books[3][:] = 0  # all rows at rest
-    books[2][:] = sure
-    leapfrog._wake_rows(books, sure - 1)
-    assert not books[1].any()
-    leapfrog._wake_rows(books, sure)
-    assert books[1][:12].all()
+    sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.n, pull)
+    assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
+    rows.sliding[:] = 0
+    rows.wake[:] = sure
+    leapfrog._wake(rows, sure - 1)
+    assert not rows.awake.any()
+    leapfrog._wake(rows, sure)
+    assert rows.awake[:12].all()
 
 
 @pytest.mark.parametrize("moving", range(4))
 def test_a_moving_row_wakes_its_neighbours(moving):
-    books = leapfrog._row_books.py_func(np.ones(4, bool), 4)
-    books[3][:] = 0
-    books[3][moving + 1] = 5
-    books[2][:] = 1000
-    leapfrog._wake_rows(books, 7)
-    np.testing.assert_array_equal(books[1][:4], abs(np.arange(4) - moving) <= 1)
+    rows = leapfrog._rows.py_func(np.ones(4, bool), 4)
+    rows.sliding[:] = 0
+    rows.sliding[moving + 1] = 5
+    rows.wake[:] = 1000
+    leapfrog._wake(rows, 7)
+    np.testing.assert_array_equal(rows.awake[:4], abs(np.arange(4) - moving) <= 1)
 
 
 @pytest.mark.parametrize("surface", ["pillars", "grooves", "random"])
@@ -113,8 +113,8 @@ def test_a_row_without_contact_skips_friction_to_the_bit(surface):
     assert not short.in_contact.all()
     full = short.copy()._replace(in_contact=np.ones_like(short.in_contact))
     quick, plain = (follow(state, constants, 4000) for state in (short, full))
-    assert np.isfinite(short.t_det).any()
-    assert_same_to_the_bit(short, full, MOTION)
+    assert np.isfinite(short.blocks.t_det).any()
+    assert_same_to_the_bit(short.blocks, full.blocks, MOTION)
     np.testing.assert_array_equal(quick.switches, plain.switches)
     for one, other in zip((*quick[:2], short.ledger), (*plain[:2], full.ledger), strict=True):
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-13 * np.abs(other).max())

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes import SPRINGS, lattice_size, spring_forces, with_border
+from scenes import SPRINGS, rows, spring_forces, with_border
 from springblock.solver.springs import (
     Q_MAX,
     Q_MIN,
@@ -55,9 +55,8 @@ def exact_forces(u):
 
 def broken_spring(u):
     """Row, and column from one, of the first broken spring that is found; column 0 if none is."""
-    n = u.shape[-1]
-    all_rows, needed = (np.uint64(0), np.uint64(n)), np.ones(n + 1, bool)
-    found = forces_on_band(*with_border(u), *all_rows, needed, lattice_size(n), scratch(), *SPRINGS)
+    n, ends = u.shape[-1], with_border(u)
+    found = forces_on_band(*ends, rows(n, 0, n), np.ones(n + 1, bool), scratch(), *SPRINGS)
     return tuple(map(int, found))
 
 

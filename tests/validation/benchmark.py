@@ -27,9 +27,9 @@ import llvmlite.binding
 import numpy as np
 from tqdm import tqdm
 
-from springblock import Material, draw_friction, simulate
-from springblock.realisation import STEP, load
+from springblock import Material, compute_prelude, draw_friction, simulate
 from springblock.scene import Scene
+from springblock.setup import STEP
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.sources import code_version
@@ -102,11 +102,10 @@ class Solver:
         if still is not None:
             mu_static = np.where(still, NEVER, mu_static)
             velocity = np.where(still, 0.0, velocity)
-        force_time = self.method.force_time(STEP, PAPER.gamma)
-        how = (PAPER, (1.0, 0.0), STEP, force_time, self.method.WORK_FIELDS)
+        how = (PAPER, (1.0, 0.0), self.method, STEP)
         self.state, self.constants = prepare(contact, mu_static, mu_dynamic, *how)
-        for component, start in zip((self.state.wx, self.state.wy), velocity, strict=True):
-            unpadded(component, n)[:] = start
+        for component, start in zip(self.velocity, velocity, strict=True):
+            component[:] = start
         self.advance(min(WARM_UP, 1 + BLOCK_STEPS // n**2))
 
     def advance(self, steps: int) -> None:
@@ -116,9 +115,15 @@ class Solver:
         self.taken += steps
 
     @property
+    def velocity(self) -> tuple[Array, Array]:
+        """Both components, (N, N) each, views."""
+        blocks = self.state.blocks
+        return unpadded(blocks.wx, self.n), unpadded(blocks.wy, self.n)
+
+    @property
     def moving(self) -> str:
         """How many blocks move now."""
-        rest = (unpadded(self.state.wx, self.n) == 0) & (unpadded(self.state.wy, self.n) == 0)
+        rest = ~np.any(self.velocity, axis=0)
         return f"{100.0 * (1.0 - rest.mean()):.4g} % of the blocks move"
 
 
@@ -226,12 +231,12 @@ def realisation() -> Iterator[Row]:
     """Whole runs of the paper's scenes, and what the plain method would need."""
     for name, scene in SCENES.items():
         contact, mu = scene.pattern.contact, draw_friction(N, seed=0)
-        prelude = load(contact)
+        prelude = compute_prelude(contact)
         run = partial(simulate, contact, *mu)
         runs = {
             "from zero": run,
             "with the prelude": partial(run, prelude=prelude),
-            "prelude, once for all seeds": partial(load, contact),
+            "prelude, once for all seeds": partial(compute_prelude, contact),
         }
         yield from against_c(name, N, runs, run(prelude=prelude).steps)
     yield from plain_realisation()
@@ -240,7 +245,7 @@ def realisation() -> Iterator[Row]:
 def plain_realisation() -> Iterator[Row]:
     """A flat realisation by the plain method, and by the solver: time and error."""
     contact, mu = Scene(PLAIN_N).pattern.contact, draw_friction(PLAIN_N, seed=0)
-    solve = partial(simulate, contact, *mu, prelude=load(contact))
+    solve = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
     solved = solve()
     fine = simulate(contact, *mu, step=FINE_STEP).static_friction
     plain = partial(plain_rk4.solve, contact, *mu, float(solved.time[-1]), STEP, 2e-7)
@@ -342,7 +347,7 @@ def machine() -> dict[str, str]:
         "llvm": ".".join(map(str, llvmlite.binding.llvm_version_info)),
         "gcc": c_loop.compiler_version(),
         "lammps": lammps_lattice.version(),
-        "code_version": code_version("springblock.realisation"),
+        "code_version": code_version("springblock.simulation"),
     }
 
 

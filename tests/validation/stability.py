@@ -1208,7 +1208,7 @@ def main(output: Path) -> None:
     if wrong:
         raise SystemExit(1)
     # nothing of the configuration matters here
-    version = {"code_version": code_version("springblock.realisation")}
+    version = {"code_version": code_version("springblock.simulation")}
     write(rows_to_table(rows, SCHEMA), output, version)
 
 

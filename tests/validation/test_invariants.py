@@ -7,7 +7,7 @@ import pytest
 
 from scenes import drawn, flat, uniform
 from springblock import Material, Pattern, simulate
-from springblock.realisation import STEP
+from springblock.setup import STEP
 
 PAPER = Material()
 INTEGRATORS = ["leapfrog", "rk4"]

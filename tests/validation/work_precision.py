@@ -23,8 +23,7 @@ import pyarrow as pa
 from scipy.stats import spearmanr, t
 from tqdm import tqdm
 
-from springblock import Pattern, draw_friction, simulate
-from springblock.realisation import load
+from springblock import Pattern, compute_prelude, draw_friction, simulate
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version
 from springblock.tables import column, read, rows_to_table, write
@@ -192,7 +191,7 @@ def ensemble(
 ) -> tuple[list[Any], float, float]:
     """Runs of these seeds, the median CPU seconds of one, and its mean number of steps."""
     how = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
-    prelude = load(pattern.contact, **how)  # type: ignore[arg-type]
+    prelude = compute_prelude(pattern.contact, **how)  # type: ignore[arg-type]
     outcomes = [
         timed(
             lambda seed=seed: simulate(
@@ -309,7 +308,7 @@ def collect(parts: tuple[Path, ...], output: Path) -> None:
 
 def save(table: pa.Table, output: Path) -> None:
     """Write with the version of the code; there is nothing to configure."""
-    write(table, output, {"code_version": code_version("springblock.realisation")})
+    write(table, output, {"code_version": code_version("springblock.simulation")})
 
 
 if __name__ == "__main__":

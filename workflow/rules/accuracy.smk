@@ -11,7 +11,7 @@ COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
 
 #: Digest of all of the package that the comparisons run.
 COMPARED = sources.digest(
-    *(f"springblock.{module}" for module in ("realisation", "asperities", "pattern", "tables"))
+    *(f"springblock.{module}" for module in ("simulation", "asperities", "pattern", "tables"))
 )
 
 

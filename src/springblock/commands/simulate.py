@@ -2,10 +2,10 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from functools import wraps
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
 
 import click
 from tqdm import tqdm
@@ -19,21 +19,14 @@ from springblock.commands.options import (
     with_options,
 )
 from springblock.material import Material
-from springblock.prelude import Prelude
-from springblock.realisation import STEP, Realisation, SimulationError, load, simulate
+from springblock.prelude import Prelude, compute_prelude
+from springblock.realisation import Realisation
 from springblock.scene import Scene
+from springblock.setup import SAMPLE_INTERVAL, STEP, Setup
+from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version, configuration_digest
 from springblock.tables import BATCH, rows_to_table, write
-
-
-class How(TypedDict):
-    """How a scene is computed, by the keywords of `simulate`."""
-
-    material: Material
-    integrator: str
-    step: float
-    sample_interval: float
 
 
 def _constants(
@@ -55,25 +48,29 @@ def _constants(
         raise click.BadParameter(str(error)) from None
 
 
-_HOW = [
+_SETUP = [
     click.option(
         "--material", multiple=True, callback=_constants, help="A constant: youngs_modulus=1e7."
     ),
     click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog"),
     click.option("--step", type=float, default=STEP, show_default=True, help="h, s."),
-    click.option("--sample-interval", type=float, default=2e-7, show_default=True, help="s."),
+    click.option(
+        "--sample-interval", type=float, default=SAMPLE_INTERVAL, show_default=True, help="s."
+    ),
 ]
 
 
-def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a scene and of how to compute it, which the command gets as `how`."""
+def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a scene and of how to compute it, which the command gets as `setup`."""
 
     @wraps(command)
-    def with_how(**options: Any) -> Any:
-        how = {key: options.pop(key) for key in How.__annotations__}
-        return command(how=how, **options)
+    def with_setup(**options: Any) -> Any:
+        given = {field.name: options.pop(field.name) for field in fields(Setup)}
+        with one_sentence():
+            setup = Setup(**given)
+        return command(setup=setup, **options)
 
-    return scene_options(with_options(_HOW, with_how))
+    return scene_options(with_options(_SETUP, with_setup))
 
 
 def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
@@ -99,16 +96,17 @@ def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float)
 
 
 @click.command("prelude")
-@run_options
+@setup_options
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
-def compute_prelude(scene: Scene, how: How, output: Path) -> None:
+def prelude(scene: Scene, setup: Setup, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        load(scene.pattern.contact, direction=scene.heading, **how).save(output)
+        contact, direction = scene.pattern.contact, scene.heading
+        compute_prelude(contact, direction=direction, **vars(setup)).save(output)
 
 
 @click.command("simulate")
-@run_options
+@setup_options
 @click.option("--first-seed", type=int, required=True)
 @click.option("--last-seed", type=int, required=True, help="Itself included.")
 @click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
@@ -116,7 +114,7 @@ def compute_prelude(scene: Scene, how: How, output: Path) -> None:
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
-    how: How,
+    setup: Setup,
     first_seed: int,
     last_seed: int,
     duration: float | None,
@@ -133,17 +131,16 @@ def simulate_batch(
             try:
                 run = simulate(
                     contact,
-                    *draw_friction(scene.n_blocks, seed, how["material"]),
+                    *draw_friction(scene.n_blocks, seed, setup.material),
                     direction=scene.heading,
                     duration=duration,
                     prelude=loaded,
-                    **how,
+                    **vars(setup),
                 )
             except SimulationError as error:
                 raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
-            rows.append(batch_row(scene, seed, run, how["sample_interval"]))
-        constants = dict(how["material"].items())
-        configuration = {**how, "material": constants, "duration": duration}
+            rows.append(batch_row(scene, seed, run, setup.sample_interval))
+        configuration = {**asdict(setup), "duration": duration}
         write(rows_to_table(rows, BATCH), output, _metadata(configuration))
 
 
@@ -160,6 +157,6 @@ def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
 def compile_kernels(integrator: str) -> None:
     """Compile an integrator once, so that no job has to."""
     surface = Scene(n_blocks=4).pattern.contact
-    prelude = load(surface, integrator=integrator)
+    prelude = compute_prelude(surface, integrator=integrator)
     simulate(surface, *draw_friction(4, 0), integrator=integrator, prelude=prelude)
     click.echo(f"{integrator} is compiled")

@@ -5,7 +5,8 @@ a row hold what makes the springs across the edge strain-free. Lengths are in l,
 per step, times in steps, forces in the velocity that they add in one step.
 """
 
-from typing import NamedTuple
+from copy import deepcopy
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numba import njit
@@ -17,17 +18,18 @@ from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
     ONE,
+    Band,
+    Springs,
     aligned,
     band_rows,
-    coefficients,
     scratch,
 )
 
 Array = NDArray[np.float64]
 
 
-class State(NamedTuple):
-    """State of the lattice; every array has N rows of `pitch` numbers."""
+class Blocks(NamedTuple):
+    """What is known of each block; every array has N rows of `pitch` numbers."""
 
     ux: Array  #: displacement
     uy: Array
@@ -36,15 +38,21 @@ class State(NamedTuple):
     t_det: Array  #: first detachment; infinite before
     static: Array  #: mu_s F_n; 0 where there is no contact
     dynamic: Array  #: mu_d F_n
+
+
+class State(NamedTuple):
+    """State of the lattice, and the room that an integrator works in."""
+
+    blocks: Blocks
     scratch: Array  #: springs and forces of a band of rows, see `springs`
-    work: Array  #: lattice-sized fields of the integrator's own
+    work: tuple[Array, ...]  #: lattice-sized fields of the integrator's own
     ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
     in_contact: NDArray[np.bool_]  #: (N,) rows that hold any block in contact
 
     def copy(self) -> "State":
         """Return a state that shares no memory with this one."""
-        return State._make(None if field is None else field.copy() for field in self)
+        return deepcopy(self)
 
 
 class Constants(NamedTuple):
@@ -52,13 +60,20 @@ class Constants(NamedTuple):
 
     n: np.uint64  #: N
     pitch: np.uint64
-    band: np.uint64  #: rows of a band, see `springs`
-    kappa: float  #: K_int l
-    series: tuple[float, ...]  #: kappa times the polynomial of the springs
-    k_s: float  #: K_s
+    band_rows: np.uint64
+    springs: Springs
     damping: float  #: gamma h
     slider_x: float  #: slider's displacement in one step
     slider_y: float
+
+
+class Totals(NamedTuple):
+    """Sums over all blocks after one step."""
+
+    x: float  #: displacement
+    y: float
+    heat: float  #: of friction
+    squares: float  #: velocity squared
 
 
 class Samples(NamedTuple):
@@ -74,6 +89,40 @@ class Samples(NamedTuple):
         return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
 
 
+class Integrator(Protocol):
+    """A way to follow the blocks through time: a module of this package.
+
+    To add one, write such a module and name it in `INTEGRATORS`; every test of both integrators,
+    the error study and the extreme cases then take it up.
+    """
+
+    FORCE_EVALUATIONS: int  #: per step
+    WORK_FIELDS: int  #: lattice-sized fields that it keeps for itself
+
+    def is_stable(self, step: float, omega: Array, gamma: float) -> bool:
+        """Whether no mode of these angular frequencies, rad/s, grows with a step in s."""
+
+    def force_time(self, step: float, gamma: float) -> float:
+        """How long a force acts in one step, s."""
+
+    def advance(
+        self,
+        state: State,
+        constants: Constants,
+        first: int,
+        steps: int,
+        every: int,
+        samples: Samples,
+    ) -> tuple[int, int, int]:
+        """Take `steps` steps from step `first` on, sampling each time `every` steps are full.
+
+        Returns steps taken, and row and column of a spring that no longer holds; -1 if all do.
+        """
+
+    def at_step(self, state: State, constants: Constants, steps: int) -> tuple[Array, float]:
+        """Velocity, (2, lattice), after `steps` steps, and friction's heat until then."""
+
+
 #: Threshold of a contact block whose mu_s is zero: it lets go at once, and is seen to.
 _NO_THRESHOLD = 1e-300
 
@@ -84,19 +133,18 @@ def prepare(
     mu_dynamic: Array,
     material: Material,
     heading: tuple[float, float],
+    integrator: Integrator,
     step: float,
-    force_time: float,
-    work_fields: int,
     keep_peak: bool = False,
 ) -> tuple[State, Constants]:
     """Lay out one run, at rest and free of strain, in the kernels' units.
 
-    `heading` is the unit vector of the slider's motion, `force_time` the time in s for which the
-    integrator lets a force act in one step.
+    `heading` is the unit vector of the slider's motion.
     """
     n = contact.shape[0]
     pitch = -(-(n + 2) // 4) * 4
-    compliance = step * force_time / material.mass  # m per step, per N
+    # m per step, per N
+    compliance = step * integrator.force_time(step, material.gamma) / material.mass
     velocity_per_force = compliance / material.spacing
     load = material.block_load * n * n / np.count_nonzero(contact)  # F_n, N
 
@@ -110,28 +158,27 @@ def prepare(
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
     state = State(
-        ux=field(),
-        uy=field(),
-        wx=field(),
-        wy=field(),
-        t_det=field() + np.inf,
-        static=padded(static),
-        dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
+        blocks=Blocks(
+            ux=field(),
+            uy=field(),
+            wx=field(),
+            wy=field(),
+            t_det=field() + np.inf,
+            static=padded(static),
+            dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
+        ),
         scratch=scratch(),
-        work=np.zeros((work_fields, n * pitch)),
+        work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
         in_contact=np.asarray(contact.any(axis=1)),
     )
-    kappa = material.k_int * compliance
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(
         n=np.uint64(n),
         pitch=np.uint64(pitch),
-        band=np.uint64(band_rows(n)),
-        kappa=kappa,
-        series=coefficients(kappa),
-        k_s=material.k_s * compliance,
+        band_rows=np.uint64(band_rows(n)),
+        springs=Springs.of(material.k_int * compliance, material.k_s * compliance),
         damping=material.gamma * step,
         slider_x=slide * heading[0],
         slider_y=slide * heading[1],
@@ -145,6 +192,13 @@ def unpadded(field: Array, n: int) -> Array:
 
 
 @njit(inline="always")
+def band_from(start, constants):
+    """Return the band that begins with row `start`."""
+    n = constants.n
+    return Band(start, min(start + constants.band_rows, n), n, constants.pitch)
+
+
+@njit(inline="always")
 def close_edge(ux, uy, i, n):
     """Let the spring across the eastern edge of a row be free of strain."""
     ux[i + n + ONE] = ux[i + n]
@@ -152,28 +206,31 @@ def close_edge(ux, uy, i, n):
 
 
 @njit(**JIT)
-def keep_peaks(peak, size, s, start, stop):
-    """Keep the largest |F_mot|² of each block in rows [start, stop), for a prelude."""
+def keep_peaks(peak, band, s):
+    """Keep the largest |F_mot|² of each block in a band, for a prelude."""
     if peak is not None:
-        n, pitch = size
-        for row in range(start, stop):
-            i, own = row * pitch, (row - start) * pitch
-            for x in range(ONE, n + ONE):
+        for row in range(band.start, band.stop):
+            i, own = row * band.pitch, (row - band.start) * band.pitch
+            for x in range(ONE, band.n + ONE):
                 fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
                 peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 
 @njit(**JIT)
-def book(ledger, constants, k, totals):
-    """Enter step k into the ledger; return the slider's force at the end of the step.
+def book(ledger, samples, constants, totals, switches, k, first, every):
+    """Enter step k into the ledger, and into the samples where it ends an interval.
 
-    `totals` are the sums of displacement, friction's heat and squared velocity.
+    Returns the switches that no sample holds yet.
     """
-    total_x, total_y, heat, squares = totals
-    blocks = constants.n * constants.n
-    force_x = constants.k_s * (blocks * constants.slider_x * (k + 1) - total_x)
-    force_y = constants.k_s * (blocks * constants.slider_y * (k + 1) - total_y)
+    blocks, k_s = constants.n * constants.n, constants.springs.k_s
+    force_x = k_s * (blocks * constants.slider_x * (k + 1) - totals.x)
+    force_y = k_s * (blocks * constants.slider_y * (k + 1) - totals.y)
     ledger[0] += force_x * constants.slider_x + force_y * constants.slider_y
-    ledger[1] += heat
-    ledger[2] += squares
-    return force_x, force_y
+    ledger[1] += totals.heat
+    ledger[2] += totals.squares
+    if (k + 1) % every != 0:
+        return switches
+    sample = (k - first) // every
+    samples.force_x[sample], samples.force_y[sample] = force_x, force_y
+    samples.switches[sample] = switches
+    return 0

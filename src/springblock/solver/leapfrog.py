@@ -6,9 +6,11 @@ gamma = 0. Releases and stops fall on step boundaries, which makes it first orde
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
@@ -17,6 +19,8 @@ from springblock.solver.lattice import (
     Constants,
     Samples,
     State,
+    Totals,
+    band_from,
     book,
     close_edge,
     keep_peaks,
@@ -52,25 +56,59 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
     Means of the half steps before and after; the one after is taken on a copy.
     """
-    ahead = state.copy()
+    ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
-    velocity = np.stack([state.wx + ahead.wx, state.wy + ahead.wy]) / 2.0
+    velocity = np.stack([blocks.wx + ahead.blocks.wx, blocks.wy + ahead.blocks.wy]) / 2.0
     return velocity, float(state.ledger[1] + ahead.ledger[1]) / 2.0
 
 
+class Rows(NamedTuple):
+    """What is kept of each row."""
+
+    in_contact: NDArray[np.bool_]  #: (N,) whether it holds any block in contact
+    awake: NDArray[np.bool_]  #: (N + 1,) whether it is looked at in this step
+    wake: NDArray[np.int64]  #: (N,) step at which to wake it at the latest
+    sliding: NDArray[np.int64]  #: (N + 2,) blocks that slide, with a row beyond each edge
+    switching: NDArray[np.int64]  #: (N,) those among them that come from rest
+    waiting: NDArray[np.bool_]  #: (N,) whether any block has yet to detach
+    x: Array  #: (N,) sums as of `Totals`
+    y: Array
+    heat: Array
+    squares: Array
+
+
 @njit(**JIT)
-def _move_rows_in_contact(blocks, rows, size, s, a, start, stop):
-    """Kick and drift those rows of [start, stop) that are awake and hold blocks in contact."""
-    ux, uy, wx, wy, static, dynamic, _ = blocks
-    n, pitch = size
-    in_contact, awake, _, sliding, switching, _, sums = rows
-    for row in range(start, stop):
-        if not (in_contact[row] and awake[row]):
+def _rows(in_contact, n):
+    """Rows as if every one of them moved."""
+    awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.int64)
+    awake[n] = False
+    sliding[0] = sliding[n + 1] = 0
+    return Rows(
+        in_contact,
+        awake,
+        np.zeros(n, np.int64),
+        sliding,
+        np.zeros(n, np.int64),
+        np.ones(n, np.bool_),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+    )
+
+
+@njit(**JIT)
+def _move_rows_in_contact(blocks, rows, band, s, a):
+    """Kick and drift those rows of a band that are awake and hold blocks in contact."""
+    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    static, dynamic = blocks.static, blocks.dynamic
+    for row in range(band.start, band.stop):
+        if not (rows.in_contact[row] and rows.awake[row]):
             continue
-        i, own = row * pitch, (row - start) * pitch
+        i, own = row * band.pitch, (row - band.start) * band.pitch
         slide, switch = np.int64(0), np.int64(0)
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
-        for x in range(ONE, n + ONE):
+        for x in range(ONE, band.n + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
@@ -92,25 +130,24 @@ def _move_rows_in_contact(blocks, rows, size, s, a, start, stop):
             kept = left * speed2
             heat = add(heat, (1.0 - left) * (along + kept))
             squares = add(squares, left * kept)
-        sliding[row + ONE], switching[row] = slide, switch
-        sums[0, row], sums[1, row], sums[2, row], sums[3, row] = sum_x, sum_y, 0.5 * heat, squares
+        rows.sliding[row + ONE], rows.switching[row] = slide, switch
+        rows.x[row], rows.y[row] = sum_x, sum_y
+        rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
 
 @njit(**JIT)
-def _move_free_rows(blocks, rows, size, s, a, start, stop):
+def _move_free_rows(blocks, rows, band, s, a):
     """As `_move_rows_in_contact` for the other rows, which are always awake.
 
     To the bit, but for the order of the sums.
     """
-    ux, uy, wx, wy = blocks[:4]
-    n, pitch = size
-    in_contact, sums = rows[0], rows[6]
-    for row in range(start, stop):
-        if in_contact[row]:
+    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    for row in range(band.start, band.stop):
+        if rows.in_contact[row]:
             continue
-        i, own = row * pitch, (row - start) * pitch
+        i, own = row * band.pitch, (row - band.start) * band.pitch
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
-        for x in range(ONE, n + ONE):
+        for x in range(ONE, band.n + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
@@ -122,13 +159,13 @@ def _move_free_rows(blocks, rows, size, s, a, start, stop):
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
             squares = add(squares, new_x * new_x + new_y * new_y)
-        sums[0, row], sums[1, row], sums[3, row] = sum_x, sum_y, squares
+        rows.x[row], rows.y[row], rows.squares[row] = sum_x, sum_y, squares
 
 
 @njit(**JIT)
 def _note_detachments(blocks, i, n, now):
     """Note the time for blocks of one row that slide for the first time; are others yet to?"""
-    _, _, wx, wy, static, _, t_det = blocks
+    wx, wy, static, t_det = blocks.wx, blocks.wy, blocks.static, blocks.t_det
     remaining = np.int64(0)
     for x in range(ONE, n + ONE):
         b = i + x
@@ -153,95 +190,69 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 
 @njit(**JIT)
-def _settle(blocks, rows, size, s, pull, start, stop, now):
-    """See to what rows of [start, stop) have done; return their switches from rest to sliding."""
-    n, pitch = size
-    in_contact, awake, wake, sliding, switching, waiting, _ = rows
+def _settle(blocks, rows, band, s, pull, now):
+    """See to what rows of a band have done; return their switches from rest to sliding."""
+    n = band.n
     switches = np.int64(0)
-    for row in range(start, stop):
-        i = row * pitch
-        if in_contact[row] and awake[row]:
-            switches += switching[row]
-            if switching[row] > 0 and waiting[row]:
-                waiting[row] = _note_detachments(blocks, i, n, now)
-            elif sliding[row + ONE] == 0 and wake[row] <= now:
-                own = (row - start) * pitch
-                wake[row] = now + _steps_at_rest(blocks[4], s, own, i, n, pull)
-        close_edge(blocks[0], blocks[1], i, n)
+    for row in range(band.start, band.stop):
+        i = row * band.pitch
+        if rows.in_contact[row] and rows.awake[row]:
+            switches += rows.switching[row]
+            if rows.switching[row] > 0 and rows.waiting[row]:
+                rows.waiting[row] = _note_detachments(blocks, i, n, now)
+            elif rows.sliding[row + ONE] == 0 and rows.wake[row] <= now:
+                own = (row - band.start) * band.pitch
+                rows.wake[row] = now + _steps_at_rest(blocks.static, s, own, i, n, pull)
+        close_edge(blocks.ux, blocks.uy, i, n)
     return switches
 
 
 @njit(**JIT)
-def _wake_rows(rows, now):
+def _wake(rows, now):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
-    _, awake, wake, sliding, _, _, _ = rows
-    for row in range(len(wake)):
-        disturbed = sliding[row] + sliding[row + 1] + sliding[row + 2] > 0
+    for row in range(len(rows.wake)):
+        disturbed = rows.sliding[row] + rows.sliding[row + 1] + rows.sliding[row + 2] > 0
         if disturbed:
-            wake[row] = now + 1  # and look again when all is at rest
-        awake[row] = disturbed or wake[row] <= now
+            rows.wake[row] = now + 1  # and look again when all is at rest
+        rows.awake[row] = disturbed or rows.wake[row] <= now
 
 
 @njit(**JIT)
-def _row_books(in_contact, n):
-    """What is kept of each row, see `advance`: as if every one of them moved."""
-    awake, wake = np.ones(n + 1, np.bool_), np.zeros(n, np.int64)
-    awake[n] = False
-    sliding = np.ones(n + 2, np.int64)
-    sliding[0] = sliding[n + 1] = 0
-    switching, waiting = np.zeros(n, np.int64), np.ones(n, np.bool_)
-    return in_contact, awake, wake, sliding, switching, waiting, np.zeros((4, n))
-
-
-@njit(**JIT)
-def _totals(sums):
+def _totals(rows):
     """Sum over rows, in their order."""
     x, y, heat, squares = 0.0, 0.0, 0.0, 0.0
-    for row in range(sums.shape[1]):
-        x += sums[0, row]
-        y += sums[1, row]
-        heat += sums[2, row]
-        squares += sums[3, row]
-    return x, y, heat, squares
+    for row in range(len(rows.x)):
+        x += rows.x[row]
+        y += rows.y[row]
+        heat += rows.heat[row]
+        squares += rows.squares[row]
+    return Totals(x, y, heat, squares)
 
 
 @njit(**JIT)
 def advance(state, constants, first, steps, every, samples):
-    """Take `steps` steps from step `first`; returns (steps taken, row, column).
-
-    The row is -1 if all went well, else that of the spring which no longer holds.
+    """See `Integrator.advance`.
 
     A row at rest among rows at rest is left alone until one of its blocks may let go, which
-    changes no bit. The books of all rows: whether they hold contact, whether they are awake and
-    when to wake them, how many blocks slide (with a row beyond each edge), how many of them come
-    from rest and whether any has yet to detach, and the sums of displacement, friction's heat and
-    squared velocity.
+    changes no bit.
     """
-    ux, uy, wx, wy, t_det, static, dynamic, s, _, ledger, peak, in_contact = state
-    n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
-    blocks, size = (ux, uy, wx, wy, static, dynamic, t_det), (n, pitch)
-    a, pull = math.exp(-damping), k_s * math.hypot(slider_x, slider_y)
-    rows = _row_books(in_contact, np.int64(n))
-    awake, sums = rows[1], rows[6]
-    switches, sample = 0, 0
+    blocks, s, n = state.blocks, state.scratch, constants.n
+    pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
+    a, rows, switches = math.exp(-constants.damping), _rows(state.in_contact, np.int64(n)), 0
     for k in range(first, first + steps):
-        sx, sy = slider_x * k, slider_y * k
-        if peak is None:  # a prelude looks at every block in every step
-            _wake_rows(rows, k)
-        for start in range(U(0), n, band):
-            stop = min(start + band, n)
+        slider = constants.slider_x * k, constants.slider_y * k
+        if state.peak is None:  # a prelude looks at every block in every step
+            _wake(rows, k)
+        for start in range(U(0), n, constants.band_rows):
+            band = band_from(start, constants)
             row, column = forces_on_band(
-                ux, uy, start, stop, awake, size, s, kappa, series, k_s, sx, sy
+                blocks.ux, blocks.uy, band, rows.awake, s, constants.springs, slider
             )
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
-            keep_peaks(peak, size, s, start, stop)
-            _move_rows_in_contact(blocks, rows, size, s, a, start, stop)
-            _move_free_rows(blocks, rows, size, s, a, start, stop)
-            switches += _settle(blocks, rows, size, s, pull, start, stop, k)
-        force = book(ledger, constants, k, _totals(sums))
-        if (k + 1) % every == 0:
-            samples.force_x[sample], samples.force_y[sample] = force
-            samples.switches[sample] = switches
-            switches, sample = 0, sample + 1
+            keep_peaks(state.peak, band, s)
+            _move_rows_in_contact(blocks, rows, band, s, a)
+            _move_free_rows(blocks, rows, band, s, a)
+            switches += _settle(blocks, rows, band, s, pull, k)
+        switches = book(state.ledger, samples, constants, _totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)

@@ -12,22 +12,50 @@ stops fall on step boundaries, which makes it first order across them.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from springblock.solver.compilation import JIT, add
-from springblock.solver.lattice import Array, Constants, State, book, close_edge, keep_peaks
+from springblock.solver.lattice import (
+    Array,
+    Constants,
+    State,
+    Totals,
+    band_from,
+    book,
+    close_edge,
+    keep_peaks,
+)
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
-FORCE_EVALUATIONS = 4
-#: Lattice-sized fields in `State.work`: displacement and velocity of the stage, their weighted
-#: sums over the stages, and the direction of friction, two components each.
-WORK_FIELDS = 10
 
-WEIGHTS = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
-NODES = (0.0, 0.5, 0.5, 1.0)  #: of the stages
-REACHES = (0.5, 0.5, 1.0, 0.0)  #: from the step's start to the next stage
+class Stage(NamedTuple):
+    """What is known of each block between the stages of a step, two components each."""
+
+    ux: Array  #: displacement
+    uy: Array
+    wx: Array  #: velocity
+    wy: Array
+    dx: Array  #: weighted sum of velocities over stages: the step's way
+    dy: Array
+    ax: Array  #: of accelerations
+    ay: Array
+    ex: Array  #: direction that friction opposes in this step
+    ey: Array
+
+
+FORCE_EVALUATIONS = 4
+WORK_FIELDS = len(Stage._fields)
+
+#: Weight and node of each stage, and how far the next one is from the step's start.
+STAGES = (
+    (1.0 / 6.0, 0.0, 0.5),
+    (1.0 / 3.0, 0.5, 0.5),
+    (1.0 / 3.0, 0.5, 1.0),
+    (1.0 / 6.0, 1.0, 0.0),
+)
 
 
 def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
@@ -45,7 +73,7 @@ def force_time(step: float, gamma: float) -> float:
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and friction's heat until then."""
-    return np.stack([state.wx, state.wy]), float(state.ledger[1])
+    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[1])
 
 
 @njit(inline="always")
@@ -62,18 +90,17 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _set_out(blocks, fields, size, s, start, stop, now):
-    """Choose friction's direction in rows [start, stop), and let go; returns how many let go.
+def _set_out(blocks, stage, band, s, now):
+    """Choose friction's direction in a band, and let go; returns how many let go.
 
     The stage's velocity is that of the step's start; all sums over stages are zero.
     """
-    _, _, wx, wy, t_det, static, dynamic = blocks
-    _, _, pu, pv, du, dv, _, _, ex, ey = fields
-    n, pitch = size
+    wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
+    ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
     switches = 0
-    for row in range(start, stop):
-        i, own = row * pitch, (row - start) * pitch
-        for x in range(ONE, n + ONE):
+    for row in range(band.start, band.stop):
+        i, own = row * band.pitch, (row - band.start) * band.pitch
+        for x in range(ONE, band.n + ONE):
             b = i + x
             if static[b] == 0.0:
                 continue
@@ -85,22 +112,22 @@ def _set_out(blocks, fields, size, s, start, stop, now):
                 # It has slid since the threshold was reached, half a step ago on average.
                 excess = fx * ex[b] + fy * ey[b] - dynamic[b]
                 wx[b], wy[b] = 0.5 * excess * ex[b], 0.5 * excess * ey[b]
-                pu[b], pv[b] = wx[b], wy[b]
-                du[b], dv[b] = 0.125 * excess * ex[b], 0.125 * excess * ey[b]
+                stage.wx[b], stage.wy[b] = wx[b], wy[b]
+                stage.dx[b], stage.dy[b] = 0.125 * excess * ex[b], 0.125 * excess * ey[b]
     return switches
 
 
 @njit(**JIT)
-def _stage(blocks, fields, weight, reach, size, s, start, stop, damping):
-    """Take one stage on rows [start, stop); returns the squared speed."""
-    ux, uy, wx, wy, _, _, dynamic = blocks
-    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    n, pitch = size
+def _take_stage(blocks, stage, weight, reach, band, s, damping):
+    """Take one stage on the rows of a band; returns the squared speed."""
+    ux, uy, wx, wy, dynamic = blocks.ux, blocks.uy, blocks.wx, blocks.wy, blocks.dynamic
+    su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
+    du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total = 0.0
-    for row in range(start, stop):
-        i, own = row * pitch, (row - start) * pitch
+    for row in range(band.start, band.stop):
+        i, own = row * band.pitch, (row - band.start) * band.pitch
         squares = 0.0
-        for x in range(ONE, n + ONE):
+        for x in range(ONE, band.n + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
             ax = s[FORCE_X + own + x] - damping * vx - dynamic[b] * ex[b]
@@ -117,19 +144,20 @@ def _stage(blocks, fields, weight, reach, size, s, start, stop, damping):
             pu[b] = wx[b] + reach * ax
             pv[b] = wy[b] + reach * ay
         total += squares
-        close_edge(su, sv, i, n)
+        close_edge(su, sv, i, band.n)
     return weight * total
 
 
 @njit(**JIT)
-def _finish(blocks, fields, size):
-    """Complete the step and clear the sums over stages.
+def _finish(blocks, stage, n, pitch, squares):
+    """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
-    Returns the sums of displacement and of friction's heat, row by row lest rounding adds up.
+    `squares` is what the stages have summed up already.
     """
-    ux, uy, wx, wy, _, static, dynamic = blocks
-    su, sv, pu, pv, du, dv, qu, qv, ex, ey = fields
-    n, pitch = size
+    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    static, dynamic, ex, ey = blocks.static, blocks.dynamic, stage.ex, stage.ey
+    su, sv, pu, pv = stage.ux, stage.uy, stage.wx, stage.wy
+    du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total_x, total_y, total_heat = 0.0, 0.0, 0.0
     for row in range(n):
         i = row * pitch
@@ -150,43 +178,37 @@ def _finish(blocks, fields, size):
         total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + heat
         close_edge(ux, uy, i, n)
         close_edge(su, sv, i, n)
-    return total_x, total_y, total_heat
+    return Totals(total_x, total_y, total_heat, squares)
+
+
+@njit(**JIT)
+def _begin(blocks, stage):
+    """Let the first stage be where the blocks are; without friction any direction will do."""
+    stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    stage.ex[:], stage.ey[:] = 1.0, 0.0
 
 
 @njit(**JIT)
 def advance(state, constants, first, steps, every, samples):
-    """Take `steps` steps from step `first`; returns (steps taken, row, column).
-
-    The row is -1 if all went well, else that of the spring which no longer holds.
-    """
-    ux, uy, wx, wy, t_det, static, dynamic, s, w, ledger, peak, _ = state
-    n, pitch, band, kappa, series, k_s, damping, slider_x, slider_y = constants
-    blocks = (ux, uy, wx, wy, t_det, static, dynamic)
-    fields = (w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7], w[8], w[9])
-    su, sv, pu, pv, _, _, _, _, ex, ey = fields
-    su[:], sv[:], pu[:], pv[:], ex[:], ey[:] = ux, uy, wx, wy, 1.0, 0.0
-    size, every_row = (n, pitch), np.ones(n + ONE, np.bool_)
-    switches, sample = 0, 0
+    """See `Integrator.advance`."""
+    blocks, s, n, stage = state.blocks, state.scratch, constants.n, Stage(*state.work)
+    _begin(blocks, stage)
+    every_row, switches = np.ones(n + ONE, np.bool_), 0
     for k in range(first, first + steps):
         squares = 0.0
-        for stage in range(4):
-            sx, sy = slider_x * (k + NODES[stage]), slider_y * (k + NODES[stage])
-            weight, reach = WEIGHTS[stage], REACHES[stage]
-            for start in range(U(0), n, band):
-                stop = min(start + band, n)
+        for weight, node, reach in STAGES:
+            slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
+            for start in range(U(0), n, constants.band_rows):
+                band = band_from(start, constants)
                 row, column = forces_on_band(
-                    su, sv, start, stop, every_row, size, s, kappa, series, k_s, sx, sy
+                    stage.ux, stage.uy, band, every_row, s, constants.springs, slider
                 )
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
-                if stage == 0:
-                    keep_peaks(peak, size, s, start, stop)
-                    switches += _set_out(blocks, fields, size, s, start, stop, k)
-                squares += _stage(blocks, fields, weight, reach, size, s, start, stop, damping)
-        total_x, total_y, heat = _finish(blocks, fields, size)
-        force = book(ledger, constants, k, (total_x, total_y, heat, squares))
-        if (k + 1) % every == 0:
-            samples.force_x[sample], samples.force_y[sample] = force
-            samples.switches[sample] = switches
-            switches, sample = 0, sample + 1
+                if node == 0.0:
+                    keep_peaks(state.peak, band, s)
+                    switches += _set_out(blocks, stage, band, s, k)
+                squares += _take_stage(blocks, stage, weight, reach, band, s, constants.damping)
+        totals = _finish(blocks, stage, n, constants.pitch, squares)
+        switches = book(state.ledger, samples, constants, totals, switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)

@@ -17,6 +17,8 @@ several blocks.
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 from numba.extending import register_jitable
@@ -51,6 +53,28 @@ _FIELD = MAX_BLOCKS + 72
 FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y = (U(k * _FIELD) for k in range(8))
 
 
+class Band(NamedTuple):
+    """Rows [start, stop) of a lattice, which are worked on together."""
+
+    start: np.uint64
+    stop: np.uint64
+    n: np.uint64  #: blocks of a row
+    pitch: np.uint64  #: numbers from one row to the next
+
+
+class Springs(NamedTuple):
+    """Stiffness of the springs, as the velocity that a force adds in one step."""
+
+    kappa: float  #: K_int l
+    series: tuple[float, ...]  #: kappa times the polynomial of g
+    k_s: float  #: K_s
+
+    @classmethod
+    def of(cls, kappa: float, k_s: float) -> "Springs":
+        """With the coefficients of kappa g(q), lowest first."""
+        return cls(kappa, tuple((kappa * series()).tolist()), k_s)
+
+
 def band_rows(n: int) -> int:
     """Rows of n blocks in one band."""
     return min(n, 1 + (_BAND_BLOCKS - 1) // n)
@@ -73,11 +97,6 @@ def series() -> Array:
     in_unit_range = chebyshev.chebinterpolate(lambda x: _slope(SERIES_RANGE * x), SERIES_DEGREE - 1)
     rising = chebyshev.cheb2poly(in_unit_range) / SERIES_RANGE ** np.arange(SERIES_DEGREE)
     return np.concatenate([[0.5], rising])
-
-
-def coefficients(kappa: float) -> tuple[float, ...]:
-    """Coefficients of kappa g(q), with kappa the velocity change per step by a force of K_int l."""
-    return tuple((kappa * series()).tolist())
 
 
 @njit(inline="always")
@@ -119,14 +138,13 @@ def _stretch(ux, uy, i, j, x):
 
 
 @njit(inline="always")
-def _places(row, size):
+def _places(row, band):
     """Return where a row and the next one stand.
 
     The last row has no next one: with itself in its place, northern springs are free of strain.
     """
-    n, pitch = size
-    i = row * pitch
-    return i, i + pitch if row + ONE < n else i
+    i = row * band.pitch
+    return i, i + band.pitch if row + ONE < band.n else i
 
 
 @njit(inline="always")
@@ -139,19 +157,19 @@ def _cut(s, own, row, n):
 
 
 @njit(**JIT)
-def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
-    """Enter kappa q g(q), which a spring pulls with over e + d, for rows [start, stop).
+def _pulls_by_series(ux, uy, first, band, needed, s, c):
+    """Enter kappa q g(q), which a spring pulls with over e + d, in a band from row `first` on.
 
-    The band begins with row `first`. Rows are left out where neither they nor the next row are
-    `needed`. Returns the first row with a spring out of range, which is not finished, or `stop`.
-    Diagonal springs are entered as if they were as stiff as axial ones; `_forces` halves them.
+    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
+    a spring out of range, which is not finished, or the band's stop. Diagonal springs are entered
+    as if they were as stiff as axial ones; `_forces` halves them.
     """
-    n, pitch = size
-    for row in range(start, stop):
+    n = band.n
+    for row in range(first, band.stop):
         if not (needed[row] or needed[row + ONE]):
             continue
-        i, j = _places(row, size)
-        own, outside = (row - first) * pitch, np.int64(0)
+        i, j = _places(row, band)
+        own, outside = (row - band.start) * band.pitch, np.int64(0)
         for x in range(ONE, n + ONE):
             q = _stretch(ux, uy, i, j, x)
             p = _series(q, c)
@@ -162,7 +180,7 @@ def _pulls_by_series(ux, uy, start, stop, first, needed, size, s, c):
         if outside > 0:
             return row
         _cut(s, own, row, n)
-    return stop
+    return band.stop
 
 
 @njit(inline="always")
@@ -171,11 +189,11 @@ def _is_whole(q):
 
 
 @njit(**JIT)
-def _pulls_by_closed_form(ux, uy, row, first, size, s, kappa):
+def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
-    n, pitch = size
-    i, j = _places(row, size)
-    own, broken = (row - first) * pitch, np.int64(n + ONE)
+    n = band.n
+    i, j = _places(row, band)
+    own, broken = (row - band.start) * band.pitch, np.int64(n + ONE)
     for x in range(ONE, n + ONE):
         q = _stretch(ux, uy, i, j, x)
         s[EAST + own + x], s[NORTH + own + x] = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
@@ -188,22 +206,22 @@ def _pulls_by_closed_form(ux, uy, row, first, size, s, kappa):
 
 
 @njit(**JIT)
-def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
-    """Enter F_mot of the blocks of rows [start, stop), of which those are right that are `needed`.
+def _forces(ux, uy, band, needed, s, k_s, slider):
+    """Enter F_mot of the blocks of a band, in those of its rows that are `needed`.
 
     What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
     seen from the north and from the south, from the east and from the west, so that a mirrored
     scene moves as a mirror image to the last bit.
     """
-    n, pitch = size
-    if start == 0:  # nothing lies below the first row
+    n, (sx, sy) = band.n, slider
+    if band.start == 0:  # nothing lies below the first row
         for x in range(ONE, n + ONE):
             s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
-    for row in range(start, stop):
+    for row in range(band.start, band.stop):
         if not (needed[row] or needed[row + ONE]):
             continue
-        i, j = _places(row, size)
-        own = (row - start) * pitch
+        i, j = _places(row, band)
+        own = (row - band.start) * band.pitch
         e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
         for x in range(ONE, n + ONE):
             ax, ay = ux[i + x], uy[i + x]
@@ -229,21 +247,21 @@ def _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy):
 
 
 @njit(**JIT)
-def forces_on_band(ux, uy, start, stop, needed, size, s, kappa, c, k_s, sx, sy):
-    """Put F_mot of rows [start, stop) into FORCE_X and FORCE_Y of scratch `s`.
+def forces_on_band(ux, uy, band, needed, s, springs, slider):
+    """Put F_mot of a band, under a slider at (x, y), into FORCE_X and FORCE_Y of scratch `s`.
 
-    Bands come in ascending order. Rows that are not `needed` are not computed, or not right.
-    Returns row and column (from 1) of a spring that has collapsed, burst or become NaN; column 0 if
-    there is none.
+    Bands come in ascending order. Rows that are not `needed`, (N + 1,), are not computed, or not
+    right. Returns row and column (from 1) of a spring that has collapsed, burst or become NaN;
+    column 0 if there is none.
     """
-    row = _pulls_by_series(ux, uy, start, stop, start, needed, size, s, c)
-    while row < stop:
-        broken = _pulls_by_closed_form(ux, uy, row, start, size, s, kappa)
+    row = _pulls_by_series(ux, uy, band.start, band, needed, s, springs.series)
+    while row < band.stop:
+        broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
         if broken > 0:
             return row, broken
-        row = _pulls_by_series(ux, uy, row + ONE, stop, start, needed, size, s, c)
-    _forces(ux, uy, start, stop, needed, size, s, k_s, sx, sy)
-    return start, U(0)
+        row = _pulls_by_series(ux, uy, row + ONE, band, needed, s, springs.series)
+    _forces(ux, uy, band, needed, s, springs.k_s, slider)
+    return row, U(0)
 
 
 def scratch() -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from springblock import Material, Pattern, draw_friction
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
-from springblock.solver.springs import coefficients
+from springblock.solver.springs import Springs
 from validation.peers.missing import Missing
 
 LEAPFROG = INTEGRATORS["leapfrog"]
@@ -71,7 +71,7 @@ class CLoop:
         self._fields[4] = np.inf
         self._fields[5, :, :-1] = np.where(contact, mu_static * load, 0.0)
         self._fields[6, :, :-1] = np.where(contact, mu_dynamic * load, 0.0)
-        series = np.array(coefficients(m.k_int * compliance))
+        series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
         number = ctypes.c_double
         self._constants = (
             _address(self._fields),
@@ -115,10 +115,7 @@ def differences(step: float = 1e-8) -> dict[str, float]:
     mu = [0.005 * field for field in draw_friction(pattern.n_blocks, seed=1)]
     loop = CLoop(pattern.contact, *mu, step)
     force = loop.advance(CHECK_STEPS)
-    force_time = LEAPFROG.force_time(step, material.gamma)
-    state, constants = prepare(
-        pattern.contact, *mu, material, (1.0, 0.0), step, force_time, LEAPFROG.WORK_FIELDS
-    )
+    state, constants = prepare(pattern.contact, *mu, material, (1.0, 0.0), LEAPFROG, step)
     samples = Samples.empty(CHECK_STEPS)
     LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
 
@@ -126,9 +123,9 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         return np.nan_to_num([unpadded(field, loop.n) for field in fields], posinf=CHECK_STEPS)
 
     pairs = {
-        "displacement": (loop.displacement, blocks(state.ux, state.uy)),
-        "velocity": (loop.velocity, blocks(state.wx, state.wy)),
-        "t_det": (np.nan_to_num([loop.t_det], posinf=CHECK_STEPS), blocks(state.t_det)),
+        "displacement": (loop.displacement, blocks(state.blocks.ux, state.blocks.uy)),
+        "velocity": (loop.velocity, blocks(state.blocks.wx, state.blocks.wy)),
+        "t_det": (np.nan_to_num([loop.t_det], posinf=CHECK_STEPS), blocks(state.blocks.t_det)),
         "force": (force, np.stack([samples.force_x, samples.force_y], axis=1)),
     }
     return {

@@ -1,0 +1,74 @@
+"""What a run may be asked for: surfaces, times and directions that make sense."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from springblock.solver.springs import MAX_BLOCKS
+
+Array = NDArray[np.float64]
+
+REAL = int | float | np.integer | np.floating
+
+
+def checked_surface(
+    contact: ArrayLike, mu_static: ArrayLike, mu_dynamic: ArrayLike
+) -> tuple[NDArray[np.bool_], Array, Array]:
+    """Return contact and coefficients, (N, N) each, the latter zero outside the contact.
+
+    Raises
+    ------
+    TypeError, ValueError
+        With a sentence on what is wrong with them.
+    """
+    mask = np.asarray(contact)
+    if mask.dtype != np.bool_:
+        raise TypeError(f"contact must be an array of bool, not of {mask.dtype}")
+    if mask.ndim != 2 or mask.shape[0] != mask.shape[1]:
+        raise ValueError(f"contact must have the shape (N, N), not {mask.shape}")
+    if mask.shape[0] > MAX_BLOCKS:
+        raise ValueError(f"contact has N = {mask.shape[0]}; this solver goes up to {MAX_BLOCKS}")
+    if not mask.any():
+        raise ValueError("contact is False everywhere: at least one block must bear the load")
+    fields = []
+    for name, values in (("mu_static", mu_static), ("mu_dynamic", mu_dynamic)):
+        mu = np.asarray(values)
+        if mu.dtype.kind not in "iuf":
+            raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
+        if mu.shape != mask.shape:
+            raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
+        in_contact = mu[mask]
+        if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
+            raise ValueError(f"{name} must be finite and not negative wherever there is contact")
+        fields.append(np.where(mask, mu, 0.0).astype(float))
+    return mask, fields[0], fields[1]
+
+
+def check_positive(name: str, value: Any) -> None:
+    """Refuse what is not a finite, positive number of seconds."""
+    if isinstance(value, bool) or not isinstance(value, REAL):
+        raise TypeError(f"{name} must be a number of seconds, not {value!r}")
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"{name} must be finite and positive, not {value!r}")
+
+
+def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
+    """How many times `unit` is in `value`; raise ValueError unless it is a whole number."""
+    check_positive(name, value)
+    count = round(value / unit)
+    if count < 1 or abs(value / unit - count) > 1e-6 * count:
+        raise ValueError(f"{name} must be a multiple of {unit_name} = {unit!r} s, not {value!r} s")
+    return count
+
+
+def count_samples(duration: float, sample_interval: float) -> int:
+    """Whole sample intervals within the duration; at least one."""
+    check_positive("duration", duration)
+    if duration < sample_interval * (1.0 - 1e-9):
+        raise ValueError(
+            f"duration must be at least one sample_interval = {sample_interval!r} s, "
+            f"not {duration!r} s"
+        )
+    return int(duration / sample_interval + 1e-6)

@@ -1,0 +1,68 @@
+"""How a surface is computed: the layer, the integrator and its times."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from springblock.checks import check_positive, whole_multiple
+from springblock.material import Material
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import Integrator
+
+PAPER = Material()
+#: Default integration step of the leapfrog, s; results/tables/work_precision.parquet says why.
+STEP = 1e-8
+#: Default time between two entries of the force curve, s.
+SAMPLE_INTERVAL = 2e-7
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What a run depends on besides its surface and its direction, by the keywords of `simulate`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a run could not be made, an unstable step among the reasons.
+    """
+
+    material: Material = PAPER
+    integrator: str = "leapfrog"
+    step: float = STEP  #: s
+    sample_interval: float = SAMPLE_INTERVAL  #: s, a multiple of the step
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.material, Material):
+            raise TypeError(f"material must be a Material, not {self.material!r}")
+        if self.integrator not in INTEGRATORS:
+            known = ", ".join(INTEGRATORS)
+            raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
+        check_positive("step", self.step)
+        self._check_stability()
+        _ = self.every
+
+    @property
+    def method(self) -> Integrator:
+        """The integrator itself."""
+        return INTEGRATORS[self.integrator]
+
+    @property
+    def every(self) -> int:
+        """Steps per sample."""
+        return whole_multiple("sample_interval", self.sample_interval, "step", self.step)
+
+    def _check_stability(self) -> None:
+        omega = np.linspace(self.material.omega_min, self.material.omega_max, 33)
+        if self.method.is_stable(self.step, omega, self.material.gamma):
+            return
+        stable, unstable = 0.0, float(self.step)
+        while unstable - stable > 1e-4 * unstable:
+            middle = 0.5 * (stable + unstable)
+            if self.method.is_stable(middle, omega, self.material.gamma):
+                stable = middle
+            else:
+                unstable = middle
+        raise ValueError(
+            f"step = {self.step:.4g} s is unstable: "
+            f"{self.integrator} needs less than {stable:.4g} s here"
+        )
