@@ -11,7 +11,7 @@ from springblock.files import whole_file
 from springblock.scene import Scene
 from springblock.sources import code_version
 from springblock.statements import STATEMENTS
-from springblock.tables import Record, read_records, rows_to_table, scene_of, write
+from springblock.tables import Record, read_records, rows_to_table, write
 
 
 def _rows(table: Path | None) -> list[Row]:
@@ -21,7 +21,7 @@ def _rows(table: Path | None) -> list[Row]:
 def _summaries(table: Path) -> dict[Scene, dict[int, Row]]:
     summaries: dict[Scene, dict[int, Row]] = {}
     for row in _rows(table):
-        summaries.setdefault(scene_of(row), {})[row["seed"]] = row
+        summaries.setdefault(Scene.from_row(row), {})[row["seed"]] = row
     return summaries
 
 

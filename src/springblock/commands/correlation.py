@@ -1,7 +1,6 @@
 """springblock correlation and collect: correlations of scenes, and one table of them all."""
 
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +51,7 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
         raise ValueError(f"one scene is correlated, not {scene.folder} and {others.pop()}")
     if not scene.sides:
         raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
-    columns = {**asdict(scene), "level": scene.level, "realisations": len(records)}
+    columns = scene.row | {"realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
 

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict
 from functools import wraps
 from pathlib import Path
 from typing import Any, TypedDict
@@ -79,8 +78,7 @@ def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
     """One row of a batch."""
     return {
-        **asdict(scene),
-        "level": scene.level,
+        **scene.row,
         "seed": seed,
         "static_friction": run.static_friction,
         "dynamic_friction": run.dynamic_friction,
@@ -104,7 +102,7 @@ def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float)
 def compute_prelude(scene: Scene, how: How, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        load(scene.pattern.contact, direction=scene.heading, **how).save(output)
+        load(scene.pattern.contact, direction=scene.direction, **how).save(output)
 
 
 @click.command("simulate")
@@ -134,7 +132,7 @@ def simulate_batch(
                 run = simulate(
                     contact,
                     *draw_friction(scene.n_blocks, seed, how["material"]),
-                    direction=scene.heading,
+                    direction=scene.direction,
                     duration=duration,
                     prelude=loaded,
                     **how,
