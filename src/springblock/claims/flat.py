@@ -6,9 +6,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims import Claim, Evidence, Finding
-from springblock.run import Array, Run
-from springblock.statements.samples import (
+from springblock.claims.rule import Claim, Evidence, Finding
+from springblock.claims.samples import (
     ALIKE,
     INF,
     NEGATIVE,
@@ -21,6 +20,7 @@ from springblock.statements.samples import (
     place,
     scenes_along_x,
 )
+from springblock.run import Array, Run
 from springblock.statistics import mean_interval, repeatability
 
 Mask = NDArray[np.bool_]

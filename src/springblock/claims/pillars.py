@@ -6,10 +6,8 @@ from operator import attrgetter
 
 import numpy as np
 
-from springblock.claims import Case, Claim, Evidence, Finding
-from springblock.run import Array, Run
-from springblock.scene import Scene
-from springblock.statements.samples import (
+from springblock.claims.rule import Case, Claim, Evidence, Finding
+from springblock.claims.samples import (
     ALIKE,
     INF,
     NEGATIVE,
@@ -18,6 +16,7 @@ from springblock.statements.samples import (
     Sample,
     difference,
     families,
+    family_place,
     flat_scene,
     in_files,
     in_table,
@@ -26,10 +25,11 @@ from springblock.statements.samples import (
     over_runs,
     place,
     position,
-    ratio,
     scenes_along_x,
     static_friction,
 )
+from springblock.run import Array, Run
+from springblock.scene import Scene
 from springblock.statistics import mean_interval, pillar_map, pillar_ring, repeatability
 from springblock.tables import Record
 
@@ -49,7 +49,7 @@ def precursors(run: Run) -> float:
 def warning(run: Run) -> float:
     """Time from the first detachment to t_max, over t_max: for how long there are precursors.
 
-    Absolute times grow with the load on a block, which is larger on pillars.
+    Absolute times grow with the normal force on a block, which is larger on pillars.
     """
     return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
 
@@ -225,7 +225,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
         lowest = _lowest(samples)
         for end in (family[0], family[-1]):
             yield Finding(
-                {"N": end.n_blocks, "n_s/n_p": str(ratio(end))},
+                family_place(end),
                 f"static friction at n_p = {end.n_p} minus the lowest, at n_p = {lowest.n_p}",
                 difference(samples[end], samples[lowest]),
                 POSITIVE,
@@ -236,13 +236,13 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """The force peak of the largest pillars is narrower than where static friction is lowest."""
     for family in families(evidence.records):
-        runs, largest = evidence.records, family[-1]
-        lowest = _lowest({s: over_runs(attrgetter("static_friction"), runs[s]) for s in family})
+        records, largest = evidence.records, family[-1]
+        lowest = _lowest({s: over_runs(attrgetter("static_friction"), records[s]) for s in family})
         if len(family) < 3:
             continue
-        samples = [over_runs(width, runs[s]) for s in (largest, lowest)]
+        samples = [over_runs(width, records[s]) for s in (largest, lowest)]
         yield Finding(
-            {"N": largest.n_blocks, "n_s/n_p": str(ratio(largest))},
+            family_place(largest),
             f"time with a force above 95 % of its maximum over t_max, at n_p = {largest.n_p} "
             f"minus that at n_p = {lowest.n_p}",
             difference(*samples),

@@ -5,7 +5,9 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
-from springblock.claims import CLAIMS, Claim, Evidence, Finding, page, rows, verdict
+from springblock.claims.page import page
+from springblock.claims.rule import Claim, Evidence, Finding, verdict
+from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
 from springblock.statistics import Interval
 from springblock.tables import SUMMARY, rows_to_table, write
@@ -85,7 +87,7 @@ SOME = [
 
 
 def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
-    first, second = rows_to_table(rows(SOME, Evidence()), CLAIMS).to_pylist()
+    first, second = rows_to_table(rows(SOME, Evidence()), SCHEMA).to_pylist()
     assert (first["value"], first["ci_low"], first["ci_high"]) == (1.5, 1.0, 2.0)
     assert (first["case"], first["outcome"], first["verdict"]) == ("n_p = 6", "holds", "reproduced")
     assert (second["verdict"], second["rests_on"]) == ("not tested", "missing: two sizes")

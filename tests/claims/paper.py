@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from springblock.claims import Evidence
+from springblock.claims.grooves import edge, grooved_parts
+from springblock.claims.rule import Evidence, Row
 from springblock.scene import Scene
-from springblock.statements.grooves import edge, grooved_parts
 from springblock.statistics import pillar_ring
 from springblock.tables import Record
 
@@ -124,34 +124,29 @@ def as_in_the_paper() -> list[Record]:
     return [record(scene, seed) for scene in CURVES for seed in SEEDS]
 
 
-SURFACES = [(20, 20, 0, 0, 3.4), (60, 60, 0, 0, 4.4), (58, 62, 8, 2, 4.3)]  # lengths and l_c
+#: Scenes of the tables of correlations, and l_c.
+LENGTHS = {Scene(120, 20, 20): 3.4, Scene(120, 60, 60): 4.4, Scene(120, 58, 62, 8, 2): 4.3}
 
 
-def surface(n_p: int, n_s: int, n_p2: int, n_s2: int) -> dict[str, Any]:
-    level = 2 if n_p2 else 1
-    lengths = {"n_blocks": 120, "n_p": n_p, "n_s": n_s, "n_p2": n_p2, "n_s2": n_s2}
-    return {**lengths, "level": level, "direction": "x"}
-
-
-def correlation() -> list[dict[str, Any]]:
-    rows = []
-    for *sizes, l_c in SURFACES:
+def correlation() -> dict[Scene, list[Row]]:
+    tables: dict[Scene, list[Row]] = {scene: [] for scene in LENGTHS}
+    for scene, l_c in LENGTHS.items():
         for side, decay in (("x", l_c), ("y", 0.5)):
             for r in range(9):
                 c = float(np.exp(-r / decay))
                 values = {"correlation": c, "ci_low": c - 0.03, "ci_high": c + 0.03}
-                rows.append({**surface(*sizes), "side": side, "r": r, **values})
-    return rows
+                tables[scene].append({**scene.row, "side": side, "r": r, **values})
+    return tables
 
 
-def lengths() -> list[dict[str, Any]]:
-    rows = []
-    for *sizes, l_c in SURFACES:
+def lengths() -> dict[Scene, list[Row]]:
+    tables: dict[Scene, list[Row]] = {scene: [] for scene in LENGTHS}
+    for scene, l_c in LENGTHS.items():
         for side, value in (("x", l_c), ("y", 0.5)):
             free = {"tail": value, "tail_low": value - 0.3, "tail_high": value + 0.3}
             values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2, **free}
-            rows.append({**surface(*sizes), "side": side, "r_last": 8, **values})
-    return rows
+            tables[scene].append({**scene.row, "side": side, "r_last": 8, **values})
+    return tables
 
 
 def precision(bias: float = 1e-4) -> list[dict[str, Any]]:

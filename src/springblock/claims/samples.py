@@ -1,12 +1,13 @@
-"""Scenes that statements are about, and samples: one number per realisation, by its seed."""
+"""Scenes that claims are about, and samples: one number per realisation, by its seed."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
+from typing import Any
 
 import numpy as np
 
-from springblock.claims import Row
+from springblock.claims.rule import Row, describe
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval, ratio_interval
 from springblock.tables import Record
@@ -34,9 +35,10 @@ def ratio(scene: Scene) -> Fraction:
     return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
 
 
-def families(scenes: Iterable[Scene]) -> Iterator[list[Scene]]:
+def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]]:
     """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
-    for _, family in groupby(scenes_along_x(scenes, 1), key=lambda s: (s.n_blocks, ratio(s))):
+    found = scenes_along_x(scenes, 1, smallest)
+    for _, family in groupby(found, key=family_place):
         yield list(family)
 
 
@@ -47,8 +49,12 @@ def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
 
 def place(scene: Scene) -> dict[str, int]:
     """Return the lengths that tell this scene from others."""
-    lengths = {key: value for key, value in vars(scene).items() if key.startswith("n_") and value}
-    return {"N": lengths.pop("n_blocks"), **lengths}
+    return {"N": scene.n_blocks, **scene.lengths}
+
+
+def family_place(scene: Scene) -> dict[str, int | str]:
+    """Return what the pillars of a family have in common."""
+    return {"N": scene.n_blocks, "n_s/n_p": str(ratio(scene))}
 
 
 def in_table(*scenes: Scene) -> str:
@@ -59,6 +65,17 @@ def in_table(*scenes: Scene) -> str:
 def in_files(*scenes: Scene) -> str:
     """Name the folders that hold the realisations of these scenes."""
     return "; ".join(f"realisations/{scene.folder}" for scene in scenes)
+
+
+def in_rows(table: str, scene: Scene, **more: str | int) -> str:
+    """Name rows of a table of correlations of this scene."""
+    keys = {**place(scene), "direction": scene.direction, **more}
+    return f"tables/{table}: {describe(keys)}"
+
+
+def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
+    """Rows that hold these values."""
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
 def lag(rows: Summaries) -> dict[int, float]:

@@ -9,10 +9,8 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims import Claim, Evidence, Finding
-from springblock.run import Run
-from springblock.scene import Scene
-from springblock.statements.samples import (
+from springblock.claims.rule import Claim, Evidence, Finding
+from springblock.claims.samples import (
     INF,
     POSITIVE,
     difference,
@@ -22,6 +20,8 @@ from springblock.statements.samples import (
     place,
     scenes_along_x,
 )
+from springblock.run import Run
+from springblock.scene import Scene
 from springblock.statistics import (
     common_curve,
     load_peak_number,
