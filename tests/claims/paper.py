@@ -107,10 +107,10 @@ def evidence(records: Iterable[Record]) -> Evidence:
     by_scene: dict[Scene, list[Record]] = {}
     for made in records:
         by_scene.setdefault(made.scene, []).append(made)
-    names = ("t_max", "t_avg", "static_friction")
+    names = ("seed", "t_max", "t_avg", "static_friction")
     return Evidence(
         summaries={
-            scene: {run.seed: {name: getattr(run, name) for name in names} for run in runs}
+            scene: [{name: getattr(run, name) for name in names} for run in runs]
             for scene, runs in by_scene.items()
         },
         records=by_scene,

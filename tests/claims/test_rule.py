@@ -118,11 +118,8 @@ def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
 
 
 def test_cases_that_differ_in_several_keys_are_told_apart_by_all_of_them():
-    wide = {"n_p": 10, "ring": 0}, {"n_p": 10, "ring": 1}, {"n_p": 6, "ring": 0}
-    findings = [
-        Finding(case, "", Interval(np.array(v), np.array(v - 0.1), np.array(v + 0.1)), (0, 9), "")
-        for case, v in zip(wide, (1.5, -1.5, -1.5), strict=True)
-    ]
+    cases = [(HOLDS, 10, 0), (FAILS, 10, 1), (FAILS, 6, 0)]
+    findings = [finding(*interval, n_p=n_p, ring=ring) for interval, n_p, ring in cases]
     judged, depends_on = verdict(findings)
     assert judged == "depends on"
     keys, cases = depends_on.split(": ")

@@ -13,6 +13,7 @@ from springblock.claims.samples import (
     families,
     family_place,
     in_rows,
+    interval,
     place,
     scenes_along_x,
     select,
@@ -24,10 +25,6 @@ _FAR = 3  #: blocks, the paper's lower bound of the correlation length
 _FEW = 10  #: n_p below which the paper finds l_c difficult to estimate
 _CLOSE = 0.1  #: difference between correlation functions that look the same
 _TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
-
-
-def _interval(row: Row, name: str) -> Interval:
-    return Interval(*(np.array(row[key]) for key in (name, "ci_low", "ci_high")))
 
 
 def apart(first: Interval, second: Interval) -> Interval:
@@ -63,14 +60,14 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             place(scene),
             f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)",
-            apart(*(_interval(row, "correlation") for row in far)),
+            apart(*(interval(row, "correlation") for row in far)),
             POSITIVE,
             in_rows("correlation", scene, r=_FAR),
         )
         yield Finding(
             place(scene),
             "c_y(r = 1)",
-            _interval(near[0], "correlation"),
+            interval(near[0], "correlation"),
             (-INF, float(np.exp(-1.0))),
             in_rows("correlation", scene, side="y", r=1),
         )
@@ -82,7 +79,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
         for fit in _fits(evidence, scene):
             curve = select(evidence.correlation.get(scene, ()), side=ALONG)
             gaps = {
-                row["r"]: apart(_interval(row, "correlation"), _exactly(row["r"], fit["l_c"]))
+                row["r"]: apart(interval(row, "correlation"), _exactly(row["r"], fit["l_c"]))
                 for row in curve
                 if 1 <= row["r"] <= fit["r_last"]
             }
@@ -107,8 +104,8 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """l_c of c_x is three blocks or more, in a fit through c(0) = 1 or in one free of it."""
     for scene in scenes_along_x(evidence.correlation_length, 1, _FEW):
         for fit in _fits(evidence, scene):
-            free = Interval(*(np.array(fit[key]) for key in ("tail", "tail_low", "tail_high")))
-            for model, length in (("exp(-r/l_c)", _interval(fit, "l_c")), ("A exp(-r/l_c)", free)):
+            free = interval(fit, "tail", "tail_low", "tail_high")
+            for model, length in (("exp(-r/l_c)", interval(fit, "l_c")), ("A exp(-r/l_c)", free)):
                 if np.isnan(length.mean):
                     continue
                 yield Finding(
@@ -131,7 +128,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             family_place(family[0]),
             f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-            between(_interval(last, "l_c"), _interval(first, "l_c")),
+            between(interval(last, "l_c"), interval(first, "l_c")),
             POSITIVE,
             f"tables/correlation_length: N = {n}, n_p = {first['n_p']} and {last['n_p']}, side = x",
             "blocks",
@@ -150,7 +147,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
             place(scene),
             f"l_c on grooved pillars minus l_c at n_p = {fits[1]['n_p']}, n_s = {fits[1]['n_s']} "
             "without grooves (from both intervals)",
-            between(*(_interval(fit, "l_c") for fit in fits)),
+            between(*(interval(fit, "l_c") for fit in fits)),
             (-1.0, 1.0),
             "; ".join(in_rows("correlation_length", s, side="x") for s in (scene, *like)),
             "blocks",

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 from operator import attrgetter
 
 import numpy as np
@@ -15,6 +14,7 @@ from springblock.claims.samples import (
     POSITIVE,
     difference,
     in_files,
+    in_order,
     mean,
     over_runs,
     place,
@@ -83,17 +83,10 @@ def _grooved(evidence: Evidence, level: int = 2) -> list[tuple[dict[str, int], S
     """
     pairs = []
     for along in scenes_along_x(evidence.records, level):
-        if np.array_equal(along.pattern.contact, along.pattern.contact.T):
-            continue
-        across = next((s for s in evidence.records if _turned(s, along)), None)
-        if across is not None:
+        across, contact = replace(along, direction="y"), along.pattern.contact
+        if across in evidence.records and not np.array_equal(contact, contact.T):
             pairs.append((place(along), along, across))
     return pairs
-
-
-def _turned(scene: Scene, along: Scene) -> bool:
-    """Whether a scene is the same surface, sliding along y."""
-    return scene == replace(along, direction="y")
 
 
 def _peak_numbers(evidence: Evidence, level: int) -> Iterator[Finding]:
@@ -179,14 +172,7 @@ def grooved_order(evidence: Evidence) -> Iterator[Finding]:
     for scene in scenes_along_x(evidence.records, 2):
         times = pillar_map(evidence.records[scene], scene.pattern)
         parts = {name: times[:, mask].mean(axis=1) for name, mask in grooved_parts(scene).items()}
-        for (early, before), (late, after) in pairwise(parts.items()):
-            yield Finding(
-                place(scene),
-                f"t_det/t_max of the {late} minus that of the {early}",
-                mean_interval(after - before),
-                POSITIVE,
-                in_files(scene),
-            )
+        yield from in_order(place(scene), parts, in_files(scene))
 
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:

@@ -2,12 +2,9 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from springblock.accuracy import ensemble_error
 from springblock.claims.rule import Claim, Evidence, Finding
-from springblock.claims.samples import select
-from springblock.statistics import Interval
+from springblock.claims.samples import interval, select
 
 _STEP = 1e-8  #: s, the paper's
 
@@ -30,7 +27,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             {"integrator": row["integrator"], **keys},
             f"relative {kind} at h = {_STEP:.0e} s",
-            Interval(*(np.array(row[key]) for key in ("error", "ci_low", "ci_high"))),
+            interval(row, "error"),
             (-limit, limit),
             f"tables/work_precision: comparison = {row['comparison']}, step = {_STEP:.0e}",
         )

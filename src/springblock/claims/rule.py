@@ -10,6 +10,7 @@ from springblock.statistics import Interval
 from springblock.tables import Record
 
 Row = dict[str, Any]
+Table = Mapping[Scene, Sequence[Row]]  #: its rows by scene
 Case = Mapping[str, str | int | float]
 
 
@@ -17,13 +18,11 @@ Case = Mapping[str, str | int | float]
 class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
-    #: rows of the table `realisations` by seed
-    summaries: Mapping[Scene, Mapping[int, Row]] = field(default_factory=dict)
-    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)  #: realisations
-    #: rows of the tables of these names
-    correlation: Mapping[Scene, Sequence[Row]] = field(default_factory=dict)
-    correlation_length: Mapping[Scene, Sequence[Row]] = field(default_factory=dict)
-    precision: Sequence[Row] = ()  #: rows of the table `work_precision`, of no scene
+    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)
+    summaries: Table = field(default_factory=dict)  #: `realisations`
+    correlation: Table = field(default_factory=dict)
+    correlation_length: Table = field(default_factory=dict)
+    precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
 
 
 @dataclass(frozen=True)
@@ -72,7 +71,8 @@ def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
     """
     if not findings:
         return "not tested", ""
-    outcomes = [(dict(case[0].case), _together(case)) for case in _cases(findings)]
+    cases = groupby(findings, key=lambda finding: finding.case)
+    outcomes = [(case, _together(group)) for case, group in cases]
     found = {outcome for _, outcome in outcomes}
     if found == {"holds"}:
         return "reproduced", ""
@@ -81,10 +81,6 @@ def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
     if {"holds", "fails"} <= found:
         return "depends on", _difference(outcomes)
     return "not settled", ""
-
-
-def _cases(findings: Sequence[Finding]) -> list[list[Finding]]:
-    return [list(group) for _, group in groupby(findings, key=lambda finding: dict(finding.case))]
 
 
 def _together(findings: Iterable[Finding]) -> str:

@@ -2,18 +2,18 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import Any
 
 import numpy as np
 
-from springblock.claims.rule import Row, describe
+from springblock.claims.rule import Case, Finding, Row, describe
+from springblock.run import Array
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval, ratio_interval
 from springblock.tables import Record
 
 Sample = Mapping[int, float]  #: a number per realisation, by its seed
-Summaries = Mapping[int, Row]  #: rows of the table of realisations, by seed
 
 INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
@@ -40,11 +40,6 @@ def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]
     found = scenes_along_x(scenes, 1, smallest)
     for _, family in groupby(found, key=family_place):
         yield list(family)
-
-
-def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
-    """The flat surface of this size; None where it was not simulated."""
-    return next((s for s in scenes_along_x(scenes, 0) if s.n_blocks == n_blocks), None)
 
 
 def place(scene: Scene) -> dict[str, int]:
@@ -78,14 +73,14 @@ def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
     return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
-def lag(rows: Summaries) -> dict[int, float]:
+def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Interval:
+    """A value of a row with its interval."""
+    return Interval(*(np.array(row[key]) for key in (value, low, high)))
+
+
+def lag(rows: Iterable[Row]) -> dict[int, float]:
     """t_max - t_avg, s."""
-    return {seed: row["t_max"] - row["t_avg"] for seed, row in rows.items()}
-
-
-def static_friction(rows: Summaries) -> dict[int, float]:
-    """Static friction coefficient."""
-    return {seed: row["static_friction"] for seed, row in rows.items()}
+    return {row["seed"]: row["t_max"] - row["t_avg"] for row in rows}
 
 
 def mean(sample: Sample) -> Interval:
@@ -113,6 +108,13 @@ def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
     if scale.low <= 0.0 <= scale.high:
         return Interval(place.mean, np.array(np.nan), np.array(np.nan))
     return place
+
+
+def in_order(case: Case, parts: Mapping[str, Array], rests_on: str) -> Iterator[Finding]:
+    """Each part of a pillar detaches before the next; mean t_det/t_max of each, (k,)."""
+    for (early, before), (late, after) in pairwise(parts.items()):
+        statistic = f"t_det/t_max of the {late} minus that of the {early}"
+        yield Finding(case, statistic, mean_interval(after - before), POSITIVE, rests_on)
 
 
 def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:

@@ -1,11 +1,12 @@
 """The table of claims: one row per finding."""
 
-import math
 from collections.abc import Iterable
 
+import numpy as np
 import pyarrow as pa
 
 from springblock.claims.rule import Claim, Evidence, Finding, Row, describe, verdict
+from springblock.statistics import Interval
 from springblock.tables import column
 
 SCHEMA = pa.schema(
@@ -35,42 +36,30 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
     for claim in claims:
         findings = list(claim.test(evidence))
         judged, depends_on = verdict(findings)
-        common = {
-            "claim": claim.name,
-            "section": claim.section,
-            "statement": claim.statement,
-            "verdict": judged,
-            "depends_on": depends_on,
-        }
-        table += [{**common, **_finding_row(finding)} for finding in findings]
-        if not findings:
-            table.append({**common, **_missing_row(claim.needs)})
+        for finding in findings or [_nothing(claim)]:
+            value, low, high = (float(number) for number in finding.interval)
+            table.append(
+                {
+                    "claim": claim.name,
+                    "section": claim.section,
+                    "statement": claim.statement,
+                    "case": describe(finding.case),
+                    "statistic": finding.statistic,
+                    "unit": finding.unit,
+                    "value": value,
+                    "ci_low": low,
+                    "ci_high": high,
+                    "claimed_low": finding.claimed[0],
+                    "claimed_high": finding.claimed[1],
+                    "outcome": finding.outcome,
+                    "verdict": judged,
+                    "depends_on": depends_on,
+                    "rests_on": finding.rests_on,
+                }
+            )
     return table
 
 
-def _finding_row(finding: Finding) -> Row:
-    value, low, high = (float(number) for number in finding.interval)
-    return {
-        "case": describe(finding.case),
-        "statistic": finding.statistic,
-        "unit": finding.unit,
-        "value": value,
-        "ci_low": low,
-        "ci_high": high,
-        "claimed_low": finding.claimed[0],
-        "claimed_high": finding.claimed[1],
-        "outcome": finding.outcome,
-        "rests_on": finding.rests_on,
-    }
-
-
-def _missing_row(needs: str) -> Row:
-    numbers = ("value", "ci_low", "ci_high", "claimed_low", "claimed_high")
-    return {
-        "case": "",
-        "statistic": "",
-        "unit": "1",
-        **dict.fromkeys(numbers, math.nan),
-        "outcome": "open",
-        "rests_on": f"missing: {needs}",
-    }
+def _nothing(claim: Claim) -> Finding:
+    unknown = Interval(*np.full(3, np.nan))
+    return Finding({}, "", unknown, (np.nan, np.nan), f"missing: {claim.needs}")

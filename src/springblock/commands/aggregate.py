@@ -25,11 +25,8 @@ def aggregate(batches: tuple[Path, ...], configuration: str, output: Path) -> No
         for row in suspects(table.to_pylist(), COLUMNS):
             which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
             click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
-        write(
-            table,
-            output,
-            {"code_version": code_version(__name__), "configuration_digest": configuration},
-        )
+        metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
+        write(table, output, metadata)
 
 
 def _refuse_duplicates(table: pa.Table) -> None:

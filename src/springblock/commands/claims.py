@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TypeVar
 
 import click
-import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.claims import CLAIMS
@@ -17,15 +16,7 @@ from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
 from springblock.scene import Scene
 from springblock.sources import code_version
-from springblock.tables import (
-    CORRELATION,
-    CORRELATION_LENGTH,
-    SUMMARY,
-    read,
-    read_records,
-    rows_to_table,
-    write,
-)
+from springblock.tables import read_records, rows_to_table, write
 
 T = TypeVar("T")
 
@@ -37,9 +28,8 @@ def _by_scene(items: Iterable[T], scene_of: Callable[[T], Scene]) -> dict[Scene,
     return found
 
 
-def _rows(table: Path | None, schema: pa.Schema) -> dict[Scene, list[Row]]:
-    rows = [] if table is None else read([table], schema).to_pylist()
-    return _by_scene(rows, Scene.from_row)
+def _rows(table: Path | None) -> list[Row]:
+    return [] if table is None else pq.read_table(table, partitioning=None).to_pylist()
 
 
 @click.command("claims")
@@ -64,16 +54,11 @@ def claims(
     """Test the claims on BATCHES of realisations and on tables; a missing table tests none."""
     with one_sentence():
         evidence = Evidence(
-            summaries={
-                scene: {row["seed"]: row for row in found}
-                for scene, found in _rows(realisations, SUMMARY).items()
-            },
             records=_by_scene(read_records(batches), attrgetter("scene")),
-            correlation=_rows(correlation, CORRELATION),
-            correlation_length=_rows(correlation_length, CORRELATION_LENGTH),
-            precision=[]
-            if precision is None
-            else pq.read_table(precision, partitioning=None).to_pylist(),
+            summaries=_by_scene(_rows(realisations), Scene.from_row),
+            correlation=_by_scene(_rows(correlation), Scene.from_row),
+            correlation_length=_by_scene(_rows(correlation_length), Scene.from_row),
+            precision=_rows(precision),
         )
         table = rows(CLAIMS, evidence)
         origin = {"code_version": code_version(__name__), "configuration_digest": configuration}
