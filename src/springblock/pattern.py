@@ -37,9 +37,7 @@ class Level:
     @property
     def along(self) -> str | None:
         """Axis that the grooves of this level run along; None for pillars."""
-        if len(self.axes) == 2:
-            return None
-        return "x" if self.axes == ("y",) else "y"
+        return None if len(self.axes) == 2 else {"y": "x", "x": "y"}[self.axes[0]]
 
 
 def _cut_surface(n: int, level: Level) -> Segments:

@@ -181,12 +181,8 @@ def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
         raise ValueError("a flat surface has no pillar to average over")
     size = pattern.levels[0].size
     rows, columns = (pattern.origins[:, axis, None] + np.arange(size) for axis in (0, 1))
-    return np.stack(
-        [
-            (run.t_det[rows[:, :, None], columns[:, None, :]] / run.t_max).mean(axis=0)
-            for run in runs
-        ]
-    )
+    pillars = rows[:, :, None], columns[:, None, :]
+    return np.stack([(run.t_det[pillars] / run.t_max).mean(axis=0) for run in runs])
 
 
 def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:

@@ -36,7 +36,8 @@ def times(scene: Scene, rng: np.random.Generator) -> np.ndarray:
     if scene == FLAT:
         return flat_times(rng)
     field, size = np.full((N, N), np.nan), scene.n_p
-    pillar = {0: small, 1: ringed}[size >= 4](size) if scene.level == 1 else grooved(scene)
+    like_flat = scene.level == 1 and size < 4
+    pillar = 1.04 if like_flat else ringed(size) if scene.level == 1 else grooved(scene)
     for y, x in scene.pattern.origins:
         field[y : y + size, x : x + size] = pillar + 0.001 * rng.standard_normal()
     return field + 0.001 * rng.standard_normal(field.shape)
@@ -50,10 +51,6 @@ def flat_times(rng: np.random.Generator) -> np.ndarray:
     field[rows, columns] = 0.85
     field[rows[0], columns[0] + 1] = 0.86
     return field
-
-
-def small(size: int) -> np.ndarray:
-    return np.full((size, size), 1.04)
 
 
 def ringed(size: int) -> np.ndarray:
@@ -128,40 +125,41 @@ def as_in_the_paper() -> list[Record]:
 LENGTHS = {Scene(120, 20, 20): 3.4, Scene(120, 60, 60): 4.4, Scene(120, 58, 62, 8, 2): 4.3}
 
 
+def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
+    """A value and an interval around it."""
+    return {name: value, f"{prefix}_low": value - half, f"{prefix}_high": value + half}
+
+
 def correlation() -> dict[Scene, list[Row]]:
-    tables: dict[Scene, list[Row]] = {scene: [] for scene in LENGTHS}
-    for scene, l_c in LENGTHS.items():
-        for side, decay in (("x", l_c), ("y", 0.5)):
-            for r in range(9):
-                c = float(np.exp(-r / decay))
-                values = {"correlation": c, "ci_low": c - 0.03, "ci_high": c + 0.03}
-                tables[scene].append({**scene.row, "side": side, "r": r, **values})
-    return tables
+    return {
+        scene: [
+            {**scene.row, "side": side, "r": r, **around("correlation", np.exp(-r / decay), 0.03)}
+            for side, decay in (("x", l_c), ("y", 0.5))
+            for r in range(9)
+        ]
+        for scene, l_c in LENGTHS.items()
+    }
 
 
 def lengths() -> dict[Scene, list[Row]]:
-    tables: dict[Scene, list[Row]] = {scene: [] for scene in LENGTHS}
-    for scene, l_c in LENGTHS.items():
-        for side, value in (("x", l_c), ("y", 0.5)):
-            free = {"tail": value, "tail_low": value - 0.3, "tail_high": value + 0.3}
-            values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2, **free}
-            tables[scene].append({**scene.row, "side": side, "r_last": 8, **values})
-    return tables
+    return {
+        scene: [
+            {**scene.row, "side": side, "r_last": 8}
+            | around("l_c", value, 0.2)
+            | around("tail", value, 0.3, prefix="tail")
+            for side, value in (("x", l_c), ("y", 0.5))
+        ]
+        for scene, l_c in LENGTHS.items()
+    }
 
 
-def precision(bias: float = 1e-4) -> list[dict[str, Any]]:
+def precision(bias: float = 1e-4) -> list[Row]:
     common = {"step": 1e-8, "scene": "flat", "quantity": "static_friction", "realisations": 100}
     found = [("paired", "leapfrog", bias, 1e-4), ("paired", "rk4", bias, 1e-4)]
     found.append(("scatter", "leapfrog", 0.0, 0.002))
     return [
-        {
-            **common,
-            "comparison": comparison,
-            "integrator": integrator,
-            "error": error,
-            "ci_low": error - half,
-            "ci_high": error + half,
-        }
+        {**common, "comparison": comparison, "integrator": integrator}
+        | around("error", error, half)
         for comparison, integrator, error, half in found
     ]
 

@@ -1,6 +1,6 @@
 """Each claim is reproduced by data made to its measure, and not once they are changed."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -96,9 +96,7 @@ CHANGES = [
 ]
 
 
-def multiplied(
-    table: Mapping[Scene, Sequence[Row]], factor: float, **wanted: Any
-) -> dict[Scene, list[Row]]:
+def multiplied(table: Any, factor: float, **wanted: Any) -> dict[Scene, list[Row]]:
     """Multiply all correlations, or lengths, and their intervals where rows have what is wanted."""
     keys = {"correlation", "l_c", "ci_low", "ci_high", "tail", "tail_low", "tail_high"}
 
@@ -179,10 +177,8 @@ def test_samples_are_compared_seed_by_seed():
 
 
 def test_differences_of_intervals_add_errors_or_their_squares():
-    first, second = (
-        Interval(*map(np.array, (5.0, 2.0, 6.0))),
-        Interval(*map(np.array, (1.0, 0.0, 5.0))),
-    )
+    numbers = ((5.0, 2.0, 6.0), (1.0, 0.0, 5.0))
+    first, second = (Interval(*map(np.array, three)) for three in numbers)
     assert tuple(apart(first, second)) == (4.0, -3.0, 6.0)
     assert tuple(between(first, second)) == pytest.approx((4.0, -1.0, 4.0 + 2.0**0.5))
 
@@ -190,8 +186,7 @@ def test_differences_of_intervals_add_errors_or_their_squares():
 def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
     (y, x), size = ALONG.pattern.origins[0], ALONG.n_p
     contact = ALONG.pattern.contact[y : y + size, x : x + size]
-    np.testing.assert_array_equal(
-        sum(m.astype(int) for m in grooved_parts(ALONG).values()), contact
-    )
+    parts = [mask.astype(int) for mask in grooved_parts(ALONG).values()]
+    np.testing.assert_array_equal(sum(parts), contact)
     assert edge(contact)[[0, 4, 6], 10].all()  # beside the margin and the first groove
     assert not edge(contact)[2, 10]

@@ -6,10 +6,4 @@ words ("similar", "uniform", "the same"), the claimed range says how close is cl
 
 from springblock.claims import correlation, flat, grooves, model, pillars
 
-CLAIMS = (
-    *flat.CLAIMS,
-    *pillars.CLAIMS,
-    *correlation.CLAIMS,
-    *grooves.CLAIMS,
-    *model.CLAIMS,
-)
+CLAIMS = (*flat.CLAIMS, *pillars.CLAIMS, *correlation.CLAIMS, *grooves.CLAIMS, *model.CLAIMS)

@@ -77,12 +77,11 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
     """c_x(r) stays close to exp(-r/l_c) wherever that was fitted; the worst r is shown."""
     for scene in scenes_along_x(evidence.correlation_length, 1, _FEW):
         for fit in _fits(evidence, scene):
-            curve = select(evidence.correlation.get(scene, ()), side=ALONG)
-            gaps = {
-                row["r"]: apart(interval(row, "correlation"), _exactly(row["r"], fit["l_c"]))
-                for row in curve
-                if 1 <= row["r"] <= fit["r_last"]
-            }
+            gaps = {}
+            for row in select(evidence.correlation.get(scene, ()), side=ALONG):
+                if 1 <= row["r"] <= fit["r_last"]:  # the interval of l_c has its own claim
+                    fitted = np.exp(-row["r"] / fit["l_c"])
+                    gaps[row["r"]] = Interval(*(c - fitted for c in interval(row, "correlation")))
             if not gaps:
                 continue
             worst = max(gaps, key=lambda r: max(abs(gaps[r].low), abs(gaps[r].high)))
@@ -93,11 +92,6 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
                 (-_CLOSE, _CLOSE),
                 in_rows("correlation", scene, side="x", r=worst),
             )
-
-
-def _exactly(r: int, l_c: float) -> Interval:
-    """The fit at one distance; the interval of l_c is that of the claim on l_c."""
-    return Interval(*np.full(3, np.exp(-r / l_c)))
 
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:

@@ -72,18 +72,16 @@ def _section(number: int, part: Sequence[Row]) -> str:
     lines = [
         f"## {number}. {first['claim']}",
         f"{first['statement']} (section {first['section']})",
-        f"Verdict: {_verdict(first)}." + _missing(first),
+        f"Verdict: {_verdict(first)}.",
     ]
-    if first["verdict"] != "not tested":
+    if first["verdict"] == "not tested":
+        lines[-1] += f" {first['rests_on'].capitalize()}."
+    else:
         header = ["case", "statistic", "value [95 % interval]", "claimed", "outcome"]
         lines.append(markdown_table(header, [_cells(row) for row in part]))
         sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
         lines.append("\n".join(["Rests on", "", *(f"- {source}" for source in sources)]))
     return "\n\n".join(lines)
-
-
-def _missing(row: Row) -> str:
-    return f" {row['rests_on'].capitalize()}." if row["verdict"] == "not tested" else ""
 
 
 def _cells(row: Row) -> list[str]:

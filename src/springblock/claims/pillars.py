@@ -1,7 +1,7 @@
 """Square pillars: edges first, the force maximum late (section 3.2 of the paper)."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from operator import attrgetter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from operator import attrgetter, itemgetter
 
 import numpy as np
 
@@ -19,8 +19,9 @@ from springblock.claims.samples import (
     in_files,
     in_order,
     in_table,
-    lag,
+    lags,
     mean,
+    over_rows,
     over_runs,
     place,
     position,
@@ -156,9 +157,7 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
 
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
     """t_max > t_avg on pillars, for each size and distance."""
-    for scene in scenes_along_x(evidence.summaries, 1, SMALLEST):
-        interval = mean(lag(evidence.summaries[scene]))
-        yield Finding(place(scene), "t_max - t_avg", interval, POSITIVE, in_table(scene), "s")
+    return lags(evidence, 1, SMALLEST, POSITIVE)
 
 
 def _above_flat(evidence: Evidence, quantities: Quantities) -> Iterator[Finding]:
@@ -190,6 +189,11 @@ def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     return _above_flat(evidence, {_WIDTH: width})
 
 
+def _of_several_sizes(scenes: Iterable[Scene]) -> list[list[Scene]]:
+    """Families of three sizes or more."""
+    return [family for family in families(scenes) if len(family) >= 3]
+
+
 def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
     """Scene with the lowest mean."""
     return min(samples, key=lambda scene: float(mean(samples[scene]).mean))
@@ -200,13 +204,9 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
     The latter are chosen by the same means: small differences would be overrated.
     """
-    for family in families(evidence.summaries):
-        if len(family) < 3:
-            continue
-        samples = {
-            scene: {row["seed"]: row["static_friction"] for row in evidence.summaries[scene]}
-            for scene in family
-        }
+    rows = evidence.summaries
+    for family in _of_several_sizes(rows):
+        samples = {s: over_rows(itemgetter("static_friction"), rows[s]) for s in family}
         lowest = _lowest(samples)
         for end in (family[0], family[-1]):
             yield Finding(
@@ -220,11 +220,10 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """The force peak of the largest pillars is narrower than where static friction is lowest."""
-    for family in families(evidence.records):
-        records, largest = evidence.records, family[-1]
+    records = evidence.records
+    for family in _of_several_sizes(records):
         lowest = _lowest({s: over_runs(attrgetter("static_friction"), records[s]) for s in family})
-        if len(family) < 3:
-            continue
+        largest = family[-1]
         samples = [over_runs(width, records[s]) for s in (largest, lowest)]
         yield Finding(
             family_place(largest),

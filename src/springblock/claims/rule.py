@@ -12,6 +12,7 @@ from springblock.tables import Record
 Row = dict[str, Any]
 Table = Mapping[Scene, Sequence[Row]]  #: its rows by scene
 Case = Mapping[str, str | int | float]
+Range = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,7 @@ class Finding:
     case: Case
     statistic: str
     interval: Interval
-    claimed: tuple[float, float]
+    claimed: Range
     rests_on: str  #: separated by "; "
     unit: str = "1"
 
@@ -85,9 +86,7 @@ def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
 
 def _together(findings: Iterable[Finding]) -> str:
     outcomes = {finding.outcome for finding in findings}
-    if outcomes == {"holds"}:
-        return "holds"
-    return "fails" if "fails" in outcomes else "open"
+    return next(outcome for outcome in ("fails", "open", "holds") if outcome in outcomes)
 
 
 _BOTH = ("holds", "fails")

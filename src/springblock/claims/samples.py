@@ -6,13 +6,15 @@ from itertools import groupby, pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from springblock.claims.rule import Case, Finding, Row, describe
+from springblock.claims.rule import Case, Evidence, Finding, Range, Row, describe
 from springblock.run import Array
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval, ratio_interval
 from springblock.tables import Record
 
+Mask = NDArray[np.bool_]
 Sample = Mapping[int, float]  #: a number per realisation, by its seed
 
 INF = float("inf")
@@ -37,9 +39,8 @@ def ratio(scene: Scene) -> Fraction:
 
 def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]]:
     """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
-    found = scenes_along_x(scenes, 1, smallest)
-    for _, family in groupby(found, key=family_place):
-        yield list(family)
+    groups = groupby(scenes_along_x(scenes, 1, smallest), key=family_place)
+    return (list(family) for _, family in groups)
 
 
 def place(scene: Scene) -> dict[str, int]:
@@ -78,9 +79,16 @@ def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -
     return Interval(*(np.array(row[key]) for key in (value, low, high)))
 
 
-def lag(rows: Iterable[Row]) -> dict[int, float]:
-    """t_max - t_avg, s."""
-    return {row["seed"]: row["t_max"] - row["t_avg"] for row in rows}
+def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> dict[int, float]:
+    """A number per realisation, by its seed, from rows of the table `realisations`."""
+    return {row["seed"]: function(row) for row in rows}
+
+
+def lags(evidence: Evidence, level: int, smallest: int, claimed: Range) -> Iterator[Finding]:
+    """t_max - t_avg, s, of each scene along x of the table `realisations`."""
+    for scene in scenes_along_x(evidence.summaries, level, smallest):
+        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
+        yield Finding(place(scene), "t_max - t_avg", mean(lag), claimed, in_table(scene), "s")
 
 
 def mean(sample: Sample) -> Interval:

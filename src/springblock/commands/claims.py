@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from operator import attrgetter
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 import click
 import pyarrow.parquet as pq
@@ -18,11 +18,9 @@ from springblock.scene import Scene
 from springblock.sources import code_version
 from springblock.tables import read_records, rows_to_table, write
 
-T = TypeVar("T")
 
-
-def _by_scene(items: Iterable[T], scene_of: Callable[[T], Scene]) -> dict[Scene, list[T]]:
-    found: dict[Scene, list[T]] = {}
+def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Scene, list[Any]]:
+    found: dict[Scene, list[Any]] = {}
     for item in items:
         found.setdefault(scene_of(item), []).append(item)
     return found

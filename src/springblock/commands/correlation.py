@@ -70,14 +70,11 @@ def _curve(found: Correlation) -> Iterator[Row]:
 
 
 def _length(length: Length) -> Row:
-    names = {
-        "fitted": ("l_c", "ci_low", "ci_high"),
-        "integral": ("integral", "integral_low", "integral_high"),
-        "tail": ("tail", "tail_low", "tail_high"),
-    }
-    intervals = [zip(columns, getattr(length, key), strict=True) for key, columns in names.items()]
+    names = ["l_c", "ci_low", "ci_high"]
+    names += [f"{key}{end}" for key in ("integral", "tail") for end in ("", "_low", "_high")]
+    values = map(float, [*length.fitted, *length.integral, *length.tail])
     return {
-        **{name: float(value) for interval in intervals for name, value in interval},
+        **dict(zip(names, values, strict=True)),
         "bias": length.bias,
         "r_last": length.last,
         "deviation": length.deviation,
