@@ -10,7 +10,7 @@ from springblock.statistics import Interval
 from springblock.tables import Record
 
 Row = dict[str, Any]
-Table = Mapping[Scene, Sequence[Row]]  #: its rows by scene
+Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
 
@@ -19,8 +19,8 @@ Range = tuple[float, float]
 class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
-    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)
-    summaries: Table = field(default_factory=dict)  #: `realisations`
+    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)  #: realisations
+    summaries: Table = field(default_factory=dict)  #: the table `realisations`
     correlation: Table = field(default_factory=dict)
     correlation_length: Table = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
