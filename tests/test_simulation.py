@@ -8,7 +8,8 @@ import pytest
 
 from scenes import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
-from springblock.realisation import first_minimum, heading
+from springblock.direction import heading
+from springblock.realisation import first_minimum
 from springblock.setup import STEP
 
 PAPER = Material()

@@ -12,7 +12,7 @@ COMMANDS = {
     "correlation": "springblock.commands.correlation:correlation",
     "collect": "springblock.commands.correlation:collect",
     "accuracy": "springblock.commands.accuracy:write_page",
-    "claims": "springblock.commands.claims:test_statements",
+    "claims": "springblock.commands.claims:claims",
     "figure_1": "springblock.commands.figures:figure_1",
     "figure_2": "springblock.commands.figures:figure_2",
     "figure_3": "springblock.commands.figures:figure_3",

@@ -1,6 +1,6 @@
 # What becomes of the paper's statements.
 
-#: Tables that statements rest on beside the realisations, by the option that takes them.
+#: Tables that claims rest on beside the realisations, by the option that takes them.
 CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
 if config["accuracy"]:
     CLAIM_TABLES["precision"] = rules.work_precision.output.table

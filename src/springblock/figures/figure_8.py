@@ -43,7 +43,7 @@ def _draw_groove_dimensions(ax: Axes, pattern: Pattern) -> None:
     first = pattern.profile(across, depth=1)[0][0]
     starts = [start - first - 0.5 for start, _ in pattern.profile(across, depth=2)]
     level, size = pattern.levels[1], pattern.levels[0].size
-    pawl = starts[size // (level.size + level.spacing) // 2]
+    pawl = starts[size // (level.size + level.gap) // 2]
     groove = pawl + level.size
     dimension(ax, across, pawl, groove, 0.2 * size, "$n_p^{(2)}$")
-    dimension(ax, across, groove, groove + level.spacing, 0.6 * size, "$n_s^{(2)}$", narrow=True)
+    dimension(ax, across, groove, groove + level.gap, 0.6 * size, "$n_s^{(2)}$", narrow=True)

@@ -70,7 +70,7 @@ def draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str) 
     level, (right, top) = pattern.levels[0], (ax.get_xlim()[1], ax.get_ylim()[1])
     begin = pattern.profile("x", depth=1)[0][0] - 0.5
     end = begin + level.size
-    gaps = {(end, end + level.spacing): spacing, (-0.5, begin): f"{spacing}$/2$"}
+    gaps = {(end, end + level.gap): spacing, (-0.5, begin): f"{spacing}$/2$"}
     gap = next((gap for gap in gaps if gap[0] < gap[1] < right), None)
     lengths = {(begin, end): size} | ({gap: gaps[gap]} if gap else {})
     edges = sorted({edge for length in lengths for edge in length})

@@ -1,27 +1,26 @@
 """Grooved pillars: two length scales, two load peaks (section 3.3 of the paper)."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import partial
-from itertools import pairwise
 from operator import attrgetter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from springblock.claims import Claim, Evidence, Finding
-from springblock.run import Run
-from springblock.scene import Scene
-from springblock.statements.samples import (
+from springblock.claims.rule import Claim, Evidence, Finding, Range
+from springblock.claims.samples import (
     INF,
     POSITIVE,
+    Mask,
     difference,
     in_files,
+    in_order,
     mean,
     over_runs,
     place,
     scenes_along_x,
 )
+from springblock.run import Run
+from springblock.scene import Scene
 from springblock.statistics import (
     common_curve,
     load_peak_number,
@@ -29,9 +28,9 @@ from springblock.statistics import (
     mean_interval,
     pillar_map,
 )
+from springblock.tables import Record
 
-Mask = NDArray[np.bool_]
-
+_PEAKS = {"along": (1.5, 2.5), "across": (0.5, 1.5)}  #: load peaks when sliding that way
 _GROOVES = "realisations of a grooved surface"
 _WAYS = "realisations of a grooved surface that slides along and across its grooves"
 
@@ -44,12 +43,13 @@ def second_peak(run: Run) -> float:
     return float(run.force[peaks[1]] - run.force[peaks[0]]) / run.normal_force
 
 
-def resting_core(run: Run, core: Mask) -> float:
-    """Share of the `core` that is yet to detach at the lowest force between the load peaks."""
-    peaks = load_peaks(run.force, 0.0)
+def resting_core(run: Record) -> float:
+    """Share of the blocks off the edges yet to detach at the lowest force between load peaks."""
+    peaks, contact = load_peaks(run.force, 0.0), run.scene.pattern.contact
     if len(peaks) < 2:
         return float("nan")
     between = peaks[0] + int(np.argmin(run.force[peaks[0] : peaks[1]]))
+    core = contact & ~edge(contact)
     return float(np.mean(~(run.t_det[core] <= run.time[between])))  # NaN: never
 
 
@@ -83,25 +83,16 @@ def _grooved(evidence: Evidence, level: int = 2) -> list[tuple[dict[str, int], S
     """
     pairs = []
     for along in scenes_along_x(evidence.records, level):
-        if np.array_equal(along.pattern.contact, along.pattern.contact.T):
-            continue
-        across = next((s for s in evidence.records if _turned(s, along)), None)
-        if across is not None:
+        across, contact = replace(along, direction="y"), along.pattern.contact
+        if across in evidence.records and not np.array_equal(contact, contact.T):
             pairs.append((place(along), along, across))
     return pairs
-
-
-def _turned(scene: Scene, along: Scene) -> bool:
-    """Whether a scene is the same surface, sliding along y."""
-    return scene == replace(along, direction="y")
 
 
 def _peak_numbers(evidence: Evidence, level: int) -> Iterator[Finding]:
     """Two load peaks along the grooves and one across, on patterns of so many levels."""
     for lengths, *scenes in _grooved(evidence, level):
-        for scene, name, claimed in zip(
-            scenes, ("along", "across"), ((1.5, 2.5), (0.5, 1.5)), strict=True
-        ):
+        for scene, (name, claimed) in zip(scenes, _PEAKS.items(), strict=True):
             curve = common_curve(evidence.records[scene])
             yield Finding(
                 lengths,
@@ -122,48 +113,40 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     return _peak_numbers(evidence, 3)
 
 
+def _with_both_peaks(
+    evidence: Evidence, name: str, quantity: Callable[[Record], float], claimed: Range
+) -> Iterator[Finding]:
+    """A quantity of the runs along grooves that have two load peaks."""
+    for scene in scenes_along_x(evidence.records, 2):
+        sample = over_runs(quantity, evidence.records[scene])
+        if sample:
+            statistic = f"{name}, in the {len(sample)} runs that have both"
+            yield Finding(place(scene), statistic, mean(sample), claimed, in_files(scene))
+
+
 def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
     """The second load peak is the higher one when sliding along the grooves."""
-    for scene in scenes_along_x(evidence.records, 2):
-        sample = over_runs(second_peak, evidence.records[scene])
-        if sample:
-            yield Finding(
-                place(scene),
-                "force at the second load peak minus that at the first, over the normal force, "
-                f"in the {len(sample)} runs that have both",
-                mean(sample),
-                POSITIVE,
-                in_files(scene),
-            )
+    name = "force at the second load peak minus that at the first, over the normal force"
+    return _with_both_peaks(evidence, name, second_peak, POSITIVE)
 
 
 def rest_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Between the load peaks most of the core has yet to let go."""
-    for scene in scenes_along_x(evidence.records, 2):
-        core = ~edge(scene.pattern.contact) & scene.pattern.contact
-        runs = evidence.records[scene]
-        sample = over_runs(partial(resting_core, core=core), runs)
-        if sample:
-            yield Finding(
-                place(scene),
-                "share of the blocks off the edges yet to detach at the lowest force between the "
-                f"load peaks, in the {len(sample)} runs that have both",
-                mean(sample),
-                (0.5, INF),
-                in_files(scene),
-            )
+    name = (
+        "share of the blocks off the edges yet to detach at the lowest force between the load peaks"
+    )
+    return _with_both_peaks(evidence, name, resting_core, (0.5, INF))
 
 
 def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
     """The edges let go before the rest, sliding along or across the grooves."""
     for lengths, *scenes in _grooved(evidence):
-        for scene, name in zip(scenes, ("along", "across"), strict=True):
+        for scene, name in zip(scenes, _PEAKS, strict=True):
             contact = scene.pattern.contact
             edges = edge(contact)
-            runs = evidence.records[scene]
             later = [
                 (run.t_det[contact & ~edges].mean() - run.t_det[edges].mean()) / run.t_max
-                for run in runs
+                for run in evidence.records[scene]
             ]
             yield Finding(
                 lengths | {"sliding": f"{name} the grooves"},
@@ -179,23 +162,14 @@ def grooved_order(evidence: Evidence) -> Iterator[Finding]:
     for scene in scenes_along_x(evidence.records, 2):
         times = pillar_map(evidence.records[scene], scene.pattern)
         parts = {name: times[:, mask].mean(axis=1) for name, mask in grooved_parts(scene).items()}
-        for (early, before), (late, after) in pairwise(parts.items()):
-            yield Finding(
-                place(scene),
-                f"t_det/t_max of the {late} minus that of the {early}",
-                mean_interval(after - before),
-                POSITIVE,
-                in_files(scene),
-            )
+        yield from in_order(place(scene), parts, in_files(scene))
 
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Static friction across the grooves exceeds that along them."""
     for lengths, along, across in _grooved(evidence):
-        samples = [
-            over_runs(attrgetter("static_friction"), evidence.records[scene])
-            for scene in (across, along)
-        ]
+        friction = attrgetter("static_friction")
+        samples = [over_runs(friction, evidence.records[s]) for s in (across, along)]
         yield Finding(
             lengths,
             "static friction across the grooves minus that along them",

@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from springblock.accuracy import ensemble_error
-from springblock.claims import Claim, Evidence, Finding
-from springblock.statistics import Interval
+from springblock.claims.rule import Claim, Evidence, Finding
+from springblock.claims.samples import interval, select
 
 _STEP = 1e-8  #: s, the paper's
 
@@ -17,20 +15,19 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     Runge-Kutta with the friction of each stage is compared run by run: its error in static
     friction has no interval.
     """
-    rows = [row for row in evidence.precision if row["step"] == _STEP]
-    paired = [row for row in rows if row["comparison"] == "paired"]
-    plain = [row for row in rows if row["integrator"] == "plain rk4"]
-    for row in paired + [r for r in plain if r["quantity"] == "static_friction"]:
-        keys = {"comparison": "scatter", "scene": row["scene"], "quantity": row["quantity"]}
-        scatter = [r for r in evidence.precision if all(r[k] == v for k, v in keys.items())]
+    rows = select(evidence.precision, step=_STEP)
+    plain = select(rows, integrator="plain rk4", quantity="static_friction")
+    for row in select(rows, comparison="paired") + plain:
+        keys = {key: row[key] for key in ("scene", "quantity")}
+        scatter = select(evidence.precision, comparison="scatter", **keys)
         if not scatter:
             continue
         limit = ensemble_error(scatter[0])
         kind = "bias" if row["comparison"] == "paired" else "error"
         yield Finding(
-            {key: row[key] for key in ("integrator", "scene", "quantity")},
+            {"integrator": row["integrator"], **keys},
             f"relative {kind} at h = {_STEP:.0e} s",
-            Interval(*(np.array(row[key]) for key in ("error", "ci_low", "ci_high"))),
+            interval(row, "error"),
             (-limit, limit),
             f"tables/work_precision: comparison = {row['comparison']}, step = {_STEP:.0e}",
         )

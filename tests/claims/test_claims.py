@@ -1,4 +1,4 @@
-"""Each statement is reproduced by data made to its measure, and not once they are changed."""
+"""Each claim is reproduced by data made to its measure, and not once they are changed."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,18 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from springblock.claims import Claim, Evidence, verdict
-from springblock.statements import STATEMENTS
-from springblock.statements.correlation import apart, between
-from springblock.statements.flat import isolated, lonely
-from springblock.statements.grooves import edge, grooved_parts
-from springblock.statements.samples import difference, position
+from claims import paper
+from claims.paper import ACROSS, ALONG, DEEP_ALONG, FLAT, PILLARS
+from springblock.claims import CLAIMS
+from springblock.claims.correlation import apart, between
+from springblock.claims.flat import isolated, lonely
+from springblock.claims.grooves import edge, grooved_parts
+from springblock.claims.rule import Claim, Evidence, Row, verdict
+from springblock.claims.samples import difference, position
+from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import Record
-from statements import paper
-from statements.paper import ACROSS, ALONG, DEEP_ALONG, FLAT, PILLARS
 
-BY_NAME = {claim.test.__name__: claim for claim in STATEMENTS}
+BY_NAME = {claim.test.__name__: claim for claim in CLAIMS}
 
 
 @cache
@@ -65,7 +66,7 @@ def sticking(friction: float) -> Callable[[Record], dict[str, Any]]:
     return lambda run: {"static_friction": friction + run.static_friction / 100.0}
 
 
-#: Statement, scenes whose realisations are changed, how, and the verdict then.
+#: Claim, scenes whose realisations are changed, how, and the verdict then.
 CHANGES = [
     ("isolated_precursors", [FLAT], patch, "not reproduced"),
     ("not_all_nucleate", [FLAT], patch, "not reproduced"),
@@ -95,18 +96,19 @@ CHANGES = [
 ]
 
 
-def multiplied(rows: Any, factor: float, **wanted: Any) -> list[dict[str, Any]]:
+def multiplied(table: Any, factor: float, **wanted: Any) -> dict[Scene, list[Row]]:
     """Multiply all correlations, or lengths, and their intervals where rows have what is wanted."""
     keys = {"correlation", "l_c", "ci_low", "ci_high", "tail", "tail_low", "tail_high"}
-    return [
-        {**row, **{k: factor * row[k] for k in keys & set(row)}}
-        if all(row[name] == value for name, value in wanted.items())
-        else row
-        for row in rows
-    ]
+
+    def change(row: Row) -> Row:
+        if any(row[name] != value for name, value in wanted.items()):
+            return row
+        return {**row, **{k: factor * row[k] for k in keys & set(row)}}
+
+    return {scene: [change(row) for row in rows] for scene, rows in table.items()}
 
 
-#: Statement, the factor for l_c or c in some rows of the tables, and the verdict then.
+#: Claim, the factor for l_c or c in some rows of the tables, and the verdict then.
 FACTORS = [
     ("long_along_short_across", -0.5, {"side": "x"}, "not reproduced"),
     ("long_along_short_across", 9.0, {"side": "y", "r": 1}, "not reproduced"),
@@ -132,14 +134,10 @@ def test_other_realisations_change_the_verdict(name, scenes, change, expected):
 
 @pytest.mark.parametrize(("name", "factor", "wanted", "expected"), FACTORS)
 def test_other_correlations_change_the_verdict(name, factor, wanted, expected):
-    judged, lengths = paper.evidence(records()), "r" not in wanted and "side" not in wanted
-    if lengths:
-        rows = multiplied(judged.correlation_length, factor, **wanted)
-        judged = replace(judged, correlation_length=rows)
-    else:
-        rows = multiplied(judged.correlation, factor, **wanted)
-        judged = replace(judged, correlation=rows)
-    assert judge(BY_NAME[name], judged) == expected
+    judged = paper.evidence(records())
+    table = "correlation" if {"r", "side"} & set(wanted) else "correlation_length"
+    rows = multiplied(getattr(judged, table), factor, **wanted)
+    assert judge(BY_NAME[name], replace(judged, **{table: rows})) == expected
 
 
 def test_a_bias_beyond_the_scatter_changes_the_verdict():
@@ -179,10 +177,8 @@ def test_samples_are_compared_seed_by_seed():
 
 
 def test_differences_of_intervals_add_errors_or_their_squares():
-    first, second = (
-        Interval(*map(np.array, (5.0, 2.0, 6.0))),
-        Interval(*map(np.array, (1.0, 0.0, 5.0))),
-    )
+    numbers = ((5.0, 2.0, 6.0), (1.0, 0.0, 5.0))
+    first, second = (Interval(*map(np.array, three)) for three in numbers)
     assert tuple(apart(first, second)) == (4.0, -3.0, 6.0)
     assert tuple(between(first, second)) == pytest.approx((4.0, -1.0, 4.0 + 2.0**0.5))
 
@@ -190,8 +186,7 @@ def test_differences_of_intervals_add_errors_or_their_squares():
 def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
     (y, x), size = ALONG.pattern.origins[0], ALONG.n_p
     contact = ALONG.pattern.contact[y : y + size, x : x + size]
-    np.testing.assert_array_equal(
-        sum(m.astype(int) for m in grooved_parts(ALONG).values()), contact
-    )
+    parts = [mask.astype(int) for mask in grooved_parts(ALONG).values()]
+    np.testing.assert_array_equal(sum(parts), contact)
     assert edge(contact)[[0, 4, 6], 10].all()  # beside the margin and the first groove
     assert not edge(contact)[2, 10]

@@ -1,18 +1,21 @@
-"""Scenes that statements are about, and samples: one number per realisation, by its seed."""
+"""Scenes that claims are about, and samples: one number per realisation, by its seed."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from itertools import groupby
+from itertools import groupby, pairwise
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from springblock.claims import Row
+from springblock.claims.rule import Case, Evidence, Finding, Range, Row, describe
+from springblock.run import Array
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval, ratio_interval
 from springblock.tables import Record
 
+Mask = NDArray[np.bool_]
 Sample = Mapping[int, float]  #: a number per realisation, by its seed
-Summaries = Mapping[int, Row]  #: rows of the table of realisations, by seed
 
 INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
@@ -34,21 +37,20 @@ def ratio(scene: Scene) -> Fraction:
     return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
 
 
-def families(scenes: Iterable[Scene]) -> Iterator[list[Scene]]:
+def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]]:
     """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
-    for _, family in groupby(scenes_along_x(scenes, 1), key=lambda s: (s.n_blocks, ratio(s))):
-        yield list(family)
-
-
-def flat_scene(scenes: Iterable[Scene], n_blocks: int) -> Scene | None:
-    """The flat surface of this size; None where it was not simulated."""
-    return next((s for s in scenes_along_x(scenes, 0) if s.n_blocks == n_blocks), None)
+    groups = groupby(scenes_along_x(scenes, 1, smallest), key=family_place)
+    return (list(family) for _, family in groups)
 
 
 def place(scene: Scene) -> dict[str, int]:
     """Return the lengths that tell this scene from others."""
-    lengths = {key: value for key, value in vars(scene).items() if key.startswith("n_") and value}
-    return {"N": lengths.pop("n_blocks"), **lengths}
+    return {"N": scene.n_blocks, **scene.lengths}
+
+
+def family_place(scene: Scene) -> dict[str, int | str]:
+    """Return what the pillars of a family have in common."""
+    return {"N": scene.n_blocks, "n_s/n_p": str(ratio(scene))}
 
 
 def in_table(*scenes: Scene) -> str:
@@ -61,14 +63,32 @@ def in_files(*scenes: Scene) -> str:
     return "; ".join(f"realisations/{scene.folder}" for scene in scenes)
 
 
-def lag(rows: Summaries) -> dict[int, float]:
-    """t_max - t_avg, s."""
-    return {seed: row["t_max"] - row["t_avg"] for seed, row in rows.items()}
+def in_rows(table: str, scene: Scene, **more: str | int) -> str:
+    """Name rows of a table of correlations of this scene."""
+    keys = {**place(scene), "direction": scene.direction, **more}
+    return f"tables/{table}: {describe(keys)}"
 
 
-def static_friction(rows: Summaries) -> dict[int, float]:
-    """Static friction coefficient."""
-    return {seed: row["static_friction"] for seed, row in rows.items()}
+def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
+    """Rows that hold these values."""
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
+
+
+def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Interval:
+    """A value of a row with its interval."""
+    return Interval(*(np.array(row[key]) for key in (value, low, high)))
+
+
+def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> dict[int, float]:
+    """A number per realisation, by its seed, from rows of the table `realisations`."""
+    return {row["seed"]: function(row) for row in rows}
+
+
+def lags(evidence: Evidence, level: int, smallest: int, claimed: Range) -> Iterator[Finding]:
+    """t_max - t_avg, s, of each scene along x of the table `realisations`."""
+    for scene in scenes_along_x(evidence.summaries, level, smallest):
+        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
+        yield Finding(place(scene), "t_max - t_avg", mean(lag), claimed, in_table(scene), "s")
 
 
 def mean(sample: Sample) -> Interval:
@@ -96,6 +116,13 @@ def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
     if scale.low <= 0.0 <= scale.high:
         return Interval(place.mean, np.array(np.nan), np.array(np.nan))
     return place
+
+
+def in_order(case: Case, parts: Mapping[str, Array], rests_on: str) -> Iterator[Finding]:
+    """Each part of a pillar detaches before the next; mean t_det/t_max of each, (k,)."""
+    for (early, before), (late, after) in pairwise(parts.items()):
+        statistic = f"t_det/t_max of the {late} minus that of the {early}"
+        yield Finding(case, statistic, mean_interval(after - before), POSITIVE, rests_on)
 
 
 def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:

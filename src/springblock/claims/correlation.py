@@ -1,27 +1,30 @@
 """Correlation of detachment times along the sides of pillars, sections 3.2 and 3.3."""
 
-from collections.abc import Iterable, Iterator
-from fractions import Fraction
-from itertools import groupby
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
-from springblock.claims import Claim, Evidence, Finding, Row, describe
-from springblock.statements.samples import ALONG, INF, POSITIVE, SMALLEST
+from springblock.claims.rule import Claim, Evidence, Finding, Row
+from springblock.claims.samples import (
+    ALONG,
+    INF,
+    POSITIVE,
+    SMALLEST,
+    families,
+    family_place,
+    in_rows,
+    interval,
+    place,
+    scenes_along_x,
+    select,
+)
+from springblock.scene import Scene
 from springblock.statistics import Interval
 
-Surface = dict[str, int]  #: lengths by their names
-
-_LENGTHS = ("n_blocks", "n_p", "n_s", "n_p2", "n_s2")
 _FAR = 3  #: blocks, the paper's lower bound of the correlation length
 _FEW = 10  #: n_p below which the paper finds l_c difficult to estimate
 _CLOSE = 0.1  #: difference between correlation functions that look the same
 _TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
-
-
-def _interval(row: Row, name: str) -> Interval:
-    return Interval(*(np.array(row[key]) for key in (name, "ci_low", "ci_high")))
 
 
 def apart(first: Interval, second: Interval) -> Interval:
@@ -41,119 +44,85 @@ def between(first: Interval, second: Interval) -> Interval:
     return Interval(difference, difference - below, difference + above)
 
 
-def _surfaces(rows: Iterable[Row], level: int, smallest: int = SMALLEST) -> list[Surface]:
-    """Surfaces of so many levels that slide along x, in order of N, n_s/n_p and n_p."""
-    chosen = [r for r in rows if (r["level"], r["direction"]) == (level, ALONG)]
-    found = {tuple(r[key] for key in _LENGTHS) for r in chosen if r["n_p"] >= smallest}
-    surfaces = [dict(zip(_LENGTHS, lengths, strict=True)) for lengths in found]
-    return sorted(surfaces, key=lambda s: (s["n_blocks"], _ratio(s), *s.values()))
-
-
-def _ratio(surface: Surface) -> Fraction:
-    return Fraction(surface["n_s"], surface["n_p"])
-
-
-def _find(rows: Iterable[Row], surface: Surface, **more: Any) -> list[Row]:
-    """Rows of a surface that slides along x, with these other values."""
-    wanted = {**surface, **more, "direction": ALONG}
-    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
-
-
-def _fits(evidence: Evidence, surface: Surface) -> list[Row]:
+def _fits(evidence: Evidence, scene: Scene) -> list[Row]:
     """The row of l_c along the sides that slide along themselves, if there is one."""
-    return _find(evidence.correlation_length, surface, side=ALONG)
-
-
-def _place(surface: Surface) -> dict[str, int]:
-    lengths = {key: value for key, value in surface.items() if value}
-    return {"N": lengths.pop("n_blocks"), **lengths}
-
-
-def _row_of(table: str, surface: Surface, **more: Any) -> str:
-    return f"tables/{table}: {describe({**_place(surface), 'direction': ALONG, **more})}"
+    return select(evidence.correlation_length[scene], side=ALONG)
 
 
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """c_x is larger than c_y three blocks away; c_y falls below 1/e within one block."""
-    rows = evidence.correlation
-    for surface in _surfaces(rows, 1):
-        far = [row for side in "xy" for row in _find(rows, surface, side=side, r=_FAR)]
-        near = _find(rows, surface, side="y", r=1)
+    for scene in scenes_along_x(evidence.correlation, 1, SMALLEST):
+        rows = evidence.correlation[scene]
+        far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
+        near = select(rows, side="y", r=1)
         if len(far) < 2 or not near:
             continue
         yield Finding(
-            _place(surface),
+            place(scene),
             f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)",
-            apart(*(_interval(row, "correlation") for row in far)),
+            apart(*(interval(row, "correlation") for row in far)),
             POSITIVE,
-            _row_of("correlation", surface, r=_FAR),
+            in_rows("correlation", scene, r=_FAR),
         )
         yield Finding(
-            _place(surface),
+            place(scene),
             "c_y(r = 1)",
-            _interval(near[0], "correlation"),
+            interval(near[0], "correlation"),
             (-INF, float(np.exp(-1.0))),
-            _row_of("correlation", surface, side="y", r=1),
+            in_rows("correlation", scene, side="y", r=1),
         )
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """c_x(r) stays close to exp(-r/l_c) wherever that was fitted; the worst r is shown."""
-    for surface in _surfaces(evidence.correlation_length, 1, _FEW):
-        for fit in _fits(evidence, surface):
-            curve = _find(evidence.correlation, surface, side=ALONG)
-            gaps = {
-                row["r"]: apart(_interval(row, "correlation"), _exactly(row["r"], fit["l_c"]))
-                for row in curve
-                if 1 <= row["r"] <= fit["r_last"]
-            }
+    for scene in scenes_along_x(evidence.correlation_length, 1, _FEW):
+        for fit in _fits(evidence, scene):
+            gaps = {}
+            for row in select(evidence.correlation.get(scene, ()), side=ALONG):
+                if 1 <= row["r"] <= fit["r_last"]:  # the interval of l_c has its own claim
+                    fitted = np.exp(-row["r"] / fit["l_c"])
+                    gaps[row["r"]] = Interval(*(c - fitted for c in interval(row, "correlation")))
             if not gaps:
                 continue
             worst = max(gaps, key=lambda r: max(abs(gaps[r].low), abs(gaps[r].high)))
             yield Finding(
-                _place(surface),
+                place(scene),
                 f"c_x(r) - exp(-r/l_c) where its interval reaches furthest from 0, at r = {worst}",
                 gaps[worst],
                 (-_CLOSE, _CLOSE),
-                _row_of("correlation", surface, side="x", r=worst),
+                in_rows("correlation", scene, side="x", r=worst),
             )
-
-
-def _exactly(r: int, l_c: float) -> Interval:
-    """The fit at one distance; the interval of l_c is that of the claim on l_c."""
-    return Interval(*np.full(3, np.exp(-r / l_c)))
 
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """l_c of c_x is three blocks or more, in a fit through c(0) = 1 or in one free of it."""
-    for surface in _surfaces(evidence.correlation_length, 1, _FEW):
-        for fit in _fits(evidence, surface):
-            free = Interval(*(np.array(fit[key]) for key in ("tail", "tail_low", "tail_high")))
-            for model, length in (("exp(-r/l_c)", _interval(fit, "l_c")), ("A exp(-r/l_c)", free)):
+    for scene in scenes_along_x(evidence.correlation_length, 1, _FEW):
+        for fit in _fits(evidence, scene):
+            free = interval(fit, "tail", "tail_low", "tail_high")
+            for model, length in (("exp(-r/l_c)", interval(fit, "l_c")), ("A exp(-r/l_c)", free)):
                 if np.isnan(length.mean):
                     continue
                 yield Finding(
-                    {**_place(surface), "fit": model},
+                    {**place(scene), "fit": model},
                     "l_c of c_x",
                     length,
                     (_FAR, INF),
-                    _row_of("correlation_length", surface, side="x"),
+                    in_rows("correlation_length", scene, side="x"),
                     "blocks",
                 )
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c of the largest pillars is larger than that of the smallest it can be estimated for."""
-    surfaces = _surfaces(evidence.correlation_length, 1, _FEW)
-    for (n, ratio), family in groupby(surfaces, key=lambda s: (s["n_blocks"], _ratio(s))):
-        fits = [fit for surface in family for fit in _fits(evidence, surface)]
+    for family in families(evidence.correlation_length, _FEW):
+        fits = [fit for scene in family for fit in _fits(evidence, scene)]
         if len(fits) < 2:
             continue
-        first, last = fits[0], fits[-1]
+        n, first, last = family[0].n_blocks, fits[0], fits[-1]
         yield Finding(
-            {"N": n, "n_s/n_p": str(ratio)},
+            family_place(family[0]),
             f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-            between(_interval(last, "l_c"), _interval(first, "l_c")),
+            between(interval(last, "l_c"), interval(first, "l_c")),
             POSITIVE,
             f"tables/correlation_length: N = {n}, n_p = {first['n_p']} and {last['n_p']}, side = x",
             "blocks",
@@ -162,26 +131,27 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c on grooved pillars lies within a block of that on whole ones of about their size."""
-    whole = _surfaces(evidence.correlation_length, 1, _FEW)
-    for surface in _surfaces(evidence.correlation_length, 2):
-        like = sorted(whole, key=lambda s: _unlike(s, surface))[:1]
-        fits = [fit for s in (surface, *like) for fit in _fits(evidence, s)]
+    whole = scenes_along_x(evidence.correlation_length, 1, _FEW)
+    for scene in scenes_along_x(evidence.correlation_length, 2, SMALLEST):
+        like = sorted(whole, key=lambda s: _unlike(s, scene))[:1]
+        fits = [fit for s in (scene, *like) for fit in _fits(evidence, s)]
         if len(fits) < 2:
             continue
         yield Finding(
-            _place(surface),
+            place(scene),
             f"l_c on grooved pillars minus l_c at n_p = {fits[1]['n_p']}, n_s = {fits[1]['n_s']} "
             "without grooves (from both intervals)",
-            between(*(_interval(fit, "l_c") for fit in fits)),
+            between(*(interval(fit, "l_c") for fit in fits)),
             (-1.0, 1.0),
-            "; ".join(_row_of("correlation_length", s, side="x") for s in (surface, *like)),
+            "; ".join(in_rows("correlation_length", s, side="x") for s in (scene, *like)),
             "blocks",
         )
 
 
-def _unlike(first: Surface, second: Surface) -> tuple[int, ...]:
-    """How far two surfaces are from having the same N, size of pillars and distance."""
-    return tuple(abs(first[key] - second[key]) for key in ("n_blocks", "n_p", "n_s"))
+def _unlike(first: Scene, second: Scene) -> tuple[int, ...]:
+    """How far two scenes are from having the same N, size of pillars and distance."""
+    lengths = ((scene.n_blocks, scene.n_p, scene.n_s) for scene in (first, second))
+    return tuple(abs(a - b) for a, b in zip(*lengths, strict=True))
 
 
 CLAIMS = (

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from springblock.claims import Evidence
+from springblock.claims.grooves import edge, grooved_parts
+from springblock.claims.rule import Evidence, Row
 from springblock.scene import Scene
-from springblock.statements.grooves import edge, grooved_parts
 from springblock.statistics import pillar_ring
 from springblock.tables import Record
 
@@ -36,7 +36,8 @@ def times(scene: Scene, rng: np.random.Generator) -> np.ndarray:
     if scene == FLAT:
         return flat_times(rng)
     field, size = np.full((N, N), np.nan), scene.n_p
-    pillar = {0: small, 1: ringed}[size >= 4](size) if scene.level == 1 else grooved(scene)
+    like_flat = scene.level == 1 and size < 4
+    pillar = 1.04 if like_flat else ringed(size) if scene.level == 1 else grooved(scene)
     for y, x in scene.pattern.origins:
         field[y : y + size, x : x + size] = pillar + 0.001 * rng.standard_normal()
     return field + 0.001 * rng.standard_normal(field.shape)
@@ -50,10 +51,6 @@ def flat_times(rng: np.random.Generator) -> np.ndarray:
     field[rows, columns] = 0.85
     field[rows[0], columns[0] + 1] = 0.86
     return field
-
-
-def small(size: int) -> np.ndarray:
-    return np.full((size, size), 1.04)
 
 
 def ringed(size: int) -> np.ndarray:
@@ -107,10 +104,10 @@ def evidence(records: Iterable[Record]) -> Evidence:
     by_scene: dict[Scene, list[Record]] = {}
     for made in records:
         by_scene.setdefault(made.scene, []).append(made)
-    names = ("t_max", "t_avg", "static_friction")
+    names = ("seed", "t_max", "t_avg", "static_friction")
     return Evidence(
         summaries={
-            scene: {run.seed: {name: getattr(run, name) for name in names} for run in runs}
+            scene: [{name: getattr(run, name) for name in names} for run in runs]
             for scene, runs in by_scene.items()
         },
         records=by_scene,
@@ -124,49 +121,45 @@ def as_in_the_paper() -> list[Record]:
     return [record(scene, seed) for scene in CURVES for seed in SEEDS]
 
 
-SURFACES = [(20, 20, 0, 0, 3.4), (60, 60, 0, 0, 4.4), (58, 62, 8, 2, 4.3)]  # lengths and l_c
+#: Scenes of the tables of correlations, and l_c.
+LENGTHS = {Scene(120, 20, 20): 3.4, Scene(120, 60, 60): 4.4, Scene(120, 58, 62, 8, 2): 4.3}
 
 
-def surface(n_p: int, n_s: int, n_p2: int, n_s2: int) -> dict[str, Any]:
-    level = 2 if n_p2 else 1
-    lengths = {"n_blocks": 120, "n_p": n_p, "n_s": n_s, "n_p2": n_p2, "n_s2": n_s2}
-    return {**lengths, "level": level, "direction": "x"}
+def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
+    """A value and an interval around it."""
+    return {name: value, f"{prefix}_low": value - half, f"{prefix}_high": value + half}
 
 
-def correlation() -> list[dict[str, Any]]:
-    rows = []
-    for *sizes, l_c in SURFACES:
-        for side, decay in (("x", l_c), ("y", 0.5)):
-            for r in range(9):
-                c = float(np.exp(-r / decay))
-                values = {"correlation": c, "ci_low": c - 0.03, "ci_high": c + 0.03}
-                rows.append({**surface(*sizes), "side": side, "r": r, **values})
-    return rows
+def correlation() -> dict[Scene, list[Row]]:
+    return {
+        scene: [
+            {**scene.row, "side": side, "r": r, **around("correlation", np.exp(-r / decay), 0.03)}
+            for side, decay in (("x", l_c), ("y", 0.5))
+            for r in range(9)
+        ]
+        for scene, l_c in LENGTHS.items()
+    }
 
 
-def lengths() -> list[dict[str, Any]]:
-    rows = []
-    for *sizes, l_c in SURFACES:
-        for side, value in (("x", l_c), ("y", 0.5)):
-            free = {"tail": value, "tail_low": value - 0.3, "tail_high": value + 0.3}
-            values = {"l_c": value, "ci_low": value - 0.2, "ci_high": value + 0.2, **free}
-            rows.append({**surface(*sizes), "side": side, "r_last": 8, **values})
-    return rows
+def lengths() -> dict[Scene, list[Row]]:
+    return {
+        scene: [
+            {**scene.row, "side": side, "r_last": 8}
+            | around("l_c", value, 0.2)
+            | around("tail", value, 0.3, prefix="tail")
+            for side, value in (("x", l_c), ("y", 0.5))
+        ]
+        for scene, l_c in LENGTHS.items()
+    }
 
 
-def precision(bias: float = 1e-4) -> list[dict[str, Any]]:
+def precision(bias: float = 1e-4) -> list[Row]:
     common = {"step": 1e-8, "scene": "flat", "quantity": "static_friction", "realisations": 100}
     found = [("paired", "leapfrog", bias, 1e-4), ("paired", "rk4", bias, 1e-4)]
     found.append(("scatter", "leapfrog", 0.0, 0.002))
     return [
-        {
-            **common,
-            "comparison": comparison,
-            "integrator": integrator,
-            "error": error,
-            "ci_low": error - half,
-            "ci_high": error + half,
-        }
+        {**common, "comparison": comparison, "integrator": integrator}
+        | around("error", error, half)
         for comparison, integrator, error, half in found
     ]
 

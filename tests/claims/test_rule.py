@@ -5,7 +5,9 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
-from springblock.claims import CLAIMS, Claim, Evidence, Finding, page, rows, verdict
+from springblock.claims.page import page
+from springblock.claims.rule import Claim, Evidence, Finding, verdict
+from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
 from springblock.statistics import Interval
 from springblock.tables import SUMMARY, rows_to_table, write
@@ -85,7 +87,7 @@ SOME = [
 
 
 def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
-    first, second = rows_to_table(rows(SOME, Evidence()), CLAIMS).to_pylist()
+    first, second = rows_to_table(rows(SOME, Evidence()), SCHEMA).to_pylist()
     assert (first["value"], first["ci_low"], first["ci_high"]) == (1.5, 1.0, 2.0)
     assert (first["case"], first["outcome"], first["verdict"]) == ("n_p = 6", "holds", "reproduced")
     assert (second["verdict"], second["rests_on"]) == ("not tested", "missing: two sizes")
@@ -116,11 +118,8 @@ def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
 
 
 def test_cases_that_differ_in_several_keys_are_told_apart_by_all_of_them():
-    wide = {"n_p": 10, "ring": 0}, {"n_p": 10, "ring": 1}, {"n_p": 6, "ring": 0}
-    findings = [
-        Finding(case, "", Interval(np.array(v), np.array(v - 0.1), np.array(v + 0.1)), (0, 9), "")
-        for case, v in zip(wide, (1.5, -1.5, -1.5), strict=True)
-    ]
+    cases = [(HOLDS, 10, 0), (FAILS, 10, 1), (FAILS, 6, 0)]
+    findings = [finding(*interval, n_p=n_p, ring=ring) for interval, n_p, ring in cases]
     judged, depends_on = verdict(findings)
     assert judged == "depends on"
     keys, cases = depends_on.split(": ")

@@ -4,26 +4,23 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from springblock.claims import Claim, Evidence, Finding
-from springblock.run import Array, Run
-from springblock.statements.samples import (
+from springblock.claims.rule import Claim, Evidence, Finding
+from springblock.claims.samples import (
     ALIKE,
     INF,
     NEGATIVE,
     POSITIVE,
+    Mask,
     in_files,
-    in_table,
-    lag,
+    lags,
     mean,
     over_runs,
     place,
     scenes_along_x,
 )
+from springblock.run import Array, Run
 from springblock.statistics import mean_interval, repeatability
-
-Mask = NDArray[np.bool_]
 
 _EARLY = 0.9  #: of t_max
 _CORE = 10  #: blocks from the edges of the surface to its core
@@ -89,9 +86,7 @@ def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
 
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
     """t_max < t_avg on flat surfaces."""
-    for scene in scenes_along_x(evidence.summaries, 0):
-        interval = mean(lag(evidence.summaries[scene]))
-        yield Finding(place(scene), "t_max - t_avg", interval, NEGATIVE, in_table(scene), "s")
+    return lags(evidence, 0, 0, NEGATIVE)
 
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:

@@ -1,15 +1,12 @@
 """Square pillars: edges first, the force maximum late (section 3.2 of the paper)."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import pairwise
-from operator import attrgetter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from operator import attrgetter, itemgetter
 
 import numpy as np
 
-from springblock.claims import Case, Claim, Evidence, Finding
-from springblock.run import Array, Run
-from springblock.scene import Scene
-from springblock.statements.samples import (
+from springblock.claims.rule import Case, Claim, Evidence, Finding
+from springblock.claims.samples import (
     ALIKE,
     INF,
     NEGATIVE,
@@ -18,22 +15,27 @@ from springblock.statements.samples import (
     Sample,
     difference,
     families,
-    flat_scene,
+    family_place,
     in_files,
+    in_order,
     in_table,
-    lag,
+    lags,
     mean,
+    over_rows,
     over_runs,
     place,
     position,
-    ratio,
     scenes_along_x,
-    static_friction,
 )
+from springblock.run import Array, Run
+from springblock.scene import Scene
 from springblock.statistics import mean_interval, pillar_map, pillar_ring, repeatability
 from springblock.tables import Record
 
+Quantities = Mapping[str, Callable[[Record], float]]  #: of a realisation, by their names
+
 _HIGH = 0.95  #: share of the largest force that the width of its peak is taken at
+_WIDTH = "time with a force above 95 % of its maximum over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
 _PILLARS = "realisations of pillars with n_p of 4 or more"
 _BOTH = "realisations of the flat surface and of pillars with n_p of 6 or more"
@@ -49,7 +51,7 @@ def precursors(run: Run) -> float:
 def warning(run: Run) -> float:
     """Time from the first detachment to t_max, over t_max: for how long there are precursors.
 
-    Absolute times grow with the load on a block, which is larger on pillars.
+    Absolute times grow with the normal force on a block, which is larger on pillars.
     """
     return 1.0 - float(np.nanmin(run.t_det)) / run.t_max
 
@@ -86,18 +88,17 @@ def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Pillars with n_p <= 3 lie closer to the flat surface than to the next larger ones."""
-    quantities: dict[str, Callable[[Record], float]] = {
+    quantities: Quantities = {
         "(t_max - t_avg)/t_max": relative_lag,
         "precursors": precursors,
         "width of the force peak": width,
     }
     for family in families(evidence.records):
-        flat = flat_scene(evidence.records, family[0].n_blocks)
+        flat = Scene(family[0].n_blocks)
         larger = next((s for s in family if s.n_p >= SMALLEST), None)
-        if flat is None or larger is None:
+        if flat not in evidence.records or larger is None:
             continue
-        scenes = [s for s in family if s.n_p < SMALLEST]
-        for scene in scenes:
+        for scene in (s for s in family if s.n_p < SMALLEST):
             for name, quantity in quantities.items():
                 samples = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
                 yield Finding(
@@ -138,14 +139,7 @@ def _outer_rings(evidence: Evidence) -> Iterator[tuple[Scene, Case, dict[str, Ar
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Corners, edges across, edges along, centre; on the edge and on the ring inside it."""
     for scene, case, parts in _outer_rings(evidence):
-        for (early, before), (late, after) in pairwise(parts.items()):
-            yield Finding(
-                case,
-                f"t_det/t_max of the {late} minus that of the {early}",
-                mean_interval(after - before),
-                POSITIVE,
-                in_files(scene),
-            )
+        yield from in_order(case, parts, in_files(scene))
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
@@ -163,49 +157,41 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
 
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
     """t_max > t_avg on pillars, for each size and distance."""
-    for scene in scenes_along_x(evidence.summaries, 1, SMALLEST):
-        interval = mean(lag(evidence.summaries[scene]))
-        yield Finding(place(scene), "t_max - t_avg", interval, POSITIVE, in_table(scene), "s")
+    return lags(evidence, 1, SMALLEST, POSITIVE)
+
+
+def _above_flat(evidence: Evidence, quantities: Quantities) -> Iterator[Finding]:
+    """What pillars have more of than the flat surface."""
+    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
+        flat = Scene(scene.n_blocks)
+        if flat not in evidence.records:
+            continue
+        for name, quantity in quantities.items():
+            samples = [over_runs(quantity, evidence.records[s]) for s in (scene, flat)]
+            yield Finding(
+                place(scene),
+                f"{name}, minus that of the flat surface",
+                difference(*samples),
+                POSITIVE,
+                in_files(scene, flat),
+            )
 
 
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     """On pillars precursors are more, and begin longer before t_max, than on a flat surface."""
-    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
-        flat = flat_scene(evidence.records, scene.n_blocks)
-        if flat is None:
-            continue
-        runs, reference = evidence.records[scene], evidence.records[flat]
-        yield Finding(
-            place(scene),
-            "share of the contact blocks that detach before t_max, minus that of the flat surface",
-            difference(over_runs(precursors, runs), over_runs(precursors, reference)),
-            POSITIVE,
-            in_files(scene, flat),
-        )
-        yield Finding(
-            place(scene),
-            "time from the first detachment to t_max over t_max, minus that of the flat surface",
-            difference(over_runs(warning, runs), over_runs(warning, reference)),
-            POSITIVE,
-            in_files(scene, flat),
-        )
+    share = "share of the contact blocks that detach before t_max"
+    time = "time from the first detachment to t_max over t_max"
+    return _above_flat(evidence, {share: precursors, time: warning})
 
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """The force peak of pillars is wider than that of the flat surface."""
-    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
-        flat = flat_scene(evidence.records, scene.n_blocks)
-        if flat is None:
-            continue
-        samples = [over_runs(width, evidence.records[s]) for s in (scene, flat)]
-        yield Finding(
-            place(scene),
-            "time with a force above 95 % of its maximum over t_max, minus that of the flat "
-            "surface",
-            difference(*samples),
-            POSITIVE,
-            in_files(scene, flat),
-        )
+    return _above_flat(evidence, {_WIDTH: width})
+
+
+def _of_several_sizes(scenes: Iterable[Scene]) -> list[list[Scene]]:
+    """Families of three sizes or more."""
+    return [family for family in families(scenes) if len(family) >= 3]
 
 
 def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
@@ -218,14 +204,13 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
     The latter are chosen by the same means: small differences would be overrated.
     """
-    for family in families(evidence.summaries):
-        if len(family) < 3:
-            continue
-        samples = {scene: static_friction(evidence.summaries[scene]) for scene in family}
+    rows = evidence.summaries
+    for family in _of_several_sizes(rows):
+        samples = {s: over_rows(itemgetter("static_friction"), rows[s]) for s in family}
         lowest = _lowest(samples)
         for end in (family[0], family[-1]):
             yield Finding(
-                {"N": end.n_blocks, "n_s/n_p": str(ratio(end))},
+                family_place(end),
                 f"static friction at n_p = {end.n_p} minus the lowest, at n_p = {lowest.n_p}",
                 difference(samples[end], samples[lowest]),
                 POSITIVE,
@@ -235,16 +220,14 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """The force peak of the largest pillars is narrower than where static friction is lowest."""
-    for family in families(evidence.records):
-        runs, largest = evidence.records, family[-1]
-        lowest = _lowest({s: over_runs(attrgetter("static_friction"), runs[s]) for s in family})
-        if len(family) < 3:
-            continue
-        samples = [over_runs(width, runs[s]) for s in (largest, lowest)]
+    records = evidence.records
+    for family in _of_several_sizes(records):
+        lowest = _lowest({s: over_runs(attrgetter("static_friction"), records[s]) for s in family})
+        largest = family[-1]
+        samples = [over_runs(width, records[s]) for s in (largest, lowest)]
         yield Finding(
-            {"N": largest.n_blocks, "n_s/n_p": str(ratio(largest))},
-            f"time with a force above 95 % of its maximum over t_max, at n_p = {largest.n_p} "
-            f"minus that at n_p = {lowest.n_p}",
+            family_place(largest),
+            f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}",
             difference(*samples),
             NEGATIVE,
             in_files(largest, lowest),
