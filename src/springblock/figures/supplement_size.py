@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
+from springblock.figures.declaration import Declaration, Realisations, Scenes, one_pattern
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,
@@ -16,6 +17,30 @@ from springblock.figures.ensembles import (
     two_panels,
 )
 from springblock.figures.style import journal
+from springblock.scene import Scene
+
+
+def _two_patterns(
+    flat: Scenes, other_flat: Scenes, pillars: Scenes, other_pillars: Scenes
+) -> list[Scene]:
+    """Flat surfaces and one kind of pillars, each with those of other sizes."""
+    return [*one_pattern(flat, other_flat), *one_pattern(pillars, other_pillars)]
+
+
+FIGURE = Declaration(
+    title="Size of the surface",
+    category="Supplement",
+    caption=(
+        "a) Static friction and b) t_max - t_avg over the side N of a flat and of a pillared "
+        "surface. Means over realisations with 95 % bootstrap intervals. Everything else is at "
+        "N = 120, as in the paper."
+    ),
+    source=Realisations(
+        groups=("flat", "size_flat", "pillars", "size_pillars"),
+        keys=("n_p", "n_s", "n_blocks"),
+        pick=_two_patterns,
+    ),
+)
 
 
 @journal
