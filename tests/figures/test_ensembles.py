@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from springblock import Pattern
-from springblock.commands import figures as commands
+from springblock.commands import figure as command
 from springblock.figures import figure_5, figure_6, figure_9, style
 from springblock.scene import Scene
 from springblock.tables import Record
@@ -54,19 +54,25 @@ def ensemble(*peaks: float, runs: int = 4) -> list[Record]:
 
 
 def along_and_across(runs: int = 4):
-    return [("x", ensemble(80e-6, 110e-6, runs=runs)), ("y", ensemble(100e-6, runs=runs))]
+    return {"x": ensemble(80e-6, 110e-6, runs=runs), "y": ensemble(100e-6, runs=runs)}
 
 
 def sizes(runs: int = 4):
     peaks = {0: 60e-6, 2: 80e-6, 6: 100e-6, 20: 120e-6}
-    return [(n_p, ensemble(peak, runs=runs)) for n_p, peak in peaks.items()]
+    return {n_p: ensemble(peak, runs=runs) for n_p, peak in peaks.items()}
+
+
+def askew():
+    """One run on pillars that are pulled at an angle."""
+    run = record(0)
+    return replace(run, scene=replace(run.scene, direction="30"))
 
 
 DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "figure_5": lambda: figure_5.draw(ensemble(110e-6), PILLARS),
+    "figure_5": lambda: figure_5.draw(ensemble(110e-6)),
     "figure_6": lambda: figure_6.draw(sizes()),
     "figure_9": lambda: figure_9.draw(along_and_across()),
-    "figure_5 of one run": lambda: figure_5.draw(ensemble(110e-6, runs=1), PILLARS, "30"),
+    "figure_5 of one run": lambda: figure_5.draw([askew()]),
     "figure_6 of one run": lambda: figure_6.draw(sizes(runs=1)),
     "figure_9 of one run": lambda: figure_9.draw(along_and_across(runs=1)),
 }
@@ -142,7 +148,7 @@ def test_figure_6_shows_every_size_and_marks_both_times():
     mean = np.mean([r.force[:691] / NORMAL_FORCE for r in ensemble(100e-6)], axis=0)
     np.testing.assert_allclose(curves["$n_p$ = 6"][:, 1], mean)
     dots = [line.get_xydata()[0, 0] for line in force.get_lines() if len(line.get_xydata()) == 1]
-    for n_p, runs in sizes():
+    for n_p, runs in sizes().items():
         assert ("flat" if n_p == 0 else f"$n_p$ = {n_p}") in curves
         assert pytest.approx(1e6 * runs[0].t_max) in dots
         assert pytest.approx(1e6 * np.mean([r.t_avg for r in runs])) in dots
@@ -162,7 +168,8 @@ def test_figure_9_marks_the_load_peaks_of_the_data():
 
 def test_scenes_that_a_figure_cannot_tell_apart_are_refused(monkeypatch):
     records = [record(0), replace(record(1), scene=Scene(24, SIZE, 2))]
-    monkeypatch.setattr(commands, "read_records", lambda batches: records)
+    monkeypatch.setattr(command, "read_records", lambda batches: records)
     with pytest.raises(ValueError, match="several scenes have n_p = 6"):
-        commands._ensembles((), "n_p")
-    assert [(n_s, len(group)) for n_s, group in commands._ensembles((), "n_s")] == [(6, 1), (2, 1)]
+        command.ensembles((), "n_p")
+    groups = command.ensembles((), "n_s").items()
+    assert [(n_s, len(group)) for n_s, group in groups] == [(6, 1), (2, 1)]

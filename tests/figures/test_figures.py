@@ -61,7 +61,7 @@ def made(seed: int, samples: int = 700, contact: NDArray[np.bool_] | None = None
 DRAWINGS: dict[str, Callable[[], Figure]] = {
     "figure_1": figure_1.draw,
     "figure_2": lambda: figure_2.draw([made(seed) for seed in range(4)]),
-    "figure_3": lambda: figure_3.draw(made(0)),
+    "figure_3": lambda: figure_3.draw([made(0)]),
     "figure_4": lambda: figure_4.draw(PILLARS, 16),
     "figure_8": lambda: figure_8.draw(GROOVED),
 }
@@ -197,7 +197,7 @@ def test_figure_2_refuses_runs_sampled_differently():
 @pytest.mark.parametrize("pattern", [None, PILLARS])
 def test_figure_3_maps_t_det_over_t_max(pattern):
     run = made(0, contact=None if pattern is None else pattern.contact)
-    ax = figure_3.draw(run).axes[0]
+    ax = figure_3.draw([run]).axes[0]
     image = ax.images[0]
     shown = np.ma.filled(image.get_array(), np.nan)
     np.testing.assert_array_equal(shown, run.t_det / run.t_max)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from figures.test_ensembles import NORMAL_FORCE, SIZE, record
-from springblock.commands import figures as commands
+from springblock.commands import figure as command
 from springblock.figures import (
     style,
     supplement_angle,
@@ -128,11 +128,11 @@ def test_intervals_narrow_with_the_root_of_the_number():
 
 def test_scenes_are_told_apart_by_several_keys(monkeypatch):
     other = replace(record(1), scene=Scene(24, SIZE, 2))
-    monkeypatch.setattr(commands, "read_records", lambda batches: [record(0), other])
-    found = dict(commands._ensembles((), "n_p", "n_s"))
+    monkeypatch.setattr(command, "read_records", lambda batches: [record(0), other])
+    found = command.ensembles((), "n_p", "n_s")
     assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
     with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
-        commands._ensembles((), "n_p", "direction")
+        command.ensembles((), "n_p", "direction")
     assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
 
 
