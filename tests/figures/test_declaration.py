@@ -50,6 +50,7 @@ def test_each_figure_declares_all_that_the_study_needs(name):
     assert declared.title
     assert declared.category in get_args(Category)
     assert declared.caption.endswith(".")
+    assert not set("{}") & set(declared.title + declared.caption)  # wildcards for the workflow
     for config, groups in (PAPER, QUICK):
         if declared.is_part_of(groups):
             lengths = config["figures"].get(name, {})
