@@ -23,11 +23,15 @@ rule all:
         rules.aggregate.output,
         CORRELATIONS,
         rules.claims.output,
-        [
-            figure_files(name)
-            for name, figure in FIGURES.items()
-            if config["accuracy"] or figure.category != "Accuracy"
-        ],
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[
+                name
+                for name, figure in FIGURES.items()
+                if config["accuracy"] or figure.category != "Accuracy"
+            ],
+            suffix=["pdf", "png"],
+        ),
         rules.accuracy.output if config["accuracy"] else [],
     localrule: True
     message:

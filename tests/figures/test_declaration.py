@@ -15,12 +15,12 @@ from click.testing import CliRunner
 from snakemake.utils import update_config
 
 import springblock
-from figures.test_ensembles import record
-from springblock import figures
+from figures.test_ensembles import NORMAL_FORCE, SIZE, record
+from springblock import figures, study
 from springblock.cli import main
+from springblock.commands.figure import ensembles
 from springblock.figures.declaration import Category, Need
 from springblock.scene import Scene
-from springblock.study import ensembles
 from springblock.tables import BATCH, Record, rows_to_table, write
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -36,7 +36,7 @@ def configuration(*files: str):
     merged: dict = {}
     for file in files:
         update_config(merged, yaml.safe_load((CONFIG / file).read_text()))
-    groups = {group: [e.scene for e in some] for group, some in ensembles(merged).items()}
+    groups = {group: [e.scene for e in some] for group, some in study.ensembles(merged).items()}
     return merged, groups
 
 
@@ -53,15 +53,15 @@ def test_each_figure_declares_all_that_the_study_needs(name):
     assert not set("{}") & set(declared.title + declared.caption)  # wildcards for the workflow
     for config, groups in (PAPER, QUICK):
         if declared.is_part_of(groups):
-            lengths = config["figures"].get(name, {})
-            needs = declared.source.needs(groups, lengths)
-            options = declared.source.options(config["n_blocks"], lengths)
-            assert needs or options or not signature(MODULES[name].draw).parameters
+            source, lengths = declared.source, config["figures"].get(name, {})
+            given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
+            assert given or not signature(MODULES[name].draw).parameters
 
 
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
-    missing = [name for name, figure in FIGURES.items() if not figure.is_part_of(QUICK[1])]
-    assert missing == [f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")]
+    present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
+    assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
+    assert not {f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")} & present
     assert all(figure.is_part_of(PAPER[1]) for figure in FIGURES.values())
 
 
@@ -103,28 +103,27 @@ def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
 
 def test_figures_need_no_more_tables_than_they_show():
     assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
-    curve, *lengths = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})
-    assert curve == Need("correlation", LARGE)
-    assert lengths == [Need("correlation_length", LARGE)]  # smaller pillars have no sides
+    tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
+    assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
     assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
 
 
-def batch(path: Path, run: Record) -> str:
+def batch(path: Path, run: Record) -> Path:
     """A file that holds one run; what figures do not read is zero in it."""
     row = {name: getattr(run, name, getattr(run.scene, name, 0)) for name in BATCH.names}
     row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1]}
     write(rows_to_table([row], BATCH), path, {})
-    return str(path)
+    return path
 
 
 def test_a_figure_job_loads_neither_the_solver_nor_what_other_figures_need(tmp_path):
-    job = ["figure", "figure_3", batch(tmp_path / "batch", record(0))]
+    job = ["figure", "figure_3", str(batch(tmp_path / "batch", record(0)))]
     job += ["--output", str(tmp_path / "figure.png")]
     script = f"""if True:
         import sys
         from springblock.cli import main
-        import springblock.commands.figure
-        springblock.commands.figure.declarations()
+        from springblock.commands.figure import declarations
+        declarations()
         print(*sys.modules)
         main({job}, standalone_mode=False)
         print(*sys.modules)
@@ -139,8 +138,8 @@ def test_a_figure_job_loads_neither_the_solver_nor_what_other_figures_need(tmp_p
 
 
 def test_the_solver_is_there_for_those_who_ask_for_it():
-    assert set(springblock.__all__) <= set(dir(springblock))
     assert all(hasattr(springblock, name) for name in springblock.__all__)
+    assert set(springblock.__all__) <= set(dir(springblock))
     assert not hasattr(springblock, "simulated")
 
 
@@ -162,10 +161,19 @@ def test_the_help_lists_figures_by_name_and_title():
     assert listed.items() >= {name: figure.title for name, figure in FIGURES.items()}.items()
 
 
-def test_two_scenes_for_a_figure_of_one_are_refused(tmp_path):
-    other = replace(record(1), scene=Scene(24, 6, 2))
+def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
+    other = replace(record(1), scene=Scene(24, SIZE, 2))
     batches = batch(tmp_path / "one", record(0)), batch(tmp_path / "other", other)
-    sentence = refusal("figure_5", *batches, "--output", str(tmp_path / "figure.png"))
+    found = ensembles(batches, "n_p", "n_s")
+    assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
+    assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
+    with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
+        ensembles(batches, "n_p", "direction")
+    with pytest.raises(ValueError, match="several scenes have n_p = 6"):
+        ensembles(batches, "n_p")
+    by_n_s = ensembles(batches, "n_s").items()
+    assert [(n_s, len(group)) for n_s, group in by_n_s] == [(6, 1), (2, 1)]
+    sentence = refusal("figure_5", *map(str, batches), "--output", "figure.png")
     assert sentence.startswith("Error: one scene is drawn, not n_blocks=24/level=1/n_p=6/n_s=2/")
 
 
@@ -174,7 +182,6 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
     lengths = ["--n-blocks", "40", "--n-p", "2", "--n-s", "2"]
     output = ["--output", str(tmp_path / "figure.png")]
     assert CliRunner().invoke(main, ["figure", "figure_4", *lengths, *output]).exit_code == 0
-    assert (tmp_path / "figure.png").is_file()
     surface, _ = MODULES["figure_4"].draw(Scene(40, 2, 2).pattern).axes
     assert surface.images[0].get_array().shape == (12, 12)
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)

@@ -51,19 +51,11 @@ def correlations(table, ensembles):
 
 def needed(figure):
     """Files that a figure is drawn from."""
-    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths(figure)):
+    lengths = config["figures"].get(figure, {})
+    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
         if scene is None:
             yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
             yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:
             yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
-
-
-def lengths(figure):
-    """What the configuration says of a figure."""
-    return config["figures"].get(figure, {})
-
-
-def figure_files(name):
-    return expand(f"{RESULTS}/figures/{name}.{{suffix}}", suffix=["pdf", "png"])

@@ -25,7 +25,7 @@ for figure, declared in FIGURES.items():
         params:
             code=sources.digest("springblock.commands.figure", f"springblock.figures.{figure}"),
             figure=figure,
-            options=declared.source.options(config["n_blocks"], lengths(figure)),
+            options=declared.source.options(config["n_blocks"], config["figures"].get(figure, {})),
             caption=declared.caption,
         message:
             f"Drawing {figure}: {declared.title}"

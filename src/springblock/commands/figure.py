@@ -1,6 +1,7 @@
 """springblock figure NAME: one figure, written in as many formats as --output is given."""
 
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
@@ -10,14 +11,7 @@ import click
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
 from springblock.figures import declarations
-from springblock.figures.declaration import (
-    Correlations,
-    Declaration,
-    Realisations,
-    Source,
-    Surface,
-    Table,
-)
+from springblock.figures.declaration import Correlations, Realisations, Source, Surface, Table
 from springblock.figures.style import save
 from springblock.tables import (
     CORRELATION,
@@ -58,35 +52,19 @@ def _correlations(source: Correlations, correlation: Path, lengths: Paths) -> li
     return [table.to_pandas() for table in tables]
 
 
-_MANY: dict[str, Any] = {"type": INPUT, "nargs": -1, "required": True}
+_one = partial(click.argument, type=INPUT)
+_many = partial(_one, nargs=-1, required=True)
 #: What the command of a figure takes, and how that becomes what `draw` takes, by kind of source.
 _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     Source: ([], lambda source: []),
     Surface: ([scene_options], lambda source, scene: [scene.pattern]),
-    Table: ([click.argument("table", type=INPUT)], lambda source, table: [read_frame(table)]),
-    Realisations: ([click.argument("batches", **_MANY)], _realisations),
-    Correlations: (
-        [click.argument("correlation", type=INPUT), click.argument("lengths", **_MANY)],
-        _correlations,
-    ),
+    Table: ([_one("table")], lambda source, table: [read_frame(table)]),
+    Realisations: ([_many("batches")], _realisations),
+    Correlations: ([_one("correlation"), _many("lengths")], _correlations),
 }
 _OUTPUTS = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
 )
-
-
-def _command(name: str, declared: Declaration) -> click.Command:
-    takes, given = _SOURCES[type(declared.source)]
-
-    def write(outputs: Paths, **inputs: Any) -> None:
-        with one_sentence():
-            draw = import_module(f"springblock.figures.{name}").draw
-            picture = draw(*given(declared.source, **inputs))
-            for output in outputs:
-                save(picture, output)
-
-    command = click.command(name, help=declared.caption, short_help=declared.title)
-    return command(with_options([*takes, _OUTPUTS], write))
 
 
 class _Figures(click.Group):
@@ -99,7 +77,18 @@ class _Figures(click.Group):
         figures = declarations()
         if cmd_name not in figures:
             raise click.UsageError(f"{cmd_name!r} is no figure; there are {', '.join(figures)}")
-        return _command(cmd_name, figures[cmd_name])
+        declared = figures[cmd_name]
+        takes, given = _SOURCES[type(declared.source)]
+
+        def write(outputs: Paths, **inputs: Any) -> None:
+            draw = import_module(f"springblock.figures.{cmd_name}").draw
+            with one_sentence():
+                picture = draw(*given(declared.source, **inputs))
+                for output in outputs:
+                    save(picture, output)
+
+        command = click.command(cmd_name, help=declared.caption, short_help=declared.title)
+        return command(with_options([*takes, _OUTPUTS], write))
 
 
 @click.group("figure", cls=_Figures, subcommand_metavar="NAME [INPUTS]... --output FILE")

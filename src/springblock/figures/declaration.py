@@ -93,8 +93,11 @@ class Declaration:
 
     title: str
     category: Category
-    caption: str  #: in whole sentences
+    caption: str  #: in whole sentences; lines may break anywhere
     source: Source
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "caption", " ".join(self.caption.split()))
 
     def is_part_of(self, groups: Groups) -> bool:
         """Whether a study has all groups of scenes that the figure is drawn from."""

@@ -23,11 +23,9 @@ from springblock.pattern import Pattern
 FIGURE = Declaration(
     title="The model",
     category="Figures",
-    caption=(
-        "The model: a) the mesh of internal springs, drawn from a list of bonds that is tested "
-        "against the energy of all springs; b) side view of the slider, moving at constant "
-        "velocity v, and of the shear springs K_s. Figure 1 of the paper."
-    ),
+    caption="""The model: a) the mesh of internal springs, drawn from a list of bonds that is tested
+    against the energy of all springs; b) side view of the slider, moving at constant velocity v,
+    and of the shear springs K_s. Figure 1 of the paper.""",
     source=Source(),
 )
 

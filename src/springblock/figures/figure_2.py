@@ -21,12 +21,10 @@ from springblock.statistics import cut
 FIGURE = Declaration(
     title="Force and detachments, flat surface",
     category="Figures",
-    caption=(
-        "Friction force on a flat surface over the normal force, and share of blocks that detach "
-        "in each sample interval. Dotted: t_max, the time of the force maximum; solid: t_avg, the "
-        "mean first detachment time. One realisation, the first seed, in front of the whole "
-        "ensemble. Figure 2 of the paper."
-    ),
+    caption="""Friction force on a flat surface over the normal force, and share of blocks that
+    detach in each sample interval. Dotted: t_max, the time of the force maximum; solid: t_avg, the
+    mean first detachment time. One realisation, the first seed, in front of the whole ensemble.
+    Figure 2 of the paper.""",
     source=Realisations(groups=("flat",)),
 )
 

@@ -19,11 +19,9 @@ from springblock.run import Array, Run
 FIGURE = Declaration(
     title="First detachment times, flat surface",
     category="Figures",
-    caption=(
-        "First detachment times t_det over t_max of the realisation shown in figure 2: blue blocks "
-        "detach before the force peak, red ones after it. One realisation; a map of single events "
-        "has no error bar. Figure 3 of the paper."
-    ),
+    caption="""First detachment times t_det over t_max of the realisation shown in figure 2: blue
+    blocks detach before the force peak, red ones after it. One realisation; a map of single events
+    has no error bar. Figure 3 of the paper.""",
     source=Realisations(groups=("flat",), batches=1),
 )
 

@@ -23,10 +23,8 @@ from springblock.pattern import Pattern
 FIGURE = Declaration(
     title="Square pillars",
     category="Figures",
-    caption=(
-        "Square pillars, drawn from the mask that the solver uses, with the coordinates (x_p, y_p) "
-        "of one pillar. Figure 4 of the paper."
-    ),
+    caption="""Square pillars, drawn from the mask that the solver uses, with the coordinates (x_p,
+    y_p) of one pillar. Figure 4 of the paper.""",
     source=Surface(),
 )
 

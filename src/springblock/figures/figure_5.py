@@ -25,12 +25,10 @@ if TYPE_CHECKING:
 FIGURE = Declaration(
     title="First detachment times on one pillar",
     category="Figures",
-    caption=(
-        "First detachment times t_det over t_max on one pillar, means over all pillars and "
-        "realisations: a) by place on the pillar, b) by part of each ring of blocks from the edge "
-        "to the middle, with 95 % bootstrap intervals over realisations. Figure 5 of the paper; b) "
-        "is an addition."
-    ),
+    caption="""First detachment times t_det over t_max on one pillar, means over all pillars and
+    realisations: a) by place on the pillar, b) by part of each ring of blocks from the edge to the
+    middle, with 95 % bootstrap intervals over realisations. Figure 5 of the paper; b) is an
+    addition.""",
     source=Realisations(groups=("pillars",)),
 )
 

@@ -16,6 +16,7 @@ from springblock.figures.ensembles import (
     FORCE,
     FRICTION,
     LAG,
+    Runs,
     draw_detachments,
     draw_force,
     draw_no_lag,
@@ -25,19 +26,17 @@ from springblock.figures.ensembles import (
     size_colors,
 )
 from springblock.figures.style import BLACK, GREY, MICRO, journal
-from springblock.run import Array, Run
+from springblock.run import Array
 from springblock.statistics import common_curve, mean_interval
 
 FIGURE = Declaration(
     title="Force and detachments, pillars",
     category="Figures",
-    caption=(
-        "a) Friction force over the normal force and b) share of first detachments in each bin, on "
-        "a flat surface and on pillars of several sizes; dots: t_max, rings: t_avg. c) Static "
-        "friction and d) t_max - t_avg over the size of the pillars; dashed: flat surface. Means "
-        "over realisations with 95 % bootstrap intervals. Curves end with the shortest "
-        "realisation. Figure 6 of the paper; c) and d) are additions."
-    ),
+    caption="""a) Friction force over the normal force and b) share of first detachments in each
+    bin, on a flat surface and on pillars of several sizes; dots: t_max, rings: t_avg. c) Static
+    friction and d) t_max - t_avg over the size of the pillars; dashed: flat surface. Means over
+    realisations with 95 % bootstrap intervals. Curves end with the shortest realisation. Figure 6
+    of the paper; c) and d) are additions.""",
     source=Realisations(groups=("flat", "pillars"), keys=("n_p",)),
 )
 
@@ -45,15 +44,12 @@ _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins
 _LEFT, _RIGHT = (17.0, 91.0), (128.0, 58.0)  #: left edge and width of the panels, mm
 _UPPER, _LOWER = (54.0, 43.0), (11.0, 37.0)  #: lower edge and height
 
-Ensembles = Mapping[int, Sequence[Run]]  #: runs by n_p, 0 for the flat surface
+Ensembles = Mapping[int, Runs]  #: by n_p, 0 for the flat surface
 
 
 @journal
 def draw(ensembles: Ensembles) -> Figure:
-    """Draw a) force and b) detachments over time, c) static friction and d) t_max - t_avg over n_p.
-
-    Bands and bars are 95 % bootstrap intervals of the mean over runs.
-    """
+    """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
     ensembles = dict(sorted(ensembles.items()))
     colors = size_colors(ensembles)
     picture = style.figure(style.DOUBLE, 103.0)

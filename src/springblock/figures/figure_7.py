@@ -21,14 +21,11 @@ if TYPE_CHECKING:  # read by the command, and only then
 FIGURE = Declaration(
     title="Correlation of detachments on pillars",
     category="Figures",
-    caption=(
-        "Correlation of first detachment times along the sides of a pillar, from the middle of the "
-        "side, sliding along x: c_x on sides along x, c_y on sides along y. Lines: exp(-r/l_c), "
-        "dotted beyond the range of the fit. Inset: l_c of c_x over the size of the pillars; open: "
-        "fits of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are "
-        "95 % bootstrap intervals over realisations. Figure 7 of the paper; the open points are an "
-        "addition."
-    ),
+    caption="""Correlation of first detachment times along the sides of a pillar, from the middle of
+    the side, sliding along x: c_x on sides along x, c_y on sides along y. Lines: exp(-r/l_c),
+    dotted beyond the range of the fit. Inset: l_c of c_x over the size of the pillars; open: fits
+    of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are 95 % bootstrap
+    intervals over realisations. Figure 7 of the paper; the open points are an addition.""",
     source=Correlations(groups=("pillars",)),
 )
 
@@ -43,8 +40,7 @@ def draw(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
     """Draw c_x(r) and c_y(r) of one scene with their fits, and l_c over n_p in an inset.
 
     `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
-    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them. Bands and bars
-    are 95 % bootstrap intervals over realisations.
+    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
 
     Raises
     ------

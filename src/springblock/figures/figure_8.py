@@ -20,10 +20,8 @@ from springblock.pattern import Pattern
 FIGURE = Declaration(
     title="Grooved pillars",
     category="Figures",
-    caption=(
-        "Pillars with grooves along x, drawn from the mask that the solver uses, with the "
-        "coordinates of one pillar. Figure 8 of the paper."
-    ),
+    caption="""Pillars with grooves along x, drawn from the mask that the solver uses, with the
+    coordinates of one pillar. Figure 8 of the paper.""",
     source=Surface(),
 )
 

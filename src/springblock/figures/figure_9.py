@@ -28,13 +28,11 @@ from springblock.statistics import Curve, common_curve
 FIGURE = Declaration(
     title="Force and detachments, grooved pillars",
     category="Figures",
-    caption=(
-        "Friction force over the normal force and share of first detachments in each bin on "
-        "pillars with grooves, for each sliding direction; b) and d) enlarge the end. Means over "
-        "realisations with 95 % bootstrap intervals. Triangles are load peaks of the mean: those "
-        "that stand out by more than two standard errors and 1 % of the largest force, and reach "
-        "90 % of it. Figure 9 of the paper."
-    ),
+    caption="""Friction force over the normal force and share of first detachments in each bin on
+    pillars with grooves, for each sliding direction; b) and d) enlarge the end. Means over
+    realisations with 95 % bootstrap intervals. Triangles are load peaks of the mean: those that
+    stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
+    Figure 9 of the paper.""",
     source=Realisations(groups=("grooves",), keys=("direction",)),
 )
 
@@ -47,8 +45,7 @@ _COLORS = (BLUE, VERMILION, GREEN, PURPLE)
 def draw(ensembles: Mapping[str, Runs]) -> Figure:
     """Draw a), b) the mean force and c), d) detachments for each sliding direction.
 
-    The left panels show the whole run, the right ones its end. Bands are 95 % bootstrap
-    intervals of the mean over runs; triangles are the load peaks that `load_peaks` finds.
+    The left panels show the whole run, the right ones its end, with the peaks of `load_peaks`.
     """
     curves = {direction: common_curve(runs) for direction, runs in sorted(ensembles.items())}
     span = enlarged_span(list(curves.values()))

@@ -21,10 +21,8 @@ if TYPE_CHECKING:
 FIGURE = Declaration(
     title="Stiff and extreme cases",
     category="Accuracy",
-    caption=(
-        "Energy residual and error in stiff and extreme cases. Refused cases are beyond the "
-        "stability limit; failing ones end in an exception."
-    ),
+    caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond the
+    stability limit; failing ones end in an exception.""",
     source=Table("stability"),
 )
 

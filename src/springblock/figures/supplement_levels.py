@@ -36,12 +36,10 @@ def _along_and_across(*groups: Scenes) -> list[Scene]:
 FIGURE = Declaration(
     title="A third level",
     category="Supplement",
-    caption=(
-        "Friction force over the normal force towards the end of a run, on patterns of two and of "
-        "three levels, sliding a) along and b) across the grooves. Means over realisations with "
-        "95 % bootstrap intervals; triangles are load peaks of the mean, as in figure 9. The paper "
-        "expects that its effects remain on further levels."
-    ),
+    caption="""Friction force over the normal force towards the end of a run, on patterns of two and
+    of three levels, sliding a) along and b) across the grooves. Means over realisations with 95 %
+    bootstrap intervals; triangles are load peaks of the mean, as in figure 9. The paper expects
+    that its effects remain on further levels.""",
     source=Realisations(
         groups=("grooves", "third_level"), keys=("direction", "level"), pick=_along_and_across
     ),
@@ -52,8 +50,7 @@ FIGURE = Declaration(
 def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level.
 
-    `ensembles` holds runs by (direction, number of levels). Bands are 95 % bootstrap intervals
-    of the mean over runs; triangles are the load peaks of the mean.
+    `ensembles` holds runs by (direction, number of levels).
     """
     curves = {key: common_curve(runs) for key, runs in sorted(ensembles.items())}
     span = enlarged_span(list(curves.values()))

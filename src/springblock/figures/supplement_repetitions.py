@@ -31,12 +31,10 @@ from springblock.statistics import half_widths
 FIGURE = Declaration(
     title="Number of realisations",
     category="Supplement",
-    caption=(
-        "Half the 95 % interval of a) static friction and b) t_max - t_avg over the number k of "
-        "realisations, which the paper does not give. Markers: bootstrap intervals, mean over "
-        "random subsets of the ensembles; lines: 1.96 standard deviations of the whole ensemble "
-        "over the root of k. Bootstrap intervals of few realisations are too narrow."
-    ),
+    caption="""Half the 95 % interval of a) static friction and b) t_max - t_avg over the number k
+    of realisations, which the paper does not give. Markers: bootstrap intervals, mean over random
+    subsets of the ensembles; lines: 1.96 standard deviations of the whole ensemble over the root of
+    k. Bootstrap intervals of few realisations are too narrow.""",
     source=Realisations(groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction")),
 )
 
@@ -49,8 +47,7 @@ _NORMAL = 1.96  #: half a 95 % interval in standard errors
 def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations.
 
-    `ensembles` holds runs by (n_p, n_p2, direction). Markers are means over random subsets of an
-    ensemble; lines show the scatter of the whole ensemble over the root of k, the number.
+    `ensembles` holds runs by (n_p, n_p2, direction).
     """
     picture, panels = two_panels("number of realisations", above=12.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)

@@ -19,13 +19,11 @@ from springblock.statistics import mean_interval
 FIGURE = Declaration(
     title="Blocks that let go again",
     category="Supplement",
-    caption=(
-        "Blocks that have come to rest and let go again, over time, as a share of all blocks in "
-        "contact; the re-stick rule can matter for no more. Means over realisations with 95 % "
-        "bootstrap intervals. The paper does not say when a sliding block sticks; of the two "
-        "integrators, `rk4` lets every block that turns back stick, `leapfrog` only those that "
-        "static friction can hold."
-    ),
+    caption="""Blocks that have come to rest and let go again, over time, as a share of all blocks
+    in contact; the re-stick rule can matter for no more. Means over realisations with 95 %
+    bootstrap intervals. The paper does not say when a sliding block sticks; of the two integrators,
+    `rk4` lets every block that turns back stick, `leapfrog` only those that static friction can
+    hold.""",
     source=Realisations(groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction")),
 )
 
@@ -43,8 +41,7 @@ def let_go_again(run: Run) -> Array:
 def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     """Draw how many blocks have let go again over time, for each surface.
 
-    `ensembles` holds runs by (n_p, n_p2, direction). Bands are 95 % bootstrap intervals of the
-    mean over runs.
+    `ensembles` holds runs by (n_p, n_p2, direction).
     """
     picture = style.figure(style.COLUMN, 74.0)
     ax = style.axes(picture, 16.0, 11.0, 71.0, 41.0)

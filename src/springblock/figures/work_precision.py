@@ -28,13 +28,11 @@ if TYPE_CHECKING:
 FIGURE = Declaration(
     title="Error against run time",
     category="Accuracy",
-    caption=(
-        "Error against cost of both integrators, and of Runge-Kutta with the friction of each "
-        "stage, which does not converge. Single runs are compared with an event-located reference "
-        "solution, ensembles with the same seeds at a fine step, with 95 % t intervals. The grey "
-        "area lies below the disagreement of the finest step with the reference, the blue band "
-        "holds 95 % of the means over 20 seeds."
-    ),
+    caption="""Error against cost of both integrators, and of Runge-Kutta with the friction of each
+    stage, which does not converge. Single runs are compared with an event-located reference
+    solution, ensembles with the same seeds at a fine step, with 95 % t intervals. The grey area
+    lies below the disagreement of the finest step with the reference, the blue band holds 95 % of
+    the means over 20 seeds.""",
     source=Table("work_precision"),
 )
 
