@@ -12,12 +12,11 @@ import pytest
 import yaml
 
 from springblock import Material
+from springblock.figures import declarations
 from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
-SUPPLEMENT = ["supplement_repetitions", "supplement_restick"]
-FIGURES = [*(f"figure_{k}" for k in range(1, 10)), *SUPPLEMENT]
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
 
 TINY = {
@@ -37,6 +36,13 @@ TINY = {
         "figure_7": {"n_p": 6},
         "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
     },
+}
+
+#: Those of the study without its optional groups of scenes and without its tables of errors.
+FIGURES = {
+    name
+    for name, figure in declarations().items()
+    if figure.is_part_of(TINY["scenes"]) and figure.category != "Accuracy"
 }
 
 
@@ -90,6 +96,16 @@ def edited(study: Path, request: pytest.FixtureRequest):
 def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
     assert names == {f"{name}.{suffix}" for name in FIGURES for suffix in ("pdf", "png")}
+    assert {f"figure_{number}" for number in range(1, 10)} <= FIGURES
+    assert {"supplement_repetitions", "supplement_restick"} <= FIGURES
+
+
+def test_the_report_says_of_each_figure_what_it_declares(study, tmp_path):
+    outcome = snakemake(study, "--report", str(tmp_path / "report.html"))
+    assert outcome.returncode == 0, outcome.stderr
+    report = (tmp_path / "report.html").read_text()
+    for name in FIGURES:
+        assert f'"caption": "<p>{declarations()[name].caption[:60]}' in report
 
 
 def test_the_table_holds_every_realisation_once(study):
@@ -141,7 +157,8 @@ def test_the_whole_study_can_be_planned(study):
     """With all its groups of scenes and its comparisons, from nothing."""
     paper = {"configuration": ("config/config.yaml",)}
     jobs = planned(study, "--config", "results=elsewhere", **paper)
-    assert {"compare", "stability", "work_precision", "accuracy", "claims", *FIGURES} <= set(jobs)
+    assert {"compare", "stability_table", "precision_table", "accuracy", "claims"} <= set(jobs)
+    assert {"stability", "work_precision", *declarations()} <= set(jobs)
     assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
     sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **paper)
     assert set(sizes) == {"compile", "prelude", "simulate", "correlation", "figure_7"}

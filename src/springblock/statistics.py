@@ -11,8 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import find_peaks
-from scipy.stats import t
 
 from springblock.pattern import Pattern
 from springblock.run import Array, Run, friction, percent
@@ -108,6 +106,8 @@ def repeatability(fields: Array) -> Interval:
     doi:10.1037/0033-2909.86.2.420). The 95 % interval is Student's, with the jackknife's error:
     a bootstrap would compare fields with themselves. NaN below three fields.
     """
+    from scipy.stats import t  # slow to load, and most jobs do without
+
     k = len(fields)
     if k < 3:
         return Interval(*np.full(3, np.nan))
@@ -207,6 +207,8 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
     by `share` of the largest force, which keeps out the small waves of loading; and it must reach
     `_LOAD_PEAK` of the largest force, which keeps out those of sliding. Section 3.3.
     """
+    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
+
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 

@@ -40,69 +40,49 @@ rule compare:
         "--scene {wildcards.scene} --output {output} > {log} 2>&1"
 
 
-rule work_precision:
+rule precision_table:
     input:
         COMPARISONS,
     output:
-        table=f"{RESULTS}/tables/work_precision.parquet",
-        pdf=f"{RESULTS}/figures/work_precision.pdf",
-        png=report(
-            f"{RESULTS}/figures/work_precision.png",
-            caption="../report/work_precision.rst",
-            category="Accuracy",
-            labels={"figure": "work_precision", "shows": "Error against run time"},
-        ),
+        f"{RESULTS}/tables/work_precision.parquet",
     log:
-        f"{RESULTS}/logs/work_precision.log",
+        f"{RESULTS}/logs/precision_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/work_precision.tsv"
+        f"{RESULTS}/benchmarks/precision_table.tsv"
     resources:
         mem_mb=500,
         runtime=5,
-    params:
-        code=figure_code("work_precision"),
     message:
-        "Drawing error against run time"
+        "Collecting error against run time in one table"
     shell:
-        "({VALIDATION}.work_precision collect {input} --output {output.table} && "
-        "{SPRINGBLOCK} work_precision {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "{VALIDATION}.work_precision collect {input} --output {output} > {log} 2>&1"
 
 
-rule stability:
+rule stability_table:
     input:
         COMPILED,
         code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
     output:
-        table=f"{RESULTS}/tables/stability.parquet",
-        pdf=f"{RESULTS}/figures/stability.pdf",
-        png=report(
-            f"{RESULTS}/figures/stability.png",
-            caption="../report/stability.rst",
-            category="Accuracy",
-            labels={"figure": "stability", "shows": "Stiff and extreme cases"},
-        ),
+        f"{RESULTS}/tables/stability.parquet",
     log:
-        f"{RESULTS}/logs/stability.log",
+        f"{RESULTS}/logs/stability_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/stability.tsv"
+        f"{RESULTS}/benchmarks/stability_table.tsv"
     resources:
         mem_mb=1000,
         runtime=10,
     params:
-        code=[COMPARED, figure_code("stability")],
+        code=COMPARED,
     message:
         "Trying stiff and extreme cases"
     shell:
-        "({VALIDATION}.stability --output {output.table} && "
-        "{SPRINGBLOCK} stability {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "{VALIDATION}.stability --output {output} > {log} 2>&1"
 
 
 rule accuracy:
     input:
-        rules.work_precision.output.table,
-        rules.stability.output.table,
+        rules.precision_table.output,
+        rules.stability_table.output,
         rules.aggregate.output,
     output:
         f"{RESULTS}/accuracy.md",

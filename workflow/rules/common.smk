@@ -4,7 +4,7 @@ import yaml
 from snakemake.exceptions import WorkflowError
 
 from springblock import sources, study
-from springblock.scene import Scene
+from springblock.figures import declarations
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -15,7 +15,6 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
-FIGURES = [f"figure_{number}" for number in range(1, 10)]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
 )
@@ -23,6 +22,10 @@ CORRELATIONS = expand(
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
+#: Scenes by group.
+SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
+#: What figures declare whose groups of scenes the configuration simulates.
+FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
 SPRINGBLOCK = f"{sys.executable} -m springblock"
 
 
@@ -40,19 +43,19 @@ def realisations(*groups):
     return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
 
 
-def one_for_each(key, group):
-    """The first ensemble of a group's grid for each length or direction, by its value."""
-    first = {}
-    for ensemble in ENSEMBLES[group]:
-        first.setdefault(getattr(ensemble.scene, key), ensemble)
-    return first
-
-
 def correlations(table, ensembles):
     """Files that hold a table of correlations for each of these ensembles that has sides."""
     scenes = [ensemble.scene for ensemble in ensembles if ensemble.scene.sides]
     return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
 
 
-def figure_files(name):
-    return expand(f"{RESULTS}/figures/{name}.{{suffix}}", suffix=["pdf", "png"])
+def needed(figure):
+    """Files that a figure is drawn from."""
+    lengths = config["figures"].get(figure, {})
+    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
+        if scene is None:
+            yield f"{RESULTS}/tables/{table}.parquet"
+        elif table == "realisations":
+            yield from batches([ENSEMBLE[scene.folder]])[:number]
+        else:
+            yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"

@@ -6,6 +6,7 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from springblock.figures.declaration import Declaration, Surface
 from springblock.figures.style import journal
 from springblock.figures.surface import (
     Axis,
@@ -15,6 +16,14 @@ from springblock.figures.surface import (
     surface_and_pillar,
 )
 from springblock.pattern import Pattern
+
+FIGURE = Declaration(
+    title="Grooved pillars",
+    category="Figures",
+    caption="""Pillars with grooves along x, drawn from the mask that the solver uses, with the
+    coordinates of one pillar. Figure 8 of the paper.""",
+    source=Surface(),
+)
 
 
 @journal

@@ -4,9 +4,11 @@ Not in the paper (Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.1
 what an integration step costs and what it is good for.
 """
 
+from __future__ import annotations
+
 import inspect
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -15,11 +17,24 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, SymmetricalLogLocator
-from pandas import DataFrame
 
-from springblock import simulate
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Table
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, journal
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+FIGURE = Declaration(
+    title="Error against run time",
+    category="Accuracy",
+    caption="""Error against cost of both integrators, and of Runge-Kutta with the friction of each
+    stage, which does not converge. Single runs are compared with an event-located reference
+    solution, ensembles with the same seeds at a fine step, with 95 % t intervals. The grey area
+    lies below the disagreement of the finest step with the reference, the blue band holds 95 % of
+    the means over 20 seeds.""",
+    source=Table("work_precision"),
+)
 
 _NANO = 1e9  #: ns per s
 _PERCENT = 100.0
@@ -161,6 +176,8 @@ def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
 
 def _ringed() -> dict[str, tuple[str, float]]:
     """Integrator and step in s as `simulate` has them by default, and as the paper."""
+    from springblock import simulate  # brings numba, which no other figure needs
+
     default = inspect.signature(simulate).parameters
     return {"default": (default["integrator"].default, default["step"].default), "paper": _PAPER}
 
