@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from scenes import drawn
 from springblock import Material, Pattern, draw_friction, simulate
+from springblock.accuracy.surfaces import drawn
 from springblock.prelude import Prelude
 from springblock.realisation import load
 from springblock.solver.springs import band_rows

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scenes import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
+from springblock.accuracy.surfaces import drawn, flat, uniform
 from springblock.realisation import STEP, first_minimum, heading
 
 PAPER = Material()

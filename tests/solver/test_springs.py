@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes import SPRINGS, lattice_size, spring_forces, with_border
+from springblock.accuracy.kernels import SPRINGS, lattice_size, spring_forces, with_border
 from springblock.solver.springs import (
     Q_MAX,
     Q_MIN,

@@ -1,24 +1,13 @@
-# Error against run time, and stability; the programs stand beside the tests that they share.
+# Error against run time, stiff and extreme cases, and the page on both.
 
-VALIDATION = f"PYTHONPATH=tests {sys.executable} -m validation"
-COMPARISONS = expand(
-    f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
-    comparison=["reference", "paired", "twin"],
-    scene=["flat", "pillared", "grooved"],
-)
+from springblock.accuracy.conventions import COMPARISONS, SCENES
 
 COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
-
-#: Digest of all of the package that the comparisons run.
-COMPARED = sources.digest(
-    *(f"springblock.{module}" for module in ("realisation", "asperities", "pattern", "tables"))
-)
 
 
 rule compare:
     input:
         COMPILED,
-        code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -32,19 +21,58 @@ rule compare:
         mem_mb=600,
         runtime=20,
     params:
-        code=COMPARED,
+        code=sources.digest("springblock.commands.compare"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "{VALIDATION}.work_precision compare --comparison {wildcards.comparison} "
-        "--scene {wildcards.scene} --output {output} > {log} 2>&1"
+        "{SPRINGBLOCK} compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "--output {output} > {log} 2>&1"
+
+
+rule precision_table:
+    input:
+        expand(rules.compare.output, comparison=COMPARISONS, scene=SCENES),
+    output:
+        f"{RESULTS}/tables/work_precision.parquet",
+    log:
+        f"{RESULTS}/logs/precision_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/precision_table.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.correlation"),
+    message:
+        "Collecting errors and run times in one table"
+    shell:
+        "{SPRINGBLOCK} collect {input} --output {output} > {log} 2>&1"
+
+
+rule stability_table:
+    input:
+        COMPILED,
+    output:
+        f"{RESULTS}/tables/stability.parquet",
+    log:
+        f"{RESULTS}/logs/stability_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/stability_table.tsv"
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        code=sources.digest("springblock.commands.stability"),
+    message:
+        "Trying stiff and extreme cases"
+    shell:
+        "{SPRINGBLOCK} try --output {output} > {log} 2>&1"
 
 
 rule work_precision:
     input:
-        COMPARISONS,
+        rules.precision_table.output,
     output:
-        table=f"{RESULTS}/tables/work_precision.parquet",
         pdf=f"{RESULTS}/figures/work_precision.pdf",
         png=report(
             f"{RESULTS}/figures/work_precision.png",
@@ -64,17 +92,13 @@ rule work_precision:
     message:
         "Drawing error against run time"
     shell:
-        "({VALIDATION}.work_precision collect {input} --output {output.table} && "
-        "{SPRINGBLOCK} work_precision {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "{SPRINGBLOCK} work_precision {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule stability:
     input:
-        COMPILED,
-        code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
+        rules.stability_table.output,
     output:
-        table=f"{RESULTS}/tables/stability.parquet",
         pdf=f"{RESULTS}/figures/stability.pdf",
         png=report(
             f"{RESULTS}/figures/stability.png",
@@ -87,22 +111,20 @@ rule stability:
     benchmark:
         f"{RESULTS}/benchmarks/stability.tsv"
     resources:
-        mem_mb=1000,
-        runtime=10,
+        mem_mb=500,
+        runtime=5,
     params:
-        code=[COMPARED, figure_code("stability")],
+        code=figure_code("stability"),
     message:
-        "Trying stiff and extreme cases"
+        "Drawing stiff and extreme cases"
     shell:
-        "({VALIDATION}.stability --output {output.table} && "
-        "{SPRINGBLOCK} stability {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "{SPRINGBLOCK} stability {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule accuracy:
     input:
-        rules.work_precision.output.table,
-        rules.stability.output.table,
+        rules.precision_table.output,
+        rules.stability_table.output,
         rules.aggregate.output,
     output:
         f"{RESULTS}/accuracy.md",

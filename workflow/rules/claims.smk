@@ -3,7 +3,7 @@
 #: Tables that statements rest on beside the realisations, by the option that takes them.
 CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
 if config["accuracy"]:
-    CLAIM_TABLES["precision"] = rules.work_precision.output.table
+    CLAIM_TABLES["precision"] = rules.precision_table.output[0]
 
 
 rule claims:

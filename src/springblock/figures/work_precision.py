@@ -6,7 +6,7 @@ what an integration step costs and what it is good for.
 
 import inspect
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -15,23 +15,22 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, SymmetricalLogLocator
-from pandas import DataFrame
 
-from springblock import simulate
+from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES, order
 from springblock.figures import style
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, journal
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
 _NANO = 1e9  #: ns per s
 _PERCENT = 100.0
-_SCENES = ("flat", "pillared", "grooved")
-_STUDY = 20  #: realisations in each ensemble of the study
-_PAPER = ("plain rk4", 1e-8)  #: integrator and step, s
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
 _METHODS: dict[str, tuple[str, dict[str, Any]]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o", "markersize": 4.2}),
     "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
-    "plain rk4": (
+    PLAIN: (
         "Runge–Kutta, stage-wise friction",
         {"color": GREY, "marker": "^", "markersize": 3.4},
     ),
@@ -72,7 +71,7 @@ _TWIN_BOTTOM, _TWIN_HEIGHT = 10.0, 31.0
 
 
 @journal
-def draw(table: DataFrame) -> Figure:
+def draw(table: "DataFrame") -> Figure:
     """Draw the table of work and precision, a column per scene.
 
     a-c) Single runs against a solution that locates every event: error of the detachment times
@@ -107,7 +106,7 @@ def draw(table: DataFrame) -> Figure:
 
 def _row(picture: Figure, bottom: float, height: float) -> list[Axes]:
     """A panel for each scene, side by side."""
-    lefts = (_LEFT + i * (_WIDTH + _BETWEEN) for i in range(len(_SCENES)))
+    lefts = (_LEFT + i * (_WIDTH + _BETWEEN) for i in range(len(SCENES)))
     return [style.axes(picture, left, bottom, _WIDTH, height) for left in lefts]
 
 
@@ -116,19 +115,19 @@ def _letters(panels: Sequence[Axes], letters: str, left: float = 0.0) -> None:
         style.panel_letter(ax, letter, left=left, above=1.5)
 
 
-def _by_scene(rows: DataFrame) -> Iterator[tuple[str, DataFrame]]:
-    for scene in _SCENES:
+def _by_scene(rows: "DataFrame") -> "Iterator[tuple[str, DataFrame]]":
+    for scene in SCENES:
         yield scene, rows[rows.scene == scene]
 
 
-def _name_scenes(panels: Sequence[Axes], rows: DataFrame) -> None:
+def _name_scenes(panels: Sequence[Axes], rows: "DataFrame") -> None:
     """Write above each column which scene it shows, and how large it is."""
     for ax, (scene, part) in zip(panels, _by_scene(rows), strict=True):
         sizes = " or ".join(f"{n} × {n}" for n in part.n_blocks.unique())
         ax.set_title(f"{scene}, {sizes} blocks", pad=4.5)
 
 
-def _draw_costs(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
+def _draw_costs(panels: Sequence[Axes], rows: "DataFrame", cost: str) -> None:
     """Error of one quantity over one cost, on common axes."""
     for ax, (_, part) in zip(panels, _by_scene(rows), strict=True):
         ax.set(xscale="log", yscale="log", xlabel=_COSTS[cost])
@@ -140,7 +139,7 @@ def _draw_costs(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
     _share_limits(panels, rows, cost)
 
 
-def _share_limits(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
+def _share_limits(panels: Sequence[Axes], rows: "DataFrame", cost: str) -> None:
     """The same axes for all scenes; numbers at the left only."""
     for ax in panels:
         ax.set_xlim(0.6 * rows[cost].min(), 1.7 * rows[cost].max())
@@ -151,7 +150,7 @@ def _share_limits(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
         ax.tick_params(labelleft=False)
 
 
-def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
+def _draw_guides(ax: Axes, rows: "DataFrame", cost: str) -> None:
     """A line of order 1 below the leapfrog, and the error of its finest step as a floor."""
     line = rows[rows.integrator == "leapfrog"].sort_values("step")
     spent = line[cost].to_numpy()
@@ -161,32 +160,31 @@ def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
 
 def _ringed() -> dict[str, tuple[str, float]]:
     """Integrator and step in s as `simulate` has them by default, and as the paper."""
+    from springblock.realisation import simulate  # here, for it takes the solver along
+
     default = inspect.signature(simulate).parameters
-    return {"default": (default["integrator"].default, default["step"].default), "paper": _PAPER}
+    return {
+        "default": (default["integrator"].default, default["step"].default),
+        "paper": (PLAIN, PAPER_STEP),
+    }
 
 
-def _mark_default_and_paper(ax: Axes, rows: DataFrame, cost: str) -> None:
+def _mark_default_and_paper(ax: Axes, rows: "DataFrame", cost: str) -> None:
     for name, (method, step) in _ringed().items():
         row = rows[(rows.integrator == method) & np.isclose(rows.step, step, rtol=1e-6, atol=0.0)]
         ax.plot(row[cost], row.error, **_RING, **_RINGS[name])
 
 
-def _write_orders(ax: Axes, rows: DataFrame) -> None:
+def _write_orders(ax: Axes, rows: "DataFrame") -> None:
     """Write the orders of both integrators in the corner of little work and small errors."""
     for i, method in enumerate(("leapfrog", "rk4")):
         line = rows[rows.integrator == method]
-        text = f"order {_order(line):.1f}"
+        text = f"order {order(line.step, line.error):.1f}"
         place = (0.03, 0.16 - 0.11 * i)
         ax.text(*place, text, color=_METHODS[method][1]["color"], transform=ax.transAxes)
 
 
-def _order(line: DataFrame) -> float:
-    """Slope of log error over log step, fitted to the finest decade of steps."""
-    fine = line[line.step <= 10.001 * line.step.min()]
-    return float(np.polyfit(np.log(fine.step), np.log(fine.error), 1)[0])
-
-
-def _draw_biases(picture: Figure, table: DataFrame) -> None:
+def _draw_biases(picture: Figure, table: "DataFrame") -> None:
     """Ensembles with paired seeds, before the scatter of an ensemble as large as the study's.
 
     All on one axis, linear up to 1 % and logarithmic beyond: neither the intervals of fine steps
@@ -195,7 +193,7 @@ def _draw_biases(picture: Figure, table: DataFrame) -> None:
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
     rows = [_row(picture, bottom, _BIAS_HEIGHT) for bottom in _BIAS_ROWS]
     for panels, (quantity, name) in zip(rows, _BIASES.items(), strict=True):
-        for ax, scene in zip(panels, _SCENES, strict=True):
+        for ax, scene in zip(panels, SCENES, strict=True):
             biases, spread = (
                 part[(part.quantity == quantity) & (part.scene == scene)]
                 for part in (paired, scatter)
@@ -229,13 +227,13 @@ def _share_percent(panels: Sequence[Axes]) -> None:
         ax.set_ylim(1.5 * low, 1.5 * high)
 
 
-def _half_width(rows: DataFrame) -> float:
+def _half_width(rows: "DataFrame") -> float:
     """Where 95 % of the means over as many seeds as in the study lie: ± so many percent."""
-    half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / _STUDY)
+    half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / ENSEMBLE)
     return _PERCENT * float(half.item())
 
 
-def _draw_bias(ax: Axes, rows: DataFrame) -> None:
+def _draw_bias(ax: Axes, rows: "DataFrame") -> None:
     """Bias over step; the integrators stand side by side."""
     for method, aside in (("leapfrog", 0.96), ("rk4", 1.04)):
         line = rows[rows.integrator == method].sort_values("step")
@@ -256,7 +254,7 @@ def _draw_bias(ax: Axes, rows: DataFrame) -> None:
     ax.set_xticks(steps, [f"{step:g}" for step in steps])
 
 
-def _draw_twins(picture: Figure, rows: DataFrame) -> None:
+def _draw_twins(picture: Figure, rows: "DataFrame") -> None:
     """How far a change of the thresholds takes a run from itself, and from when on."""
     panels = []
     for i, (quantity, label) in enumerate(_DIFFERENCES.items()):
@@ -284,6 +282,6 @@ def _draw_legend(picture: Figure, finest: float) -> None:
         handles.append(Line2D([], [], label=label, **_RING, **_RINGS[name]))
     handles += [
         Patch(label=f"below the leapfrog at {_NANO * finest:g} ns", **_FLOOR),
-        Patch(label=f"95 % of means over {_STUDY} seeds", **_SCATTER),
+        Patch(label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER),
     ]
     picture.legend(handles=handles, loc="upper center", ncols=4, bbox_to_anchor=(0.5, 1.0))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from springblock.accuracy import ensemble_error
+from springblock.accuracy.conventions import ensemble_error
 from springblock.claims import Claim, Evidence, Finding
 from springblock.statistics import Interval
 

@@ -36,11 +36,15 @@ is counted from the last event, so that events closer than the rounding error of
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq, minimize_scalar
 
 from springblock.material import Material
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)
 
@@ -59,11 +63,11 @@ _SLACK = 1e-9  #: share of F_n by which F_mot must fall below mu_d F_n for a sta
 class Reference:
     """What one run yields, in SI units. Arrays over blocks are indexed [y, x]."""
 
-    time: np.ndarray  #: (n,) s, multiples of the sample interval
-    force: np.ndarray  #: (n,) N, |sum of F_s| at these times
-    t_det: np.ndarray  #: (N, N) s, first detachment; NaN where never or not in contact
-    displacement: np.ndarray  #: (2, N, N) m, components x and y at the end
-    velocity: np.ndarray  #: (2, N, N) m/s, likewise
+    time: Array  #: (n,) s, multiples of the sample interval
+    force: Array  #: (n,) N, |sum of F_s| at these times
+    t_det: Array  #: (N, N) s, first detachment; NaN where never or not in contact
+    displacement: Array  #: (2, N, N) m, components x and y at the end
+    velocity: Array  #: (2, N, N) m/s, likewise
     static_friction: float  #: greatest sampled force over P l² N²
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
@@ -123,20 +127,20 @@ class _Lattice:
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
         self._stiffness = np.array(stiffnesses, dtype=float)[:, None]
 
-    def _stretch(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _stretch(self, u: Array) -> tuple[Array, Array]:
         """Bond vectors r, and q = r²/L² - 1 without the cancellation this form has."""
         d = _times(self._difference, u)
         q = (2.0 * self._axis + d) * d
         return self._axis + d, (q[0] + q[1]) / self._rest_squared
 
-    def force(self, u: np.ndarray) -> np.ndarray:
+    def force(self, u: Array) -> Array:
         """F_int (2, n, k): the sum of k (r - L) r/|r| over the bonds of each block."""
         r, q = self._stretch(u)
         # 1 - L/r = 1 - (1 + q)^(-1/2), rationalised
         pull = self._stiffness * (q / ((1.0 + q) + np.sqrt(1.0 + q))) * r
         return _times(self._net, pull)
 
-    def energy(self, u: np.ndarray) -> float:
+    def energy(self, u: Array) -> float:
         """Sum of k (r - L)² / 2 for one state, (2, n, 1)."""
         _, q = self._stretch(u)
         # r - L = L (sqrt(1 + q) - 1), rationalised
@@ -144,7 +148,7 @@ class _Lattice:
         return 0.5 * float(np.sum(self._stiffness * squared))
 
 
-def _times(matrix: sparse.csr_array, u: np.ndarray) -> np.ndarray:
+def _times(matrix: sparse.csr_array, u: Array) -> Array:
     """Both components (2, n, k) of u, multiplied at once."""
     return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
 
@@ -158,11 +162,11 @@ class _System:
 
     def __init__(
         self,
-        contact: np.ndarray,
-        mu_static: np.ndarray,
-        mu_dynamic: np.ndarray,
+        contact: Flags,
+        mu_static: Array,
+        mu_dynamic: Array,
         material: Material,
-        heading: np.ndarray,
+        heading: Array,
         stop_speed: float,
         creep_error: float,
     ) -> None:
@@ -185,31 +189,31 @@ class _System:
         self._creep_error = creep_error
         self.evaluations = 0
 
-    def initial(self) -> np.ndarray:
+    def initial(self) -> Array:
         """At rest, unstrained."""
         return np.zeros(4 * self.n + 3)
 
-    def split(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def split(self, y: Array) -> tuple[Array, Array]:
         """u and v, (2, n, k) each, from states (4 n + 3, k)."""
         half = 2 * self.n
         return y[:half].reshape(2, self.n, -1), y[half : 2 * half].reshape(2, self.n, -1)
 
-    def slider_force(self, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    def slider_force(self, t: Array, u: Array) -> Array:
         """F_s (2, n, k) at times t (k,) after the last event."""
         return self._drift[:, :, None] * (self.offset + t) - u
 
-    def driving_force(self, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    def driving_force(self, t: Array, u: Array) -> Array:
         """F_mot (2, n, k)."""
         return self._lattice.force(u) + self.slider_force(t, u)
 
-    def _turning(self, motive: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def _turning(self, motive: Array, u: Array, v: Array) -> Array:
         """Rate phi' (n, k) at which F_mot turns."""
         # central difference along v: 1e-3 is small against the spacing and large against rounding
         ahead, behind = (self._lattice.force(u + sign * 1e-3 * v) for sign in (1.0, -1.0))
         rate = (ahead - behind) / 2e-3 + self._drift[:, :, None] - v
         return (motive[0] * rate[1] - motive[1] * rate[0]) / _positive(np.sum(motive**2, axis=0))
 
-    def __call__(self, t: float, y: np.ndarray) -> np.ndarray:
+    def __call__(self, t: float, y: Array) -> Array:
         """Time derivative of the state vector."""
         self.evaluations += 1
         u, v = self.split(y[:, None])
@@ -235,7 +239,7 @@ class _System:
         )
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
-    def alarm(self, t: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def alarm(self, t: Array, y: Array) -> Array:
         """Event functions (n, k), one per block: negative as long as its state lasts."""
         u, v = self.split(y)
         motive = self.driving_force(t, u)
@@ -257,9 +261,7 @@ class _System:
             -1.0,
         )
 
-    def _creep_limits(
-        self, motive: np.ndarray, u: np.ndarray, v: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
         speed = np.hypot(*v)
         slow = (self.state[:, None] >= CREEPING) & (speed < CREEP_SPEED)
@@ -272,7 +274,7 @@ class _System:
         entered = 1.0 - np.max([2.0 * speed / CREEP_SPEED, 4.0 * lag, aside], axis=0)
         return fast, entered
 
-    def switch(self, y: np.ndarray, due: np.ndarray) -> np.ndarray:
+    def switch(self, y: Array, due: Flags) -> Flags:
         """Change the state of the blocks that are due at the last event.
 
         Returns those that detach, (n,) bool. Writes to `y` where a block stops.
@@ -295,7 +297,7 @@ class _System:
         v[:, held | stopping] = 0.0
         return detaching
 
-    def energies(self, y: np.ndarray) -> dict[str, float]:
+    def energies(self, y: Array) -> dict[str, float]:
         """Where the slider's work has gone, at the time of the last event."""
         u, v = self.split(y[:, None])
         pull = self.slider_force(np.zeros(1), u)
@@ -309,19 +311,19 @@ class _System:
         }
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
+def _unit(vectors: Array) -> Array:
     """Unit vectors along the first axis; zero where the vector is zero."""
     return vectors / _positive(np.hypot(*vectors))
 
 
-def _positive(lengths: np.ndarray) -> np.ndarray:
+def _positive(lengths: Array) -> Array:
     """The same with ones in place of zeros, to divide by."""
     return np.where(lengths > 0.0, lengths, 1.0)
 
 
 def _first_event(
     system: _System, dense: DenseOutput, start: float, end: float
-) -> tuple[float, np.ndarray] | None:
+) -> tuple[float, Flags] | None:
     """Earliest time in a step at which an event function reaches zero, and whose it is."""
     t = np.linspace(start, end, _SAMPLES + 1)
     alarm = system.alarm(t, dense(t))
@@ -340,13 +342,13 @@ def _first_event(
     return time, due
 
 
-def _alarm_at(system: _System, dense: DenseOutput, time: float) -> np.ndarray:
+def _alarm_at(system: _System, dense: DenseOutput, time: float) -> Array:
     """Event functions (n,) at one time of a step."""
     return system.alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
 
 def _bracket(
-    system: _System, dense: DenseOutput, t: np.ndarray, alarm: np.ndarray
+    system: _System, dense: DenseOutput, t: Array, alarm: Array
 ) -> tuple[float, float] | None:
     """Two times with no block due at the first and one at the second; equal if due at once."""
     reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
@@ -375,7 +377,7 @@ def _bracket(
 class _Recorder:
     """Samples of the total slider force at multiples of an interval. Scaled units."""
 
-    def __init__(self, system: _System, times: np.ndarray) -> None:
+    def __init__(self, system: _System, times: Array) -> None:
         self._system = system
         self._times = times
         self._next = 0
@@ -385,7 +387,7 @@ class _Recorder:
         """Take the samples up to `end`, counted from the last event."""
         # the last sample must not be lost to the rounding of offset + end
         reach = (self._system.offset + end) * (1.0 + 1e-14)
-        stop = np.searchsorted(self._times, reach, side="right")
+        stop = int(np.searchsorted(self._times, reach, side="right"))
         if stop <= self._next:
             return
         chosen = slice(self._next, stop)
@@ -397,8 +399,8 @@ class _Recorder:
 
 
 def _advance(
-    system: _System, y: np.ndarray, left: float, rtol: float, recorder: _Recorder
-) -> tuple[float, np.ndarray, np.ndarray]:
+    system: _System, y: Array, left: float, rtol: float, recorder: _Recorder
+) -> tuple[float, Array, Flags]:
     """Integrate to the next event, or for the time left.
 
     Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,).
@@ -426,7 +428,7 @@ def _advance(
     return left, solver.y, np.zeros(system.n, dtype=bool)
 
 
-def _heading(direction: str | float) -> np.ndarray:
+def _heading(direction: str | float) -> Array:
     """Unit vector of the slider's motion; exact along the axes."""
     if direction == "x":
         return np.array([1.0, 0.0])
@@ -437,9 +439,9 @@ def _heading(direction: str | float) -> np.ndarray:
 
 
 def solve(
-    contact: np.ndarray,
-    mu_static: np.ndarray,
-    mu_dynamic: np.ndarray,
+    contact: Flags,
+    mu_static: Array,
+    mu_dynamic: Array,
     material: Material = Material(),  # noqa: B008  (frozen)
     direction: str | float = "x",
     duration: float = 1.3e-4,
@@ -464,11 +466,10 @@ def solve(
         or a step may pass a stop unseen; a much smaller second one makes slow blocks stiff.
     """
     units = _Units.of(material)
-    contact = np.asarray(contact, dtype=bool)
-    coefficients = [np.asarray(mu, dtype=float) for mu in (mu_static, mu_dynamic)]
-    system = _System(contact, *coefficients, material, _heading(direction), stop_speed, creep_error)
+    how = (material, _heading(direction), stop_speed, creep_error)
+    system = _System(contact, mu_static, mu_dynamic, *how)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
-    samples = np.arange(int(duration / sample_interval + 1e-6) + 1) * sample_interval
+    samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     recorder = _Recorder(system, np.minimum(samples, duration) / units.time)
     t_det = np.full(system.n, np.nan)
     events = 0
@@ -485,10 +486,10 @@ def solve(
 def _collect(
     system: _System,
     units: _Units,
-    y: np.ndarray,
-    time: np.ndarray,
-    force: np.ndarray,
-    t_det: np.ndarray,
+    y: Array,
+    time: Array,
+    force: Array,
+    t_det: Array,
     events: int,
 ) -> Reference:
     """Turn the scaled end of a run into SI units."""
