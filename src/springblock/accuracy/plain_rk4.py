@@ -105,10 +105,9 @@ def solve(
     duration: float,
     step: float,
     sample_interval: float,
-    material: Material | None = None,
 ) -> Solution:
     """Pull one surface along x; arguments and units as of `springblock.simulate`."""
-    m = material or Material()
+    m = Material()
     load = m.block_load * contact.size / contact.sum()
     every, samples = round(sample_interval / step), round(duration / sample_interval)
     force, t_det = np.zeros(samples + 1), np.full(contact.shape, np.nan)

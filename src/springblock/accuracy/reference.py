@@ -48,10 +48,15 @@ Flags = NDArray[np.bool_]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)
 
-CREEP_ERROR = 1e-9  #: scaled velocity (one is P l² / sqrt(K_s m), 0.53 m/s by default)
+#: Scaled velocity: one is P l² / sqrt(K_s m), 0.53 m/s by default. A much smaller error makes slow
+#: blocks stiff.
+CREEP_ERROR = 1e-9
 CREEP_SPEED = 1e-2  #: scaled; beyond, v/|v| is not stiff
-STOP_SPEED = 1e-8  #: scaled; the slider's own velocity is 1e-3
+#: Scaled; the slider's own velocity is 1e-3. Well above the accuracy, or a step may pass a stop
+#: unseen.
+STOP_SPEED = 1e-8
 
+_ACCURACY = 1e-10  #: relative tolerance of each step; the absolute one is a tenth of it, scaled
 _MAX_STEP = 1.0  #: scaled; the period of the fastest lattice mode is 2 pi / sqrt(7) = 2.4
 _SAMPLES = 8  #: points per step at which events are looked for
 _RESTART_STEP = 1e-6  #: scaled; the error control multiplies it by up to 10 a step
@@ -66,15 +71,10 @@ class Reference:
     time: Array  #: (n,) s, multiples of the sample interval
     force: Array  #: (n,) N, |sum of F_s| at these times
     t_det: Array  #: (N, N) s, first detachment; NaN where never or not in contact
-    displacement: Array  #: (2, N, N) m, components x and y at the end
-    velocity: Array  #: (2, N, N) m/s, likewise
     static_friction: float  #: greatest sampled force over P l² N²
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
-    evaluations: int  #: of the right-hand side
-    events: int  #: changes of state, all blocks
-    energy: dict[str, float]  #: J: work_in, elastic, kinetic, friction, viscous
-    relative_residual: float  #: (work_in minus the sum of the others) / work_in
+    relative_residual: float  #: what the energy balance misses, over the slider's work
 
 
 @dataclass(frozen=True)
@@ -93,10 +93,6 @@ class _Units:
     @property
     def speed(self) -> float:
         return self.length / self.time
-
-    @property
-    def energy(self) -> float:
-        return self.force * self.length
 
 
 class _Lattice:
@@ -161,21 +157,14 @@ class _System:
     """
 
     def __init__(
-        self,
-        contact: Flags,
-        mu_static: Array,
-        mu_dynamic: Array,
-        material: Material,
-        heading: Array,
-        stop_speed: float,
-        creep_error: float,
+        self, contact: Flags, mu_static: Array, mu_dynamic: Array, material: Material
     ) -> None:
         units = _Units.of(material)
         size = contact.shape[0]
         self.n = size * size
         spacing = material.spacing / units.length
         self._lattice = _Lattice(size, spacing, material.k_int / material.k_s)
-        self._drift = heading[:, None] * material.slider_velocity / units.speed
+        self._drift = np.array([[material.slider_velocity / units.speed], [0.0]])
         self._gamma = material.gamma * units.time
         touching = contact.ravel()
         self.load = self.n / max(1, int(touching.sum()))  # F_n
@@ -185,9 +174,6 @@ class _System:
         )
         self.state = np.where(touching, STUCK, FREE)
         self.offset = 0.0  # time of the last event; all other times count from there
-        self._stop_speed = stop_speed
-        self._creep_error = creep_error
-        self.evaluations = 0
 
     def initial(self) -> Array:
         """At rest, unstrained."""
@@ -215,7 +201,6 @@ class _System:
 
     def __call__(self, t: float, y: Array) -> Array:
         """Time derivative of the state vector."""
-        self.evaluations += 1
         u, v = self.split(y[:, None])
         pull = self.slider_force(np.array([t]), u)
         motive = self._lattice.force(u) + pull
@@ -245,9 +230,9 @@ class _System:
         motive = self.driving_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
-        stopped = 1.0 - speed / self._stop_speed
+        stopped = 1.0 - speed / STOP_SPEED
         # the equation of a creeping block knows no stop: its speed would change sign
-        stayed = 1.0 - np.sum(v * _unit(motive), axis=0) / self._stop_speed
+        stayed = 1.0 - np.sum(v * _unit(motive), axis=0) / STOP_SPEED
         fast, entered = self._creep_limits(motive, u, v)
         falling = (self._dynamic[:, None] - force) / self.load - _SLACK
         state = self.state[:, None]
@@ -268,8 +253,8 @@ class _System:
         if not slow.any():
             return speed / CREEP_SPEED - 1.0, np.full_like(speed, -1.0)
         force = _positive(np.hypot(*motive))
-        lag = speed**2 * np.abs(self._turning(motive, u, v)) / force / self._creep_error
-        aside = np.hypot(*(v - speed * motive / force)) / self._creep_error
+        lag = speed**2 * np.abs(self._turning(motive, u, v)) / force / CREEP_ERROR
+        aside = np.hypot(*(v - speed * motive / force)) / CREEP_ERROR
         fast = np.maximum(speed / CREEP_SPEED, lag) - 1.0
         entered = 1.0 - np.max([2.0 * speed / CREEP_SPEED, 4.0 * lag, aside], axis=0)
         return fast, entered
@@ -283,7 +268,7 @@ class _System:
         motive = self.driving_force(np.zeros(1), u)
         speed = np.hypot(*v)
         # a stop is located to the rounding of t, which the acceleration turns into speed
-        slow = speed[:, 0] <= self._stop_speed * 1.001
+        slow = speed[:, 0] <= STOP_SPEED * 1.001
         weak = np.hypot(*motive)[:, 0] <= self.threshold
         detaching = due & (self.state == STUCK)
         stopping = due & (self.state == SLIDING) & slow
@@ -297,18 +282,14 @@ class _System:
         v[:, held | stopping] = 0.0
         return detaching
 
-    def energies(self, y: Array) -> dict[str, float]:
-        """Where the slider's work has gone, at the time of the last event."""
+    def residual(self, y: Array) -> float:
+        """What the energy balance misses at the time of the last event, over the slider's work."""
         u, v = self.split(y[:, None])
         pull = self.slider_force(np.zeros(1), u)
         work_in, friction, viscous = (float(work) for work in y[-3:])
-        return {
-            "work_in": work_in,
-            "elastic": self._lattice.energy(u) + 0.5 * float(np.sum(pull**2)),
-            "kinetic": 0.5 * float(np.sum(v**2)),
-            "friction": friction,
-            "viscous": viscous,
-        }
+        elastic = self._lattice.energy(u) + 0.5 * float(np.sum(pull**2))
+        spent = elastic + 0.5 * float(np.sum(v**2)) + friction + viscous
+        return (work_in - spent) / work_in
 
 
 def _unit(vectors: Array) -> Array:
@@ -399,7 +380,7 @@ class _Recorder:
 
 
 def _advance(
-    system: _System, y: Array, left: float, rtol: float, recorder: _Recorder
+    system: _System, y: Array, left: float, recorder: _Recorder
 ) -> tuple[float, Array, Flags]:
     """Integrate to the next event, or for the time left.
 
@@ -410,8 +391,8 @@ def _advance(
         0.0,
         y,
         left,
-        rtol=rtol,
-        atol=0.1 * rtol,
+        rtol=_ACCURACY,
+        atol=0.1 * _ACCURACY,
         max_step=_MAX_STEP,
         first_step=min(_RESTART_STEP, left),
     )
@@ -428,86 +409,42 @@ def _advance(
     return left, solver.y, np.zeros(system.n, dtype=bool)
 
 
-def _heading(direction: str | float) -> Array:
-    """Unit vector of the slider's motion; exact along the axes."""
-    if direction == "x":
-        return np.array([1.0, 0.0])
-    if direction == "y":
-        return np.array([0.0, 1.0])
-    angle = np.deg2rad(float(direction))
-    return np.array([np.cos(angle), np.sin(angle)])
-
-
 def solve(
     contact: Flags,
     mu_static: Array,
     mu_dynamic: Array,
     material: Material = Material(),  # noqa: B008  (frozen)
-    direction: str | float = "x",
     duration: float = 1.3e-4,
     sample_interval: float = 2e-7,
-    rtol: float = 1e-10,
-    *,
-    stop_speed: float = STOP_SPEED,
-    creep_error: float = CREEP_ERROR,
 ) -> Reference:
-    """Solve the model for one surface, from rest at t = 0.
+    """Solve the model for one surface, from rest at t = 0, pulled along x.
 
     Parameters
     ----------
     contact : (N, N) bool, [y, x]
     mu_static, mu_dynamic : (N, N) float
         Friction coefficients; not read outside the contact.
-    direction : "x", "y" or an angle in degrees
-        Where the slider goes.
     duration, sample_interval : s
-    rtol : relative tolerance of each step; the absolute one is a tenth of it, scaled.
-    stop_speed, creep_error : scaled, see the module's docstring. Keep the first well above rtol,
-        or a step may pass a stop unseen; a much smaller second one makes slow blocks stiff.
     """
     units = _Units.of(material)
-    how = (material, _heading(direction), stop_speed, creep_error)
-    system = _System(contact, mu_static, mu_dynamic, *how)
+    system = _System(contact, mu_static, mu_dynamic, material)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     recorder = _Recorder(system, np.minimum(samples, duration) / units.time)
     t_det = np.full(system.n, np.nan)
-    events = 0
     y = system.initial()
     while (left := duration / units.time - system.offset) > 0.0:
-        elapsed, y, due = _advance(system, y, left, rtol, recorder)
+        elapsed, y, due = _advance(system, y, left, recorder)
         system.offset = system.offset + elapsed if due.any() else duration / units.time
         detaching = system.switch(y, due)
         t_det[detaching & np.isnan(t_det)] = system.offset * units.time
-        events += int(due.sum())
-    return _collect(system, units, y, samples, recorder.force, t_det.reshape(contact.shape), events)
-
-
-def _collect(
-    system: _System,
-    units: _Units,
-    y: Array,
-    time: Array,
-    force: Array,
-    t_det: Array,
-    events: int,
-) -> Reference:
-    """Turn the scaled end of a run into SI units."""
-    u, v = (part.reshape(2, *t_det.shape) for part in system.split(y[:, None]))
-    energy = system.energies(y)
-    spent = sum(value for name, value in energy.items() if name != "work_in")
-    peak = int(force.argmax())
+    peak = int(recorder.force.argmax())
     return Reference(
-        time=time,
-        force=force * units.force,
-        t_det=t_det,
-        displacement=u * units.length,
-        velocity=v * units.speed,
-        static_friction=float(force[peak]) / system.n,
-        t_max=float(time[peak]),
+        time=samples,
+        force=recorder.force * units.force,
+        t_det=t_det.reshape(contact.shape),
+        static_friction=float(recorder.force[peak]) / system.n,
+        t_max=float(samples[peak]),
         t_avg=float(np.nanmean(t_det)) if np.isfinite(t_det).any() else float("nan"),
-        evaluations=system.evaluations,
-        events=events,
-        energy={name: value * units.energy for name, value in energy.items()},
-        relative_residual=(energy["work_in"] - spent) / energy["work_in"],
+        relative_residual=system.residual(y),
     )
