@@ -9,10 +9,10 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from springblock.accuracy.kernels import UNDAMPED
-from springblock.accuracy.stability.cases import Case, Family, Outcome
+from springblock.accuracy.stability.cases import LARGEST, Case, Family, Outcome
 from springblock.accuracy.stability.pull import PAPER, Pull, pulled_at
 from springblock.accuracy.stability.schemes import limit, limit_of_damping
-from springblock.accuracy.stability.step import LARGEST, beyond_the_limit
+from springblock.accuracy.stability.step import beyond_the_limit
 from springblock.accuracy.surfaces import Array, uniform
 from springblock.material import Material
 from springblock.realisation import Realisation

@@ -10,6 +10,11 @@ import numpy as np
 
 from springblock.realisation import SimulationError
 
+# Quantities that are judged in several modules.
+FRICTION = "static friction"
+FIRST = "first detachment, F_n/(K_s v)"
+LARGEST = "omega_max times the largest step"
+
 
 @dataclass(frozen=True)
 class Outcome:

@@ -10,10 +10,10 @@ from scipy.integrate import solve_ivp
 
 from springblock.accuracy import reference
 from springblock.accuracy.kernels import UNDAMPED
-from springblock.accuracy.stability.cases import Case, Family, Outcome, compared, failure
+from springblock.accuracy.stability.cases import FRICTION, Case, Family, Outcome, compared, failure
 from springblock.accuracy.stability.pull import PAPER, SEED, Pull, pulled_at, release
 from springblock.accuracy.stability.schemes import limit
-from springblock.accuracy.stability.surface import COLUMNS, FREE_COLUMN, FRICTION
+from springblock.accuracy.stability.surface import COLUMNS, FREE_COLUMN
 from springblock.accuracy.surfaces import Array, Surface, flat
 from springblock.material import Material
 from springblock.realisation import Realisation, SimulationError

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from springblock.accuracy.kernels import UNDAMPED
-from springblock.accuracy.stability.cases import Case, Family, Outcome, refusal
+from springblock.accuracy.stability.cases import FIRST, FRICTION, Case, Family, Outcome, refusal
 from springblock.accuracy.stability.pull import PAPER, ROUNDING, SEED, Pull, pulled_at, release
-from springblock.accuracy.stability.surface import FIRST, FRICTION, first_detachment, scattered
+from springblock.accuracy.stability.surface import first_detachment, scattered
 from springblock.accuracy.surfaces import flat, uniform
 from springblock.realisation import simulate
 from springblock.solver.springs import MAX_BLOCKS

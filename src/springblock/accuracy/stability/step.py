@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
-from springblock.accuracy.stability.cases import Case, Family, Outcome, compared
+from springblock.accuracy.stability.cases import FRICTION, LARGEST, Case, Family, Outcome, compared
 from springblock.accuracy.stability.pull import PAPER, SEED, Pull, pulled_at, release
 from springblock.accuracy.stability.schemes import STABLE, limit_of_damping, turn
 from springblock.accuracy.surfaces import Array, drawn
@@ -24,9 +24,6 @@ BEYOND = (1.001, 1.01, 1.5, 10.0)
 SYRUP = Material(gamma=10.0 * PAPER.omega_max, slider_velocity=5e-3)
 #: Ten times the paper's pressure, on a quarter of the blocks: they slip by 0.27 l.
 HEAVY = pulled_at(1e-3, replace(PAPER, pressure=10.0 * PAPER.pressure))
-
-FRICTION = "static friction"
-LARGEST = "omega_max times the largest step"
 
 
 def pull_pillars(pull: Pull) -> Realisation:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from springblock.accuracy.stability import schemes
-from springblock.accuracy.stability.cases import Case, Family, Outcome
+from springblock.accuracy.stability.cases import FIRST, FRICTION, Case, Family, Outcome
 from springblock.accuracy.stability.pull import PAPER, ROUNDING, SEED, Pull, pulled_at, release
 from springblock.accuracy.surfaces import flat
 from springblock.material import Material
@@ -21,9 +21,6 @@ FREE_COLUMN = (
     np.array([[1e9, 0.0], [1e9, 0.0]]),
     np.zeros((2, 2)),
 )
-
-FIRST = "first detachment, F_n/(K_s v)"
-FRICTION = "static friction"
 
 
 def material_of(ratio: float, strain: float, damping: bool = False) -> Material:
