@@ -51,6 +51,7 @@ def test_c_loop_moves_as_the_solver():
         pytest.skip(str(why))
     assert set(differences) == {"displacement", "velocity", "t_det", "force"}
     assert max(differences.values()) < c_loop.TOLERANCE
+    assert np.float64(1e-320) * 0.5 > 0.0  # this process still knows subnormal numbers
 
 
 def test_lammps_moves_as_the_solver():
