@@ -7,7 +7,7 @@
 
 PYTHON ?= python3
 VENV := .venv
-PEERS := tests/validation/peers/peers.lock
+PEERS := benchmarks/peers/peers.lock
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
@@ -33,7 +33,7 @@ test: setup
 # Peers that cannot be installed are rows of the table that say so.
 bench: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
-	PYTHONPATH=tests $(BIN)/python -m validation.benchmark
+	$(BIN)/python -m benchmarks
 
 setup: $(VENV)/installed
 
@@ -66,4 +66,4 @@ lock:
 
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache
-	find src tests workflow -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +

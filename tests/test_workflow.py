@@ -73,9 +73,8 @@ def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dic
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A finished tiny study in a folder of its own."""
     folder = tmp_path_factory.mktemp("study")
-    for part in ("src", "workflow", "config", "profiles", "tests/validation"):
+    for part in ("src", "workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "tests/scenes.py", folder / "tests")
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
     outcome = snakemake(folder)

@@ -11,6 +11,8 @@ COMMANDS = {
     "aggregate": "springblock.commands.aggregate:aggregate",
     "correlation": "springblock.commands.correlation:correlation",
     "collect": "springblock.commands.correlation:collect",
+    "compare": "springblock.commands.compare:compare",
+    "try": "springblock.commands.stability:try_cases",
     "accuracy": "springblock.commands.accuracy:write_page",
     "claims": "springblock.commands.claims:claims",
     "figure": "springblock.commands.figure:figure",

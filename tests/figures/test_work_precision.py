@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from springblock import simulate
+from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES
 from springblock.figures import work_precision
 
-SCENES = ("flat", "pillared", "grooved")
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
 NUDGES = (1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3)
-SEEDS = 80  #: of the ensembles: four times as many as in the study
+SEEDS = 4 * ENSEMBLE  #: of the ensembles
 
 
 def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
@@ -48,7 +48,7 @@ def table():
             for h, integrator in product(STEPS, ("leapfrog", "rk4")):
                 rows.append(row("reference", scene, integrator, h, 0.0, quantity, 3e3 * i * h))
             for h in STEPS[:-1]:
-                rows.append(row("reference", scene, "plain rk4", h, 0.0, quantity, 0.02 * i))
+                rows.append(row("reference", scene, PLAIN, h, 0.0, quantity, 0.02 * i))
         for quantity in ("static_friction", "t_max", "t_avg"):
             rows.append(row("scatter", scene, "leapfrog", 2.5e-9, 0.0, quantity, 0.0, 4e-3 * i))
             for h, integrator in product(STEPS[:3], ("leapfrog", "rk4")):
@@ -131,8 +131,8 @@ def test_rings_mark_the_default_and_the_paper():
     rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
     for ring, integrator, step in zip(
         rings,
-        (default["integrator"].default, "plain rk4"),
-        (default["step"].default, 1e-8),
+        (default["integrator"].default, PLAIN),
+        (default["step"].default, PAPER_STEP),
         strict=True,
     ):
         row = chosen(

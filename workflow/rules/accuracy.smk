@@ -1,24 +1,13 @@
-# Error against run time, and stability; the programs stand beside the tests that they share.
+# Error against run time, stiff and extreme cases, and the page on both.
 
-VALIDATION = f"PYTHONPATH=tests {sys.executable} -m validation"
-COMPARISONS = expand(
-    f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
-    comparison=["reference", "paired", "twin"],
-    scene=["flat", "pillared", "grooved"],
-)
+from springblock.accuracy.conventions import COMPARISONS, SCENES
 
 COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
-
-#: Digest of all of the package that the comparisons run.
-COMPARED = sources.digest(
-    *(f"springblock.{module}" for module in ("simulation", "asperities", "pattern", "tables"))
-)
 
 
 rule compare:
     input:
         COMPILED,
-        code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -32,17 +21,17 @@ rule compare:
         mem_mb=600,
         runtime=20,
     params:
-        code=COMPARED,
+        code=sources.digest("springblock.commands.compare"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "{VALIDATION}.work_precision compare --comparison {wildcards.comparison} "
-        "--scene {wildcards.scene} --output {output} > {log} 2>&1"
+        "{SPRINGBLOCK} compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "--output {output} > {log} 2>&1"
 
 
 rule precision_table:
     input:
-        COMPARISONS,
+        expand(rules.compare.output, comparison=COMPARISONS, scene=SCENES),
     output:
         f"{RESULTS}/tables/work_precision.parquet",
     log:
@@ -50,18 +39,19 @@ rule precision_table:
     benchmark:
         f"{RESULTS}/benchmarks/precision_table.tsv"
     resources:
-        mem_mb=500,
+        mem_mb=400,
         runtime=5,
+    params:
+        code=sources.digest("springblock.commands.correlation"),
     message:
-        "Collecting error against run time in one table"
+        "Collecting errors and run times in one table"
     shell:
-        "{VALIDATION}.work_precision collect {input} --output {output} > {log} 2>&1"
+        "{SPRINGBLOCK} collect {input} --output {output} > {log} 2>&1"
 
 
 rule stability_table:
     input:
         COMPILED,
-        code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
     output:
         f"{RESULTS}/tables/stability.parquet",
     log:
@@ -72,11 +62,11 @@ rule stability_table:
         mem_mb=1000,
         runtime=10,
     params:
-        code=COMPARED,
+        code=sources.digest("springblock.commands.stability"),
     message:
         "Trying stiff and extreme cases"
     shell:
-        "{VALIDATION}.stability --output {output} > {log} 2>&1"
+        "{SPRINGBLOCK} try --output {output} > {log} 2>&1"
 
 
 rule accuracy:

@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator
 
-from springblock.accuracy import ensemble_error
+from springblock.accuracy.conventions import PAPER_STEP, ensemble_error
 from springblock.claims.rule import Claim, Evidence, Finding
 from springblock.claims.samples import interval, select
-
-_STEP = 1e-8  #: s, the paper's
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
@@ -15,7 +13,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     Runge-Kutta with the friction of each stage is compared run by run: its error in static
     friction has no interval.
     """
-    rows = select(evidence.precision, step=_STEP)
+    rows = select(evidence.precision, step=PAPER_STEP)
     plain = select(rows, integrator="plain rk4", quantity="static_friction")
     for row in select(rows, comparison="paired") + plain:
         keys = {key: row[key] for key in ("scene", "quantity")}
@@ -26,10 +24,10 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
         kind = "bias" if row["comparison"] == "paired" else "error"
         yield Finding(
             {"integrator": row["integrator"], **keys},
-            f"relative {kind} at h = {_STEP:.0e} s",
+            f"relative {kind} at h = {PAPER_STEP:.0e} s",
             interval(row, "error"),
             (-limit, limit),
-            f"tables/work_precision: comparison = {row['comparison']}, step = {_STEP:.0e}",
+            f"tables/work_precision: comparison = {row['comparison']}, step = {PAPER_STEP:.0e}",
         )
 
 

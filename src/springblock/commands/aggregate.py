@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
-from springblock.accuracy import suspects
+from springblock.accuracy.residuals import suspects
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.scene import COLUMNS
 from springblock.sources import code_version

@@ -83,11 +83,17 @@ def _length(length: Length) -> Row:
 
 @click.command("collect")
 @click.argument("tables", type=INPUT, nargs=-1, required=True)
-@click.option("--configuration", required=True, help="Digest of the study's configuration.")
+@click.option("--configuration", help="Digest of the configuration, where one matters.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
-def collect(tables: tuple[Path, ...], configuration: str, output: Path) -> None:
-    """Collect TABLES of equal columns in one."""
+def collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+    """Collect TABLES of equal columns, made by the same code, in one."""
     with one_sentence():
-        schema: pa.Schema = pq.read_schema(tables[0]).remove_metadata()
-        metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        write(read(tables, schema), output, metadata)
+        schemas: list[pa.Schema] = [pq.read_schema(table) for table in tables]
+        versions = {(each.metadata or {}).get(b"code_version", b"none") for each in schemas}
+        if len(versions) > 1:
+            named = ", ".join(sorted(version.decode() for version in versions))
+            raise ValueError(f"the tables must be of one code_version; they hold {named}")
+        metadata = {"code_version": versions.pop().decode()}
+        if configuration is not None:
+            metadata["configuration_digest"] = configuration
+        write(read(tables, schemas[0].remove_metadata()), output, metadata)

@@ -1,30 +1,23 @@
 """The page that says what a reader may trust; every number in it comes from the tables."""
 
-from collections import defaultdict
-from collections.abc import Iterable
 from statistics import median
 from typing import Any
 
-import numpy as np
-from scipy.stats import t
-
+from springblock.accuracy.conventions import (
+    ENSEMBLE,
+    HORIZON_NUDGE,
+    MEANS,
+    PAPER_STEP,
+    PLAIN,
+    SCENES,
+    ensemble_error,
+    order,
+)
+from springblock.accuracy.residuals import ENERGY_TOLERANCE, OUT_OF_LINE
 from springblock.files import markdown_table
 from springblock.setup import STEP
 
 Row = dict[str, Any]
-
-#: Energy residual, as a share of the slider's work, that no realisation should exceed.
-ENERGY_TOLERANCE = 5e-4
-#: How many times the median of its scene a residual may be.
-OUT_OF_LINE = 10.0
-
-_SCENES = ("flat", "pillared", "grooved")
-#: Step in s below which errors fall with one order.
-_SETTLED = 2.001e-8
-#: Realisations per scene behind the paper's figures; errors must stay under their scatter.
-_ENSEMBLE = 20
-#: Relative change of the thresholds that sets the horizon.
-_HORIZON_NUDGE = 1e-5
 
 _PAGE = """# What to trust, and how far
 
@@ -45,7 +38,7 @@ With the finest step, {finest:.0e} s, static friction and t_det before the horiz
 reference by no more than {floor:.0e}: the floor of every error plot.
 
 Runge-Kutta with the friction of each stage, as one would first write it, does not converge. Its
-static friction on the flat surface is wrong by {plain:.1%} at the paper's step of {step:.0e} s,
+static friction on the flat surface is wrong by {plain:.1%} at the paper's step of {paper:.0e} s,
 and still by {plain_fine:.1%} at {plain_finest:.1e} s.
 
 On patterned surfaces avalanches reorder before the force peak. Thresholds nudged by {nudge:.0e}
@@ -82,30 +75,14 @@ the median {median_energy:.1e}. The study warns of any above {tolerance:.0e}, or
 """
 
 
-def suspects(realisations: Iterable[Row], scene: Iterable[str]) -> list[Row]:
-    """Rows whose energy residual is too large, or out of line with those of the same scene.
-
-    `scene` names the columns that tell scenes apart.
-    """
-    keys, groups = list(scene), defaultdict(list)
-    for row in realisations:
-        groups[tuple(row[key] for key in keys)].append(row)
-    found = []
-    for rows in groups.values():
-        usual = median(abs(row["energy_error"]) for row in rows)
-        limit = min(ENERGY_TOLERANCE, OUT_OF_LINE * usual)
-        found += [row for row in rows if not abs(row["energy_error"]) <= limit]
-    return found
-
-
 def page(precision: list[Row], stability: list[Row], realisations: list[Row]) -> str:
     """Fill the page in from the rows of the three tables."""
     single = _select(precision, comparison="reference")
     default = _select(single, integrator="leapfrog", step=STEP)
     finest = _select(single, integrator="leapfrog", step=min(row["step"] for row in single))
-    plain = _select(single, integrator="plain rk4", scene="flat", quantity="static_friction")
+    plain = _select(single, integrator=PLAIN, scene="flat", quantity="static_friction")
     slowest = min(plain, key=lambda row: row["step"])
-    (paper,) = _select(plain, step=STEP)
+    (plain_paper,) = _select(plain, step=PAPER_STEP)
     paired = _select(precision, comparison="paired", integrator="leapfrog")
     coarsest = max(row["step"] for row in paired)
     residuals = [abs(row["energy_error"]) for row in realisations]
@@ -118,15 +95,16 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
         orders=" and ".join(f"{_order(single, name):.1f} ({name})" for name in ("leapfrog", "rk4")),
         finest=finest[0]["step"],
         floor=max(row["error"] for row in finest if row["quantity"] in _FLOOR),
-        plain=paper["error"],
+        paper=PAPER_STEP,
+        plain=plain_paper["error"],
         plain_fine=slowest["error"],
         plain_finest=slowest["step"],
-        nudge=_HORIZON_NUDGE,
+        nudge=HORIZON_NUDGE,
         **{row["scene"]: row["error"] for row in _select(default, quantity="horizon")},
         n_paired=min(row["realisations"] for row in paired),
         n_ensemble=paired[0]["n_blocks"],
         fine=_select(precision, comparison="scatter")[0]["step"],
-        ensemble=_ENSEMBLE,
+        ensemble=ENSEMBLE,
         paired=_biases(_select(paired, step=STEP), _select(precision, comparison="scatter")),
         n_runs=len(residuals),
         worst_energy=max(residuals),
@@ -163,39 +141,30 @@ def _one(rows: list[Row], **wanted: Any) -> Row:
 
 
 def _order(single: list[Row], integrator: str) -> float:
-    """Slope of log error over log step, of t_det on the flat surface, where it has settled.
+    """Order of t_det on the flat surface.
 
-    On patterned surfaces a few blocks decide, and the slope scatters.
+    On patterned surfaces a few blocks decide, and it scatters.
     """
     rows = _select(single, scene="flat", integrator=integrator, quantity="t_det before horizon")
-    fine = [row for row in rows if row["step"] <= _SETTLED]
-    steps, errors = (np.log([row[key] for row in fine]) for key in ("step", "error"))
-    return float(np.polyfit(steps, errors, 1)[0])
+    return order([row["step"] for row in rows], [row["error"] for row in rows])
 
 
 def _single_errors(default: list[Row]) -> str:
     rows = [
-        [name, *(f"{_one(default, scene=s, quantity=key)['error']:.1e}" for s in _SCENES)]
+        [name, *(f"{_one(default, scene=s, quantity=key)['error']:.1e}" for s in SCENES)]
         for key, name in _NAMES.items()
     ]
-    return markdown_table(["relative error", *_SCENES], rows)
+    return markdown_table(["relative error", *SCENES], rows)
 
 
 def _biases(paired: list[Row], scatter: list[Row]) -> str:
     rows = []
-    for quantity in ("static_friction", "t_max", "t_avg"):
+    for quantity in MEANS:
         cells = []
-        for scene in _SCENES:
+        for scene in SCENES:
             bias = _one(paired, scene=scene, quantity=quantity)
             half = 50.0 * (bias["ci_high"] - bias["ci_low"])
             error = 100.0 * ensemble_error(_one(scatter, scene=scene, quantity=quantity))
             cells.append(f"{100.0 * bias['error']:+.3f} ± {half:.3f} ({error:.2f})")
         rows.append([_NAMES[quantity], *cells])
-    return markdown_table(["bias", *_SCENES], rows)
-
-
-def ensemble_error(scatter: Row, realisations: int = _ENSEMBLE) -> float:
-    """Standard error of a mean over so many seeds, from the interval of another number."""
-    half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
-    deviation = half / t.ppf(0.975, scatter["realisations"] - 1) * scatter["realisations"] ** 0.5
-    return float(deviation / realisations**0.5)
+    return markdown_table(["bias", *SCENES], rows)

@@ -9,12 +9,10 @@ study        where the CPU time of the whole study goes, and what the pipeline a
 
 No part uses threads. Peers that are not there, or fail, make rows that say so.
 
-Call with `python -m validation.benchmark` from the folder tests, or `make bench`.
+Call with `python -m benchmarks` from the repository, or `make bench`.
 """
 
-import os
 import platform
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -25,25 +23,24 @@ from typing import Any, Protocol
 import click
 import llvmlite.binding
 import numpy as np
+from numpy.typing import NDArray
 from tqdm import tqdm
 
+from benchmarks import study_cost
+from benchmarks.peers import c_loop, lammps_lattice
+from benchmarks.peers.c_loop import CLoop, Peak
+from benchmarks.peers.lammps_lattice import LammpsLattice
+from benchmarks.peers.missing import Missing
+from benchmarks.peers.scipy_lattice import RTOL, ScipyLattice
+from benchmarks.timing import SCHEMA, Array, Row, interleaved, missing, printed, row
 from springblock import Material, compute_prelude, draw_friction, simulate
+from springblock.accuracy import plain_rk4
 from springblock.scene import Scene
 from springblock.setup import STEP
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.sources import code_version
 from springblock.tables import rows_to_table, write
-from validation import plain_rk4, study_cost
-from validation.peers import c_loop, lammps_lattice
-from validation.peers.c_loop import CLoop, Peak
-from validation.peers.lammps_lattice import LammpsLattice
-from validation.peers.missing import Missing
-from validation.peers.scipy_lattice import RTOL, ScipyLattice
-from validation.timing import SCHEMA, Array, Row, interleaved, missing, printed, row
-
-#: Threads that wait for work cost CPU time too. Libraries read this when they are loaded.
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 N = 120
 PAPER = Material()
@@ -86,6 +83,10 @@ BLOCK_STEP = "ns per block and step"
 BLOCK_EVALUATION = "ns per block and evaluation"
 
 
+Flags = NDArray[np.bool_]
+Runs = dict[str, Callable[[], object]]  #: what is timed in turn, by its name
+
+
 class Lattice(Protocol):
     """Anything that can be timed step by step."""
 
@@ -96,7 +97,7 @@ class Lattice(Protocol):
 class Solver:
     """The compiled solver on a flat surface in motion, pulled along x."""
 
-    def __init__(self, integrator: str, n: int, still: Array | None = None) -> None:
+    def __init__(self, integrator: str, n: int, still: Flags | None = None) -> None:
         self.method, self.n, self.taken = INTEGRATORS[integrator], n, 0
         contact, mu_static, mu_dynamic, velocity = in_motion(n)
         if still is not None:
@@ -139,7 +140,7 @@ class PlainRungeKutta:
         plain_rk4.solve(*self.surface, steps * STEP, STEP, steps * STEP)
 
 
-def in_motion(n: int) -> tuple[Array, Array, Array, Array]:
+def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
     """Contact, coefficients and velocities (2, N, N), in l per step, of a surface in motion."""
     noise = np.random.default_rng(n).standard_normal((2, n, n))
     mu_static, mu_dynamic = draw_friction(n, seed=0)
@@ -150,8 +151,8 @@ def in_motion(n: int) -> tuple[Array, Array, Array, Array]:
 def c_loop_in_motion(n: int) -> CLoop:
     """The same in C; raises Missing."""
     c_loop.require()
-    *surface, velocity = in_motion(n)
-    loop = CLoop(*surface, STEP)
+    contact, mu_static, mu_dynamic, velocity = in_motion(n)
+    loop = CLoop(contact, mu_static, mu_dynamic, STEP)
     loop.velocity[:] = velocity
     loop.advance(WARM_UP)
     return loop
@@ -233,7 +234,7 @@ def realisation() -> Iterator[Row]:
         contact, mu = scene.pattern.contact, draw_friction(N, seed=0)
         prelude = compute_prelude(contact)
         run = partial(simulate, contact, *mu)
-        runs = {
+        runs: Runs = {
             "from zero": run,
             "with the prelude": partial(run, prelude=prelude),
             "prelude, once for all seeds": partial(compute_prelude, contact),
@@ -250,7 +251,7 @@ def plain_realisation() -> Iterator[Row]:
     fine = simulate(contact, *mu, step=FINE_STEP).static_friction
     plain = partial(plain_rk4.solve, contact, *mu, float(solved.time[-1]), STEP, 2e-7)
     plain_friction = plain().static_friction
-    runs = {"with the prelude": solve, "plain rk4, from zero": plain}
+    runs: Runs = {"with the prelude": solve, "plain rk4, from zero": plain}
     yield from against_c("flat", PLAIN_N, runs, solved.steps)
     note = f"against a step of {FINE_STEP:g} s; one seed"
     for name, friction in (
@@ -261,9 +262,7 @@ def plain_realisation() -> Iterator[Row]:
         yield row("realisation", error, "1", friction / fine - 1.0, "flat", PLAIN_N, note=note)
 
 
-def against_c(
-    scene: str, n: int, runs: dict[str, Callable[[], object]], steps: int
-) -> Iterator[Row]:
+def against_c(scene: str, n: int, runs: Runs, steps: int) -> Iterator[Row]:
     """Rows of these runs; the ratio is to `steps` steps from zero of the C loop."""
     bound = None
     try:
@@ -312,7 +311,7 @@ def peak() -> Iterator[Row]:
         return
     operations = {"multiply-adds": multiply_add.run(ROUNDS)}
     operations |= dict.fromkeys(("leapfrog", "C loop"), float(count * STEPS * N**2))
-    runs = {
+    runs: Runs = {
         "multiply-adds": partial(multiply_add.run, ROUNDS),
         "leapfrog": partial(Solver("leapfrog", N).advance, STEPS),
         "C loop": partial(loop.advance, STEPS),
@@ -374,9 +373,3 @@ def main(parts: tuple[str, ...], output: Path) -> None:
     click.echo(printed(rows))
     click.echo(f"\nratio: {SCHEMA.field('ratio').metadata[b'meaning'].decode()}")
     click.echo(", ".join(f"{name} {what}" for name, what in machine().items()))
-
-
-if __name__ == "__main__":
-    if not ONE_THREAD.items() <= os.environ.items():
-        os.execve(sys.executable, sys.orig_argv, {**os.environ, **ONE_THREAD})
-    main()

@@ -1,8 +1,10 @@
-"""Scenes that several tests share, and ways to drive the compiled kernels by hand."""
+"""The compiled kernels, driven by hand: springs by themselves, and a lattice without friction."""
 
 import numpy as np
 
-from springblock import Material, Pattern, draw_friction
+from springblock.accuracy.surfaces import Array, uniform
+from springblock.material import Material
+from springblock.simulation import SimulationError
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import (
@@ -22,34 +24,12 @@ STIFFNESS = 0.25
 SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
 
 
-def uniform(n, mu_static, mu_dynamic):
-    """Contact and coefficients of a flat surface without scatter."""
-    return np.ones((n, n), bool), np.full((n, n), mu_static), np.full((n, n), mu_dynamic)
-
-
-def drawn(pattern, seed):
-    """Contact and coefficients of a pattern with the paper's scatter."""
-    return pattern.contact, *draw_friction(pattern.n_blocks, seed)
-
-
-def flat(n, seed):
-    """Contact and coefficients of a flat surface with the paper's scatter."""
-    return drawn(Pattern.flat(n), seed)
-
-
-def nailed(n):
-    """One contact block in a corner, which never lets go: all other motion is smooth."""
-    contact = np.zeros((n, n), bool)
-    contact[0, 0] = True
-    return contact, np.full((n, n), 1e9), np.zeros((n, n))
-
-
-def with_border(displacement):
+def with_border(displacement: Array) -> list[Array]:
     """Lay a displacement (2, N, N) out as the kernels want it, its edges free of strain."""
     return [np.pad(u, 1, mode="edge")[1:-1].ravel() for u in displacement]
 
 
-def spring_forces(displacement, band=None):
+def spring_forces(displacement: Array, band: int | None = None) -> Array:
     """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l.
 
     Bands are of as many rows as the solver chooses, or of `band`.
@@ -62,18 +42,25 @@ def spring_forces(displacement, band=None):
     for start in range(0, n, band):
         stop = min(start + band, n)
         _, broken = forces_on_band(ux, uy, rows(n, start, stop), every_row, s, *SPRINGS)
-        assert broken == 0
+        if broken:
+            raise SimulationError(f"a spring in rows {start} to {stop} has collapsed or burst")
         found = [s[int(field) :][: (stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
         forces.append(np.reshape(found, (2, -1, n + 2))[:, :, 1 : n + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
 
 
-def rows(n, start, stop):
+def rows(n: int, start: int, stop: int) -> Band:
     """Rows [start, stop) of N with a border, as the kernels want them."""
     return Band(*map(np.uint64, (start, stop, n, n + 2)))
 
 
-def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
+def swing(
+    displacement: Array,
+    steps: int,
+    step: float,
+    integrator: str = "leapfrog",
+    material: Material = UNDAMPED,
+) -> Array:
     """Let a frictionless lattice go from `displacement` (2, N, N), in l, under a resting slider.
 
     Returns its displacement after so many steps.
@@ -85,5 +72,7 @@ def swing(displacement, steps, step, integrator="leapfrog", material=UNDAMPED):
     blocks.static[:] = 0.0
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):
         field.reshape(n, -1)[:, : n + 2] = np.pad(u, 1, mode="edge")[1:-1]
-    assert method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0] == steps
+    done = method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0]
+    if done < steps:
+        raise SimulationError(f"a spring has collapsed or burst in step {done}")
     return np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])

@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from benchmarks.peers.missing import Missing
+from benchmarks.timing import Row, interleaved, missing, row
 from springblock import draw_friction, simulate
 from springblock.commands.simulate import batch_row
 from springblock.scene import Scene
 from springblock.tables import BATCH, rows_to_table, write
-from validation.peers.missing import Missing
-from validation.timing import Row, interleaved, missing, row
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "results"
 N = 120
 REPETITIONS = 3
@@ -69,7 +69,8 @@ def _rule(path: Path) -> str:
         return "compile"
     if path.stem.startswith("figure_"):
         return "figures"
-    if path.parent.name == "accuracy" or path.stem in ("work_precision", "stability"):
+    tables = ("precision_table", "stability_table")
+    if path.parent.name == "accuracy" or path.stem in tables:
         return "accuracy"
     return path.stem
 
@@ -108,7 +109,7 @@ def overhead_rows(done: list[Job]) -> Iterator[Row]:
         batch, rows_of_batch = Path(folder) / "batch.parquet", _batch()
         _write(batch, rows_of_batch)  # the first one imports what it needs
         writing = f"writing {BATCH_SIZE} realisations"
-        runs = {
+        runs: dict[str, Callable[[], object]] = {
             **_job_runs(Path(folder)),
             writing: partial(_write, batch, rows_of_batch),
             planning: partial(_python, "-m", "snakemake", "-n"),

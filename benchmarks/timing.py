@@ -15,8 +15,8 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import ArrayLike, NDArray
 
+from benchmarks.peers.missing import Missing
 from springblock.tables import column
-from validation.peers.missing import Missing
 
 SCHEMA = pa.schema(
     [

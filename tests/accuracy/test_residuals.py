@@ -1,8 +1,8 @@
-"""What is said of errors follows from the tables."""
+"""Which realisations are suspect follows from their energy residuals."""
 
 import pytest
 
-from springblock.accuracy import ensemble_error, suspects
+from springblock.accuracy.residuals import suspects
 
 
 def rows(errors, n_p=20):
@@ -21,9 +21,3 @@ def test_a_residual_ten_times_that_of_its_scene_does():
 @pytest.mark.parametrize("error", [6e-4, -6e-4, float("nan")])
 def test_a_large_residual_or_none_does_even_where_all_are_alike(error):
     assert len(suspects(rows([error] * 3), ["n_p"])) == 3
-
-
-def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
-    scatter = {"ci_low": -0.01984217, "ci_high": 0.01984217, "realisations": 100}
-    assert ensemble_error(scatter, 100) == pytest.approx(0.01, rel=1e-6)
-    assert ensemble_error(scatter, 25) == pytest.approx(0.02, rel=1e-6)

@@ -36,18 +36,27 @@ is counted from the last event, so that events closer than the rounding error of
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq, minimize_scalar
 
 from springblock.material import Material
 
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
 FREE, STUCK, CREEPING, SLIDING = range(4)
 
-CREEP_ERROR = 1e-9  #: scaled velocity (one is P l² / sqrt(K_s m), 0.53 m/s by default)
+#: Scaled velocity: one is P l² / sqrt(K_s m), 0.53 m/s by default. A much smaller error makes slow
+#: blocks stiff.
+CREEP_ERROR = 1e-9
 CREEP_SPEED = 1e-2  #: scaled; beyond, v/|v| is not stiff
-STOP_SPEED = 1e-8  #: scaled; the slider's own velocity is 1e-3
+#: Scaled; the slider's own velocity is 1e-3. Well above the accuracy, or a step may pass a stop
+#: unseen.
+STOP_SPEED = 1e-8
 
+_ACCURACY = 1e-10  #: relative tolerance of each step; the absolute one is a tenth of it, scaled
 _MAX_STEP = 1.0  #: scaled; the period of the fastest lattice mode is 2 pi / sqrt(7) = 2.4
 _SAMPLES = 8  #: points per step at which events are looked for
 _RESTART_STEP = 1e-6  #: scaled; the error control multiplies it by up to 10 a step
@@ -59,18 +68,13 @@ _SLACK = 1e-9  #: share of F_n by which F_mot must fall below mu_d F_n for a sta
 class Reference:
     """What one run yields, in SI units. Arrays over blocks are indexed [y, x]."""
 
-    time: np.ndarray  #: (n,) s, multiples of the sample interval
-    force: np.ndarray  #: (n,) N, |sum of F_s| at these times
-    t_det: np.ndarray  #: (N, N) s, first detachment; NaN where never or not in contact
-    displacement: np.ndarray  #: (2, N, N) m, components x and y at the end
-    velocity: np.ndarray  #: (2, N, N) m/s, likewise
+    time: Array  #: (n,) s, multiples of the sample interval
+    force: Array  #: (n,) N, |sum of F_s| at these times
+    t_det: Array  #: (N, N) s, first detachment; NaN where never or not in contact
     static_friction: float  #: greatest sampled force over P l² N²
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
-    evaluations: int  #: of the right-hand side
-    events: int  #: changes of state, all blocks
-    energy: dict[str, float]  #: J: work_in, elastic, kinetic, friction, viscous
-    relative_residual: float  #: (work_in minus the sum of the others) / work_in
+    relative_residual: float  #: what the energy balance misses, over the slider's work
 
 
 @dataclass(frozen=True)
@@ -89,10 +93,6 @@ class _Units:
     @property
     def speed(self) -> float:
         return self.length / self.time
-
-    @property
-    def energy(self) -> float:
-        return self.force * self.length
 
 
 class _Lattice:
@@ -123,20 +123,20 @@ class _Lattice:
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
         self._stiffness = np.array(stiffnesses, dtype=float)[:, None]
 
-    def _stretch(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _stretch(self, u: Array) -> tuple[Array, Array]:
         """Bond vectors r, and q = r²/L² - 1 without the cancellation this form has."""
         d = _times(self._difference, u)
         q = (2.0 * self._axis + d) * d
         return self._axis + d, (q[0] + q[1]) / self._rest_squared
 
-    def force(self, u: np.ndarray) -> np.ndarray:
+    def force(self, u: Array) -> Array:
         """F_int (2, n, k): the sum of k (r - L) r/|r| over the bonds of each block."""
         r, q = self._stretch(u)
         # 1 - L/r = 1 - (1 + q)^(-1/2), rationalised
         pull = self._stiffness * (q / ((1.0 + q) + np.sqrt(1.0 + q))) * r
         return _times(self._net, pull)
 
-    def energy(self, u: np.ndarray) -> float:
+    def energy(self, u: Array) -> float:
         """Sum of k (r - L)² / 2 for one state, (2, n, 1)."""
         _, q = self._stretch(u)
         # r - L = L (sqrt(1 + q) - 1), rationalised
@@ -144,7 +144,7 @@ class _Lattice:
         return 0.5 * float(np.sum(self._stiffness * squared))
 
 
-def _times(matrix: sparse.csr_array, u: np.ndarray) -> np.ndarray:
+def _times(matrix: sparse.csr_array, u: Array) -> Array:
     """Both components (2, n, k) of u, multiplied at once."""
     return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
 
@@ -157,21 +157,14 @@ class _System:
     """
 
     def __init__(
-        self,
-        contact: np.ndarray,
-        mu_static: np.ndarray,
-        mu_dynamic: np.ndarray,
-        material: Material,
-        heading: np.ndarray,
-        stop_speed: float,
-        creep_error: float,
+        self, contact: Flags, mu_static: Array, mu_dynamic: Array, material: Material
     ) -> None:
         units = _Units.of(material)
         size = contact.shape[0]
         self.n = size * size
         spacing = material.spacing / units.length
         self._lattice = _Lattice(size, spacing, material.k_int / material.k_s)
-        self._drift = heading[:, None] * material.slider_velocity / units.speed
+        self._drift = np.array([[material.slider_velocity / units.speed], [0.0]])
         self._gamma = material.gamma * units.time
         touching = contact.ravel()
         self.load = self.n / max(1, int(touching.sum()))  # F_n
@@ -181,37 +174,33 @@ class _System:
         )
         self.state = np.where(touching, STUCK, FREE)
         self.offset = 0.0  # time of the last event; all other times count from there
-        self._stop_speed = stop_speed
-        self._creep_error = creep_error
-        self.evaluations = 0
 
-    def initial(self) -> np.ndarray:
+    def initial(self) -> Array:
         """At rest, unstrained."""
         return np.zeros(4 * self.n + 3)
 
-    def split(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def split(self, y: Array) -> tuple[Array, Array]:
         """u and v, (2, n, k) each, from states (4 n + 3, k)."""
         half = 2 * self.n
         return y[:half].reshape(2, self.n, -1), y[half : 2 * half].reshape(2, self.n, -1)
 
-    def slider_force(self, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    def slider_force(self, t: Array, u: Array) -> Array:
         """F_s (2, n, k) at times t (k,) after the last event."""
         return self._drift[:, :, None] * (self.offset + t) - u
 
-    def driving_force(self, t: np.ndarray, u: np.ndarray) -> np.ndarray:
+    def driving_force(self, t: Array, u: Array) -> Array:
         """F_mot (2, n, k)."""
         return self._lattice.force(u) + self.slider_force(t, u)
 
-    def _turning(self, motive: np.ndarray, u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def _turning(self, motive: Array, u: Array, v: Array) -> Array:
         """Rate phi' (n, k) at which F_mot turns."""
         # central difference along v: 1e-3 is small against the spacing and large against rounding
         ahead, behind = (self._lattice.force(u + sign * 1e-3 * v) for sign in (1.0, -1.0))
         rate = (ahead - behind) / 2e-3 + self._drift[:, :, None] - v
         return (motive[0] * rate[1] - motive[1] * rate[0]) / _positive(np.sum(motive**2, axis=0))
 
-    def __call__(self, t: float, y: np.ndarray) -> np.ndarray:
+    def __call__(self, t: float, y: Array) -> Array:
         """Time derivative of the state vector."""
-        self.evaluations += 1
         u, v = self.split(y[:, None])
         pull = self.slider_force(np.array([t]), u)
         motive = self._lattice.force(u) + pull
@@ -235,15 +224,15 @@ class _System:
         )
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
-    def alarm(self, t: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def alarm(self, t: Array, y: Array) -> Array:
         """Event functions (n, k), one per block: negative as long as its state lasts."""
         u, v = self.split(y)
         motive = self.driving_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
-        stopped = 1.0 - speed / self._stop_speed
+        stopped = 1.0 - speed / STOP_SPEED
         # the equation of a creeping block knows no stop: its speed would change sign
-        stayed = 1.0 - np.sum(v * _unit(motive), axis=0) / self._stop_speed
+        stayed = 1.0 - np.sum(v * _unit(motive), axis=0) / STOP_SPEED
         fast, entered = self._creep_limits(motive, u, v)
         falling = (self._dynamic[:, None] - force) / self.load - _SLACK
         state = self.state[:, None]
@@ -257,22 +246,20 @@ class _System:
             -1.0,
         )
 
-    def _creep_limits(
-        self, motive: np.ndarray, u: np.ndarray, v: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
         speed = np.hypot(*v)
         slow = (self.state[:, None] >= CREEPING) & (speed < CREEP_SPEED)
         if not slow.any():
             return speed / CREEP_SPEED - 1.0, np.full_like(speed, -1.0)
         force = _positive(np.hypot(*motive))
-        lag = speed**2 * np.abs(self._turning(motive, u, v)) / force / self._creep_error
-        aside = np.hypot(*(v - speed * motive / force)) / self._creep_error
+        lag = speed**2 * np.abs(self._turning(motive, u, v)) / force / CREEP_ERROR
+        aside = np.hypot(*(v - speed * motive / force)) / CREEP_ERROR
         fast = np.maximum(speed / CREEP_SPEED, lag) - 1.0
         entered = 1.0 - np.max([2.0 * speed / CREEP_SPEED, 4.0 * lag, aside], axis=0)
         return fast, entered
 
-    def switch(self, y: np.ndarray, due: np.ndarray) -> np.ndarray:
+    def switch(self, y: Array, due: Flags) -> Flags:
         """Change the state of the blocks that are due at the last event.
 
         Returns those that detach, (n,) bool. Writes to `y` where a block stops.
@@ -281,7 +268,7 @@ class _System:
         motive = self.driving_force(np.zeros(1), u)
         speed = np.hypot(*v)
         # a stop is located to the rounding of t, which the acceleration turns into speed
-        slow = speed[:, 0] <= self._stop_speed * 1.001
+        slow = speed[:, 0] <= STOP_SPEED * 1.001
         weak = np.hypot(*motive)[:, 0] <= self.threshold
         detaching = due & (self.state == STUCK)
         stopping = due & (self.state == SLIDING) & slow
@@ -295,33 +282,29 @@ class _System:
         v[:, held | stopping] = 0.0
         return detaching
 
-    def energies(self, y: np.ndarray) -> dict[str, float]:
-        """Where the slider's work has gone, at the time of the last event."""
+    def residual(self, y: Array) -> float:
+        """What the energy balance misses at the time of the last event, over the slider's work."""
         u, v = self.split(y[:, None])
         pull = self.slider_force(np.zeros(1), u)
         work_in, friction, viscous = (float(work) for work in y[-3:])
-        return {
-            "work_in": work_in,
-            "elastic": self._lattice.energy(u) + 0.5 * float(np.sum(pull**2)),
-            "kinetic": 0.5 * float(np.sum(v**2)),
-            "friction": friction,
-            "viscous": viscous,
-        }
+        elastic = self._lattice.energy(u) + 0.5 * float(np.sum(pull**2))
+        spent = elastic + 0.5 * float(np.sum(v**2)) + friction + viscous
+        return (work_in - spent) / work_in
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
+def _unit(vectors: Array) -> Array:
     """Unit vectors along the first axis; zero where the vector is zero."""
     return vectors / _positive(np.hypot(*vectors))
 
 
-def _positive(lengths: np.ndarray) -> np.ndarray:
+def _positive(lengths: Array) -> Array:
     """The same with ones in place of zeros, to divide by."""
     return np.where(lengths > 0.0, lengths, 1.0)
 
 
 def _first_event(
     system: _System, dense: DenseOutput, start: float, end: float
-) -> tuple[float, np.ndarray] | None:
+) -> tuple[float, Flags] | None:
     """Earliest time in a step at which an event function reaches zero, and whose it is."""
     t = np.linspace(start, end, _SAMPLES + 1)
     alarm = system.alarm(t, dense(t))
@@ -340,13 +323,13 @@ def _first_event(
     return time, due
 
 
-def _alarm_at(system: _System, dense: DenseOutput, time: float) -> np.ndarray:
+def _alarm_at(system: _System, dense: DenseOutput, time: float) -> Array:
     """Event functions (n,) at one time of a step."""
     return system.alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
 
 def _bracket(
-    system: _System, dense: DenseOutput, t: np.ndarray, alarm: np.ndarray
+    system: _System, dense: DenseOutput, t: Array, alarm: Array
 ) -> tuple[float, float] | None:
     """Two times with no block due at the first and one at the second; equal if due at once."""
     reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
@@ -375,7 +358,7 @@ def _bracket(
 class _Recorder:
     """Samples of the total slider force at multiples of an interval. Scaled units."""
 
-    def __init__(self, system: _System, times: np.ndarray) -> None:
+    def __init__(self, system: _System, times: Array) -> None:
         self._system = system
         self._times = times
         self._next = 0
@@ -385,7 +368,7 @@ class _Recorder:
         """Take the samples up to `end`, counted from the last event."""
         # the last sample must not be lost to the rounding of offset + end
         reach = (self._system.offset + end) * (1.0 + 1e-14)
-        stop = np.searchsorted(self._times, reach, side="right")
+        stop = int(np.searchsorted(self._times, reach, side="right"))
         if stop <= self._next:
             return
         chosen = slice(self._next, stop)
@@ -397,8 +380,8 @@ class _Recorder:
 
 
 def _advance(
-    system: _System, y: np.ndarray, left: float, rtol: float, recorder: _Recorder
-) -> tuple[float, np.ndarray, np.ndarray]:
+    system: _System, y: Array, left: float, recorder: _Recorder
+) -> tuple[float, Array, Flags]:
     """Integrate to the next event, or for the time left.
 
     Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,).
@@ -408,8 +391,8 @@ def _advance(
         0.0,
         y,
         left,
-        rtol=rtol,
-        atol=0.1 * rtol,
+        rtol=_ACCURACY,
+        atol=0.1 * _ACCURACY,
         max_step=_MAX_STEP,
         first_step=min(_RESTART_STEP, left),
     )
@@ -426,87 +409,42 @@ def _advance(
     return left, solver.y, np.zeros(system.n, dtype=bool)
 
 
-def _heading(direction: str | float) -> np.ndarray:
-    """Unit vector of the slider's motion; exact along the axes."""
-    if direction == "x":
-        return np.array([1.0, 0.0])
-    if direction == "y":
-        return np.array([0.0, 1.0])
-    angle = np.deg2rad(float(direction))
-    return np.array([np.cos(angle), np.sin(angle)])
-
-
 def solve(
-    contact: np.ndarray,
-    mu_static: np.ndarray,
-    mu_dynamic: np.ndarray,
+    contact: Flags,
+    mu_static: Array,
+    mu_dynamic: Array,
     material: Material = Material(),  # noqa: B008  (frozen)
-    direction: str | float = "x",
     duration: float = 1.3e-4,
     sample_interval: float = 2e-7,
-    rtol: float = 1e-10,
-    *,
-    stop_speed: float = STOP_SPEED,
-    creep_error: float = CREEP_ERROR,
 ) -> Reference:
-    """Solve the model for one surface, from rest at t = 0.
+    """Solve the model for one surface, from rest at t = 0, pulled along x.
 
     Parameters
     ----------
     contact : (N, N) bool, [y, x]
     mu_static, mu_dynamic : (N, N) float
         Friction coefficients; not read outside the contact.
-    direction : "x", "y" or an angle in degrees
-        Where the slider goes.
     duration, sample_interval : s
-    rtol : relative tolerance of each step; the absolute one is a tenth of it, scaled.
-    stop_speed, creep_error : scaled, see the module's docstring. Keep the first well above rtol,
-        or a step may pass a stop unseen; a much smaller second one makes slow blocks stiff.
     """
     units = _Units.of(material)
-    contact = np.asarray(contact, dtype=bool)
-    coefficients = [np.asarray(mu, dtype=float) for mu in (mu_static, mu_dynamic)]
-    system = _System(contact, *coefficients, material, _heading(direction), stop_speed, creep_error)
+    system = _System(contact, mu_static, mu_dynamic, material)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
-    samples = np.arange(int(duration / sample_interval + 1e-6) + 1) * sample_interval
+    samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     recorder = _Recorder(system, np.minimum(samples, duration) / units.time)
     t_det = np.full(system.n, np.nan)
-    events = 0
     y = system.initial()
     while (left := duration / units.time - system.offset) > 0.0:
-        elapsed, y, due = _advance(system, y, left, rtol, recorder)
+        elapsed, y, due = _advance(system, y, left, recorder)
         system.offset = system.offset + elapsed if due.any() else duration / units.time
         detaching = system.switch(y, due)
         t_det[detaching & np.isnan(t_det)] = system.offset * units.time
-        events += int(due.sum())
-    return _collect(system, units, y, samples, recorder.force, t_det.reshape(contact.shape), events)
-
-
-def _collect(
-    system: _System,
-    units: _Units,
-    y: np.ndarray,
-    time: np.ndarray,
-    force: np.ndarray,
-    t_det: np.ndarray,
-    events: int,
-) -> Reference:
-    """Turn the scaled end of a run into SI units."""
-    u, v = (part.reshape(2, *t_det.shape) for part in system.split(y[:, None]))
-    energy = system.energies(y)
-    spent = sum(value for name, value in energy.items() if name != "work_in")
-    peak = int(force.argmax())
+    peak = int(recorder.force.argmax())
     return Reference(
-        time=time,
-        force=force * units.force,
-        t_det=t_det,
-        displacement=u * units.length,
-        velocity=v * units.speed,
-        static_friction=float(force[peak]) / system.n,
-        t_max=float(time[peak]),
+        time=samples,
+        force=recorder.force * units.force,
+        t_det=t_det.reshape(contact.shape),
+        static_friction=float(recorder.force[peak]) / system.n,
+        t_max=float(samples[peak]),
         t_avg=float(np.nanmean(t_det)) if np.isfinite(t_det).any() else float("nan"),
-        evaluations=system.evaluations,
-        events=events,
-        energy={name: value * units.energy for name, value in energy.items()},
-        relative_residual=(energy["work_in"] - spent) / energy["work_in"],
+        relative_residual=system.residual(y),
     )

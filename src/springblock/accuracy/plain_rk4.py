@@ -9,17 +9,20 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
-from springblock import Material
+from springblock.material import Material
+
+Array = NDArray[np.float64]
 
 
 @dataclass
-class Run:
+class Solution:
     """Names and units as in `springblock.Realisation`."""
 
-    time: np.ndarray
-    force: np.ndarray
-    t_det: np.ndarray
+    time: Array
+    force: Array
+    t_det: Array
     static_friction: float
     t_max: float
     t_avg: float
@@ -96,16 +99,15 @@ def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det
 
 
 def solve(
-    contact: np.ndarray,
-    mu_static: np.ndarray,
-    mu_dynamic: np.ndarray,
+    contact: NDArray[np.bool_],
+    mu_static: Array,
+    mu_dynamic: Array,
     duration: float,
     step: float,
     sample_interval: float,
-    material: Material | None = None,
-) -> Run:
+) -> Solution:
     """Pull one surface along x; arguments and units as of `springblock.simulate`."""
-    m = material or Material()
+    m = Material()
     load = m.block_load * contact.size / contact.sum()
     every, samples = round(sample_interval / step), round(duration / sample_interval)
     force, t_det = np.zeros(samples + 1), np.full(contact.shape, np.nan)
@@ -114,8 +116,8 @@ def solve(
         contact, mu_static * load, mu_dynamic * load, constants, step, every, samples, force, t_det
     )
     peak = int(force.argmax())
-    return Run(
-        time=np.arange(samples + 1) * sample_interval,
+    return Solution(
+        time=np.arange(samples + 1.0) * sample_interval,
         force=force,
         t_det=t_det,
         static_friction=force[peak] / (m.block_load * contact.size),
