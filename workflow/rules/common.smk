@@ -1,4 +1,7 @@
+import os
 import sys
+from pathlib import Path
+from shlex import quote
 
 import yaml
 from snakemake.exceptions import WorkflowError
@@ -23,7 +26,9 @@ CORRELATIONS = expand(
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
-SPRINGBLOCK = f"{sys.executable} -m springblock"
+
+# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
+os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
 def batches(ensembles):
@@ -38,6 +43,21 @@ def batches(ensembles):
 def realisations(*groups):
     """Files that hold the realisations of these groups of scenes."""
     return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
+
+
+def scene(wildcards):
+    """The scene of a job, as options of its command."""
+    return ENSEMBLE[wildcards.scene].scene.arguments
+
+
+def duration(wildcards):
+    seconds = ENSEMBLE[wildcards.scene].duration
+    return "" if seconds is None else f"--duration {seconds}"
+
+
+def memory(wildcards):
+    """MB, measured with a margin: a part that is always there and one for the lattice."""
+    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
 
 
 def one_for_each(key, group):

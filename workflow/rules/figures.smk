@@ -34,7 +34,7 @@ rule figure_1:
     message:
         "Drawing figure 1: the model"
     shell:
-        "{SPRINGBLOCK} figure_1 --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_1 --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_2:
@@ -60,7 +60,7 @@ rule figure_2:
     message:
         "Drawing figure 2: force and detachments over time"
     shell:
-        "{SPRINGBLOCK} figure_2 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_2 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_3:
@@ -86,7 +86,7 @@ rule figure_3:
     message:
         "Drawing figure 3: first detachment times"
     shell:
-        "{SPRINGBLOCK} figure_3 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_3 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_4:
@@ -111,7 +111,7 @@ rule figure_4:
     message:
         "Drawing figure 4: square pillars"
     shell:
-        "{SPRINGBLOCK} figure_4 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_4 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_5:
@@ -137,7 +137,7 @@ rule figure_5:
     message:
         "Drawing figure 5: first detachment times on one pillar"
     shell:
-        "{SPRINGBLOCK} figure_5 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_5 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_6:
@@ -164,7 +164,7 @@ rule figure_6:
     message:
         "Drawing figure 6: force and detachments on pillars"
     shell:
-        "{SPRINGBLOCK} figure_6 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_6 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_7:
@@ -191,7 +191,7 @@ rule figure_7:
     message:
         "Drawing figure 7: correlation of detachment times on pillars"
     shell:
-        "{SPRINGBLOCK} figure_7 {input.correlation} {input.lengths} "
+        "springblock figure_7 {input.correlation} {input.lengths} "
         "--output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
@@ -217,7 +217,7 @@ rule figure_8:
     message:
         "Drawing figure 8: grooved pillars"
     shell:
-        "{SPRINGBLOCK} figure_8 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_8 {params.pattern} --output {output.pdf} --output {output.png} > {log} 2>&1"
 
 
 rule figure_9:
@@ -243,4 +243,4 @@ rule figure_9:
     message:
         "Drawing figure 9: force and detachments on grooved pillars"
     shell:
-        "{SPRINGBLOCK} figure_9 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"
+        "springblock figure_9 {input} --output {output.pdf} --output {output.png} > {log} 2>&1"

@@ -73,5 +73,5 @@ for supplement, (_, shows) in SUPPLEMENT.items():
         message:
             f"Drawing {supplement}: {shows}"
         shell:
-            "{SPRINGBLOCK} {params.figure} {input} --output {output.pdf} --output {output.png} "
+            "springblock {params.figure} {input} --output {output.pdf} --output {output.png} "
             "> {log} 2>&1"
