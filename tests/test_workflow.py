@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from springblock import Material
+from springblock.solver import INTEGRATORS
 from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
@@ -142,6 +143,14 @@ def test_each_job_leaves_a_log_and_a_benchmark(study):
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
         files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
         assert files == jobs
+
+
+def test_the_configuration_offers_what_the_package_has():
+    """Every integrator, and every constant with the paper's value."""
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    assert schema["properties"]["integrator"]["enum"] == list(INTEGRATORS)
+    assert list(schema["properties"]["material"]["properties"]) == list(PAPER["material"])
+    assert PAPER["material"] == dict(Material().items())
 
 
 def test_the_whole_study_can_be_planned(study):

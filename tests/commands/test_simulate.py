@@ -5,11 +5,13 @@ import json
 import pyarrow.parquet as pq
 import pytest
 
+from springblock.solver import INTEGRATORS
+
 FLAT = ("--n-blocks", 6)
 ONE = ("--first-seed", 3, "--last-seed", 3)
 
 
-@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_integrator_is_compiled(springblock, integrator):
     assert springblock("compile", "--integrator", integrator) == f"{integrator} is compiled\n"
 

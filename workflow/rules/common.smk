@@ -18,6 +18,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
+INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 FIGURES = [f"figure_{number}" for number in range(1, 10)]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]

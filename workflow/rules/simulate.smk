@@ -37,10 +37,10 @@ rule compile_integrator:
 
 rule compile:
     input:
-        expand(rules.compile_integrator.output, integrator=["leapfrog", "rk4"]),
+        expand(rules.compile_integrator.output, integrator=INTEGRATORS),
     localrule: True
     message:
-        "Both integrators are compiled"
+        "All integrators are compiled"
 
 
 rule prelude_scene:
