@@ -61,6 +61,17 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["compile", "--integrator", "euler"], "'euler' is not one of 'leapfrog', 'rk4'"),
+        (["prelude", *FLAT, "--step", 1e-6, "--output", "absent"], "step = 1e-06 s is unstable"),
+    ],
+)
+def test_so_it_is_before_a_simulation(springblock, words, sentence):
+    assert sentence in springblock(*words, refused=True)
+
+
 def test_the_prelude_of_another_scene_is_refused(springblock, tmp_path):
     prelude = tmp_path / "p.npz"
     springblock("prelude", *FLAT, "--output", prelude)
