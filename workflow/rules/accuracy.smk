@@ -1,11 +1,11 @@
 # Error against run time, stiff and extreme cases, and the page on both.
 
-from springblock.accuracy.conventions import COMPARISONS, SCENES
+from springblock.accuracy import conventions
 
-COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
+COMPILED = rules.compile.input
 
 
-rule compare:
+rule compare_scene:
     input:
         COMPILED,
     output:
@@ -25,13 +25,25 @@ rule compare:
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "{SPRINGBLOCK} compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
-        "--output {output} > {log} 2>&1"
+        "springblock compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "--output {output:q} > {log:q} 2>&1"
+
+
+rule compare:
+    input:
+        expand(
+            rules.compare_scene.output,
+            comparison=conventions.COMPARISONS,
+            scene=conventions.SCENES,
+        ),
+    localrule: True
+    message:
+        "All errors are measured"
 
 
 rule precision_table:
     input:
-        expand(rules.compare.output, comparison=COMPARISONS, scene=SCENES),
+        rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
     log:
@@ -46,7 +58,7 @@ rule precision_table:
     message:
         "Collecting errors and run times in one table"
     shell:
-        "{SPRINGBLOCK} collect {input} --output {output} > {log} 2>&1"
+        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule stability_table:
@@ -66,7 +78,7 @@ rule stability_table:
     message:
         "Trying stiff and extreme cases"
     shell:
-        "{SPRINGBLOCK} try --output {output} > {log} 2>&1"
+        "springblock try --output {output:q} > {log:q} 2>&1"
 
 
 rule accuracy:
@@ -88,4 +100,4 @@ rule accuracy:
     message:
         "Writing down what to trust"
     shell:
-        "{SPRINGBLOCK} accuracy {input} --output {output} > {log} 2>&1"
+        "springblock accuracy {input:q} --output {output:q} > {log:q} 2>&1"

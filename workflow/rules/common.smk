@@ -1,4 +1,7 @@
+import os
 import sys
+from pathlib import Path
+from shlex import quote
 
 import yaml
 from snakemake.exceptions import WorkflowError
@@ -15,6 +18,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
+INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
 )
@@ -26,7 +30,9 @@ ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for 
 SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
-SPRINGBLOCK = f"{sys.executable} -m springblock"
+
+# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
+os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
 def batches(ensembles):
@@ -41,6 +47,21 @@ def batches(ensembles):
 def realisations(*groups):
     """Files that hold the realisations of these groups of scenes."""
     return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
+
+
+def scene(wildcards):
+    """The scene of a job, as options of its command."""
+    return ENSEMBLE[wildcards.scene].scene.arguments
+
+
+def duration(wildcards):
+    seconds = ENSEMBLE[wildcards.scene].duration
+    return "" if seconds is None else f"--duration {seconds}"
+
+
+def memory(wildcards):
+    """MB, measured with a margin: a part that is always there and one for the lattice."""
+    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
 
 
 def correlations(table, ensembles):

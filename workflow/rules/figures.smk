@@ -30,5 +30,5 @@ for figure, declared in FIGURES.items():
         message:
             f"Drawing {figure}: {declared.title}"
         shell:
-            "{SPRINGBLOCK} figure {params.figure} {params.options} {input} "
-            "--output {output.pdf} --output {output.png} > {log} 2>&1"
+            "springblock figure {params.figure} {params.options} {input:q} "
+            "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
