@@ -35,8 +35,8 @@ from benchmarks.peers.scipy_lattice import RTOL, ScipyLattice
 from benchmarks.timing import SCHEMA, Array, Row, interleaved, missing, printed, row
 from springblock import Material, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
+from springblock.defaults import STEP
 from springblock.scene import Scene
-from springblock.setup import STEP
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.sources import code_version

@@ -3,7 +3,7 @@
 from itertools import product
 
 from springblock.accuracy.conventions import PLAIN, SCENES
-from springblock.setup import STEP
+from springblock.defaults import STEP
 
 QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
 QUANTITIES += ["t_det before horizon", "t_det before peak"]

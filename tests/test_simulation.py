@@ -8,9 +8,9 @@ import pytest
 
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
 from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.defaults import STEP
 from springblock.direction import heading
 from springblock.realisation import first_minimum
-from springblock.setup import STEP
 
 PAPER = Material()
 N = 12

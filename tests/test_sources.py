@@ -1,6 +1,13 @@
 """Which sources a result depends on."""
 
+import re
+from pathlib import Path
+
+import springblock
 from springblock.sources import code_version, digest, files
+from springblock.sources import imports as imported
+
+ROOT = Path(springblock.__file__).parent
 
 
 def names(*modules):
@@ -31,3 +38,24 @@ def test_the_error_study_depends_on_each_of_its_own_modules():
 def test_the_digest_tells_modules_apart_and_is_part_of_the_version():
     assert digest("springblock.material") != digest("springblock.pattern")
     assert code_version("springblock.material").endswith("+" + digest("springblock.material"))
+
+
+def rooms():
+    """Place of each room in the map of CONTRIBUTING.md, and all rooms of the package."""
+    text = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text()
+    rows = re.findall(r"^\| (`.+) \| .+ \|$", text, re.MULTILINE)
+    places = {name: i for i, row in enumerate(rows) for name in re.findall(r"`(\w+)/?`", row)}
+    return places, {path.stem for path in ROOT.glob("[a-z]*") if path.name != "__pycache__"}
+
+
+def test_the_map_names_every_room():
+    places, found = rooms()
+    assert places.keys() == found
+
+
+def test_no_room_imports_what_comes_after_it():
+    places, _ = rooms()
+    for path in ROOT.rglob("*.py"):
+        room = path.relative_to(ROOT).parts[0].removesuffix(".py")
+        used = {name.split(".")[1] for name in imported(path) if name.count(".")} & places.keys()
+        assert all(places[name] <= places[room] for name in used if room in places), (path, used)

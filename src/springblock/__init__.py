@@ -27,14 +27,21 @@ __all__ = [
     "simulate",
 ]
 
+#: Where those names are at home that take the solver along.
+_HOMES = {
+    "Prelude": "prelude",
+    "SimulationError": "simulation",
+    "compute_prelude": "prelude",
+    "simulate": "simulation",
+}
+
 if not TYPE_CHECKING:  # mypy would accept any name if it saw this
 
     def __getattr__(name: str) -> object:
         """Import the solver, and with it numba, for those alone who ask for it (PEP 562)."""
-        if name not in __all__:
+        if name not in _HOMES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        home = "prelude" if name.lower().endswith("prelude") else "simulation"
-        return getattr(import_module(f"springblock.{home}"), name)
+        return getattr(import_module(f"springblock.{_HOMES[name]}"), name)
 
     def __dir__() -> list[str]:
         return sorted({*globals(), *__all__})

@@ -1,4 +1,4 @@
-"""What a run may be asked for: surfaces, times and directions that make sense."""
+"""What a run may be asked for: surfaces and times that make sense."""
 
 import math
 from typing import Any
@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.direction import REAL
 from springblock.solver.springs import MAX_BLOCKS
 
 Array = NDArray[np.float64]
-
-REAL = int | float | np.integer | np.floating
 
 
 def checked_surface(

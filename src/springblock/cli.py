@@ -10,7 +10,7 @@ COMMANDS = {
     "simulate": "springblock.commands.simulate:simulate_batch",
     "aggregate": "springblock.commands.aggregate:aggregate",
     "correlation": "springblock.commands.correlation:correlation",
-    "collect": "springblock.commands.correlation:collect",
+    "collect": "springblock.commands.collect:collect",
     "compare": "springblock.commands.compare:compare",
     "try": "springblock.commands.stability:try_cases",
     "accuracy": "springblock.commands.accuracy:write_page",

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-_REAL = int | float | np.integer | np.floating
+REAL = int | float | np.integer | np.floating
 _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
 #: By angles from -180 to 180 degrees: those that would have two names.
 _NAMES = {0.0: "x", 90.0: "y", -180.0: "180"}
@@ -23,7 +23,7 @@ def normalised(direction: str | float) -> str:
     if isinstance(direction, str) and direction in _AXES:
         return direction
     refusal = f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}"
-    if isinstance(direction, bool) or not isinstance(direction, _REAL | str):
+    if isinstance(direction, bool) or not isinstance(direction, REAL | str):
         raise TypeError(refusal)
     try:
         angle = float(direction)

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.checks import checked_surface
+from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
 from springblock.files import whole_file
 from springblock.material import Material
-from springblock.setup import PAPER, SAMPLE_INTERVAL, STEP, Setup
+from springblock.setup import PAPER, Setup
 from springblock.solver.lattice import Samples, State, prepare
 
 Array = NDArray[np.float64]
@@ -93,7 +94,7 @@ def compute_prelude(
     contact: ArrayLike,
     material: Material = PAPER,
     direction: str | float = "x",
-    integrator: str = "leapfrog",
+    integrator: str = INTEGRATOR,
     step: float = STEP,
     sample_interval: float = SAMPLE_INTERVAL,
 ) -> Prelude:

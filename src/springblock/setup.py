@@ -5,15 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from springblock.checks import check_positive, whole_multiple
+from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Integrator
 
 PAPER = Material()
-#: Default integration step of the leapfrog, s; results/tables/work_precision.parquet says why.
-STEP = 1e-8
-#: Default time between two entries of the force curve, s.
-SAMPLE_INTERVAL = 2e-7
 
 
 @dataclass(frozen=True)
@@ -27,7 +24,7 @@ class Setup:
     """
 
     material: Material = PAPER
-    integrator: str = "leapfrog"
+    integrator: str = INTEGRATOR
     step: float = STEP  #: s
     sample_interval: float = SAMPLE_INTERVAL  #: s, a multiple of the step
 

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.checks import checked_surface, count_samples, whole_multiple
+from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
 from springblock.energy import Energy, elastic_energy
 from springblock.material import Material
 from springblock.prelude import Prelude, conditions
 from springblock.realisation import Realisation, first_minimum
-from springblock.setup import PAPER, SAMPLE_INTERVAL, STEP, Setup
+from springblock.setup import PAPER, Setup
 from springblock.solver.lattice import Constants, Samples, State, prepare, unpadded
 
 Array = NDArray[np.float64]
@@ -37,7 +38,7 @@ def simulate(
     mu_dynamic: ArrayLike,
     material: Material = PAPER,
     direction: str | float = "x",
-    integrator: str = "leapfrog",
+    integrator: str = INTEGRATOR,
     step: float = STEP,
     duration: float | None = None,
     sample_interval: float = SAMPLE_INTERVAL,
@@ -69,8 +70,8 @@ def simulate(
     snapshot_times : s
         Multiples of the sample interval at which the displacements are kept, in rising order.
     prelude : Prelude
-        States of this very scene before its first detachment, see `load`. They save time and
-        change nothing.
+        States of this very scene before its first detachment, see `compute_prelude`. They
+        save time and change nothing.
 
     Raises
     ------

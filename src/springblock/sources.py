@@ -23,7 +23,7 @@ def _file(module: str) -> Path | None:
 
 
 @cache
-def _imports(file: Path) -> frozenset[str]:
+def imports(file: Path) -> frozenset[str]:
     """Names of this package that a source file imports, at its top or inside a function."""
     names: set[str] = set()
     for node in ast.walk(ast.parse(file.read_bytes())):
@@ -43,7 +43,7 @@ def files(*modules: str) -> list[Path]:
         file = _file(waiting.pop())
         if file and file not in found:
             found.add(file)
-            waiting.extend(_imports(file))
+            waiting.extend(imports(file))
     return sorted(found)
 
 

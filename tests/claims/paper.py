@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from springblock.claims.grooves import edge, grooved_parts
-from springblock.claims.rule import Evidence, Row
+from springblock.claims.rule import Evidence
+from springblock.rows import Row
 from springblock.scene import Scene
 from springblock.statistics import pillar_ring
 from springblock.tables import Record

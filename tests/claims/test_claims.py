@@ -14,8 +14,9 @@ from springblock.claims import CLAIMS
 from springblock.claims.correlation import apart, between
 from springblock.claims.flat import isolated, lonely
 from springblock.claims.grooves import edge, grooved_parts
-from springblock.claims.rule import Claim, Evidence, Row, verdict
+from springblock.claims.rule import Claim, Evidence, verdict
 from springblock.claims.samples import difference, position
+from springblock.rows import Row
 from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import Record

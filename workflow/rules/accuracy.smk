@@ -54,7 +54,7 @@ rule precision_table:
         mem_mb=400,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.correlation"),
+        code=sources.digest("springblock.commands.collect"),
     message:
         "Collecting errors and run times in one table"
     shell:

@@ -12,7 +12,7 @@ HOW = " ".join(
 
 
 wildcard_constraints:
-    scene="|".join(ENSEMBLE),
+    scene="|".join(map(re.escape, ENSEMBLE)),
 
 
 rule compile_integrator:

@@ -1,4 +1,4 @@
-"""What tables, page, figures and statements agree on; nothing that is slow to import."""
+"""What tables, page, figures and claims agree on; nothing that is slow to import."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -14,10 +14,8 @@ from springblock.accuracy.conventions import (
     order,
 )
 from springblock.accuracy.residuals import ENERGY_TOLERANCE, OUT_OF_LINE
-from springblock.files import markdown_table
-from springblock.setup import STEP
-
-Row = dict[str, Any]
+from springblock.defaults import STEP
+from springblock.rows import Row, markdown_table, select
 
 _PAGE = """# What to trust, and how far
 
@@ -77,13 +75,13 @@ the median {median_energy:.1e}. The study warns of any above {tolerance:.0e}, or
 
 def page(precision: list[Row], stability: list[Row], realisations: list[Row]) -> str:
     """Fill the page in from the rows of the three tables."""
-    single = _select(precision, comparison="reference")
-    default = _select(single, integrator="leapfrog", step=STEP)
-    finest = _select(single, integrator="leapfrog", step=min(row["step"] for row in single))
-    plain = _select(single, integrator=PLAIN, scene="flat", quantity="static_friction")
+    single = select(precision, comparison="reference")
+    default = select(single, integrator="leapfrog", step=STEP)
+    finest = select(single, integrator="leapfrog", step=min(row["step"] for row in single))
+    plain = select(single, integrator=PLAIN, scene="flat", quantity="static_friction")
     slowest = min(plain, key=lambda row: row["step"])
-    (plain_paper,) = _select(plain, step=PAPER_STEP)
-    paired = _select(precision, comparison="paired", integrator="leapfrog")
+    (plain_paper,) = select(plain, step=PAPER_STEP)
+    paired = select(precision, comparison="paired", integrator="leapfrog")
     coarsest = max(row["step"] for row in paired)
     residuals = [abs(row["energy_error"]) for row in realisations]
     return _PAGE.format(
@@ -100,12 +98,12 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
         plain_fine=slowest["error"],
         plain_finest=slowest["step"],
         nudge=HORIZON_NUDGE,
-        **{row["scene"]: row["error"] for row in _select(default, quantity="horizon")},
+        **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
         n_paired=min(row["realisations"] for row in paired),
         n_ensemble=paired[0]["n_blocks"],
-        fine=_select(precision, comparison="scatter")[0]["step"],
+        fine=select(precision, comparison="scatter")[0]["step"],
         ensemble=ENSEMBLE,
-        paired=_biases(_select(paired, step=STEP), _select(precision, comparison="scatter")),
+        paired=_biases(select(paired, step=STEP), select(precision, comparison="scatter")),
         n_runs=len(residuals),
         worst_energy=max(residuals),
         median_energy=median(residuals),
@@ -115,7 +113,7 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
         n_agree=sum(row["outcome"] == row["expected"] for row in stability),
         families=", ".join(sorted({row["family"] for row in stability})),
         coarsest=coarsest,
-        coarse_bias=max(abs(row["error"]) for row in _select(paired, step=coarsest)),
+        coarse_bias=max(abs(row["error"]) for row in select(paired, step=coarsest)),
     )
 
 
@@ -131,12 +129,8 @@ _NAMES = {
 }
 
 
-def _select(rows: list[Row], **wanted: Any) -> list[Row]:
-    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
-
-
 def _one(rows: list[Row], **wanted: Any) -> Row:
-    (row,) = _select(rows, **wanted)
+    (row,) = select(rows, **wanted)
     return row
 
 
@@ -145,7 +139,7 @@ def _order(single: list[Row], integrator: str) -> float:
 
     On patterned surfaces a few blocks decide, and it scatters.
     """
-    rows = _select(single, scene="flat", integrator=integrator, quantity="t_det before horizon")
+    rows = select(single, scene="flat", integrator=integrator, quantity="t_det before horizon")
     return order([row["step"] for row in rows], [row["error"] for row in rows])
 
 

@@ -3,9 +3,8 @@
 from collections import defaultdict
 from collections.abc import Iterable
 from statistics import median
-from typing import Any
 
-Row = dict[str, Any]
+from springblock.rows import Row
 
 #: Energy residual, as a share of the slider's work, that no realisation should exceed.
 ENERGY_TOLERANCE = 5e-4

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -26,6 +26,7 @@ from springblock.accuracy.surfaces import Array, Surface, drawn
 from springblock.pattern import Pattern
 from springblock.prelude import compute_prelude
 from springblock.realisation import Realisation
+from springblock.rows import Row
 from springblock.simulation import simulate
 from springblock.solver import INTEGRATORS
 from springblock.tables import column
@@ -83,8 +84,6 @@ FINE_STEP = 2.5e-9
 NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
 TWIN_STEP = 2.5e-9
 TWIN_SEEDS = range(3)
-
-Row = dict[str, Any]
 Errors = dict[str, float]
 Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
 Computed = Realisation | plain_rk4.Solution

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from springblock.claims.rule import Claim, Evidence, Finding, Row
+from springblock.claims.rule import Claim, Evidence, Finding
 from springblock.claims.samples import (
     ALONG,
     INF,
@@ -16,8 +16,8 @@ from springblock.claims.samples import (
     interval,
     place,
     scenes_along_x,
-    select,
 )
+from springblock.rows import Row, select
 from springblock.scene import Scene
 from springblock.statistics import Interval
 

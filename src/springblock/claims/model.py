@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 
-from springblock.accuracy.conventions import PAPER_STEP, ensemble_error
+from springblock.accuracy.conventions import PAPER_STEP, PLAIN, ensemble_error
 from springblock.claims.rule import Claim, Evidence, Finding
-from springblock.claims.samples import interval, select
+from springblock.claims.samples import interval
+from springblock.rows import select
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
@@ -14,7 +15,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     friction has no interval.
     """
     rows = select(evidence.precision, step=PAPER_STEP)
-    plain = select(rows, integrator="plain rk4", quantity="static_friction")
+    plain = select(rows, integrator=PLAIN, quantity="static_friction")
     for row in select(rows, comparison="paired") + plain:
         keys = {key: row[key] for key in ("scene", "quantity")}
         scatter = select(evidence.precision, comparison="scatter", **keys)

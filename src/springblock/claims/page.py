@@ -4,8 +4,7 @@ import math
 from collections.abc import Sequence
 from itertools import groupby
 
-from springblock.claims.rule import Row
-from springblock.files import markdown_table
+from springblock.rows import Row, markdown_table
 
 _LINE = 100  #: characters
 

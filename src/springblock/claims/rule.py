@@ -3,13 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any
 
+from springblock.rows import Row
 from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import Record
 
-Row = dict[str, Any]
 Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]

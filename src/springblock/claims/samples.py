@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby, pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims.rule import Case, Evidence, Finding, Range, Row, describe
+from springblock.claims.rule import Case, Evidence, Finding, Range, describe
+from springblock.rows import Row
 from springblock.run import Array
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval, ratio_interval
@@ -69,11 +69,6 @@ def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     return f"tables/{table}: {describe(keys)}"
 
 
-def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
-    """Rows that hold these values."""
-    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
-
-
 def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Interval:
     """A value of a row with its interval."""
     return Interval(*(np.array(row[key]) for key in (value, low, high)))
@@ -108,14 +103,16 @@ def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
 
     The interval is NaN where those of `zero` and `one` cannot be told apart.
     """
+    scale = difference(one, zero)
     seeds = sorted(sample.keys() & zero.keys() & one.keys())
-    place = ratio_interval(
+    if not seeds:
+        return mean({})
+    between = ratio_interval(
         [sample[seed] - zero[seed] for seed in seeds], [one[seed] - zero[seed] for seed in seeds]
     )
-    scale = difference(one, zero)
     if scale.low <= 0.0 <= scale.high:
-        return Interval(place.mean, np.array(np.nan), np.array(np.nan))
-    return place
+        return Interval(between.mean, np.array(np.nan), np.array(np.nan))
+    return between
 
 
 def in_order(case: Case, parts: Mapping[str, Array], rests_on: str) -> Iterator[Finding]:

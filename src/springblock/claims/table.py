@@ -5,7 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 import pyarrow as pa
 
-from springblock.claims.rule import Claim, Evidence, Finding, Row, describe, verdict
+from springblock.claims.rule import Claim, Evidence, Finding, describe, verdict
+from springblock.rows import Row
 from springblock.statistics import Interval
 from springblock.tables import column
 

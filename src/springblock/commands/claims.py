@@ -10,10 +10,11 @@ import pyarrow.parquet as pq
 
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
-from springblock.claims.rule import Evidence, Row
+from springblock.claims.rule import Evidence
 from springblock.claims.table import SCHEMA, rows
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
+from springblock.rows import Row
 from springblock.scene import Scene
 from springblock.sources import code_version
 from springblock.tables import read_records, rows_to_table, write

@@ -1,27 +1,24 @@
-"""springblock correlation and collect: correlations of scenes, and one table of them all."""
+"""springblock correlation: correlations of detachment times on one scene."""
 
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import click
-import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.correlation import Correlation, Length, design_effect, side_times
+from springblock.rows import Row
 from springblock.sources import code_version
 from springblock.tables import (
     CORRELATION,
     CORRELATION_LENGTH,
     Record,
-    read,
     read_records,
     rows_to_table,
     write,
 )
-
-Row = dict[str, Any]
 
 
 @click.command("correlation")
@@ -79,21 +76,3 @@ def _length(length: Length) -> Row:
         "r_last": length.last,
         "deviation": length.deviation,
     }
-
-
-@click.command("collect")
-@click.argument("tables", type=INPUT, nargs=-1, required=True)
-@click.option("--configuration", help="Digest of the configuration, where one matters.")
-@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
-def collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
-    """Collect TABLES of equal columns, made by the same code, in one."""
-    with one_sentence():
-        schemas: list[pa.Schema] = [pq.read_schema(table) for table in tables]
-        versions = {(each.metadata or {}).get(b"code_version", b"none") for each in schemas}
-        if len(versions) > 1:
-            named = ", ".join(sorted(version.decode() for version in versions))
-            raise ValueError(f"the tables must be of one code_version; they hold {named}")
-        metadata = {"code_version": versions.pop().decode()}
-        if configuration is not None:
-            metadata["configuration_digest"] = configuration
-        write(read(tables, schemas[0].remove_metadata()), output, metadata)

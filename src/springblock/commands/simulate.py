@@ -18,11 +18,12 @@ from springblock.commands.options import (
     scene_options,
     with_options,
 )
+from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
 from springblock.scene import Scene
-from springblock.setup import SAMPLE_INTERVAL, STEP, Setup
+from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version, configuration_digest

@@ -6,7 +6,6 @@ what an integration step costs and what it is good for.
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, SymmetricalLogLocator
 
 from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES, order
+from springblock.defaults import INTEGRATOR, STEP
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Table
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, journal
@@ -174,13 +174,7 @@ def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
 
 def _ringed() -> dict[str, tuple[str, float]]:
     """Integrator and step in s as `simulate` has them by default, and as the paper."""
-    from springblock.simulation import simulate  # here, for it takes the solver along
-
-    default = inspect.signature(simulate).parameters
-    return {
-        "default": (default["integrator"].default, default["step"].default),
-        "paper": (PLAIN, PAPER_STEP),
-    }
+    return {"default": (INTEGRATOR, STEP), "paper": (PLAIN, PAPER_STEP)}
 
 
 def _mark_default_and_paper(ax: Axes, rows: DataFrame, cost: str) -> None:

@@ -92,8 +92,7 @@ class Samples(NamedTuple):
 class Integrator(Protocol):
     """A way to follow the blocks through time: a module of this package.
 
-    To add one, write such a module and name it in `INTEGRATORS`; every test of both integrators,
-    the error study and the extreme cases then take it up.
+    CONTRIBUTING.md says how to add one.
     """
 
     FORCE_EVALUATIONS: int  #: per step

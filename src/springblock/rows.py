@@ -1,0 +1,17 @@
+"""Rows of tables as dictionaries: chosen from, and laid out for a page."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+Row = dict[str, Any]
+
+
+def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
+    """Rows that hold these values."""
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
+
+
+def markdown_table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
+    """Lay out a table for a page in Markdown."""
+    cells = [header, ["---"] * len(header), *lines]
+    return "\n".join("| " + " | ".join(line) + " |" for line in cells)
