@@ -2,12 +2,13 @@
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes
+# make docs     bring the pages in docs up to date with the study
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
 
 PYTHON ?= python3
 VENV := .venv
-PEERS := tests/validation/peers/peers.lock
+PEERS := benchmarks/peers/peers.lock
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
@@ -15,7 +16,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench setup lock clean
+.PHONY: all quick test bench docs setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -33,7 +34,11 @@ test: setup
 # Peers that cannot be installed are rows of the table that say so.
 bench: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
-	PYTHONPATH=tests $(BIN)/python -m validation.benchmark
+	$(BIN)/python -m benchmarks
+
+docs: setup
+	$(BIN)/snakemake accuracy claims
+	cp results/accuracy.md results/claims.md docs
 
 setup: $(VENV)/installed
 
@@ -66,4 +71,4 @@ lock:
 
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache
-	find src tests workflow -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +

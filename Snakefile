@@ -15,7 +15,6 @@ include: "workflow/rules/correlation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
-include: "workflow/rules/supplement.smk"
 
 
 rule all:
@@ -24,10 +23,16 @@ rule all:
         rules.aggregate.output,
         CORRELATIONS,
         rules.claims.output,
-        [figure_files(name) for name in (*FIGURES, *SUPPLEMENT)],
-        [rules.work_precision.output, rules.stability.output, rules.accuracy.output]
-        if config["accuracy"]
-        else [],
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[
+                name
+                for name, figure in FIGURES.items()
+                if config["accuracy"] or figure.category != "Accuracy"
+            ],
+            suffix=["pdf", "png"],
+        ),
+        rules.accuracy.output if config["accuracy"] else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"

@@ -6,12 +6,20 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes import drawn, flat, nailed, spring_forces, uniform
 from springblock import Material, Pattern, simulate
+from springblock.accuracy.kernels import spring_forces
+from springblock.accuracy.surfaces import drawn, flat, uniform
 from springblock.energy import elastic_energy
 
 PAPER = Material()
 INTEGRATORS = ["leapfrog", "rk4"]
+
+
+def nailed(n):
+    """One contact block in a corner, which never lets go: all other motion is smooth."""
+    contact = np.zeros((n, n), bool)
+    contact[0, 0] = True
+    return contact, np.full((n, n), 1e9), np.zeros((n, n))
 
 
 def exact_energy(u, slider):

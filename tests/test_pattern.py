@@ -8,8 +8,8 @@ from springblock import Pattern
 GROOVED = Pattern.pillars(120, 58, 62).grooved(8, 2, along="x")
 
 
-def runs(line):
-    """First index and length of each run of contact along a line."""
+def segments(line):
+    """First block and length of each segment in contact along a line."""
     starts = np.flatnonzero(np.diff(line.astype(int), prepend=0) == 1)
     ends = np.flatnonzero(np.diff(line.astype(int), append=0) == -1) + 1
     return list(zip(starts.tolist(), (ends - starts).tolist(), strict=True))
@@ -26,7 +26,7 @@ def test_pillars_of_the_paper_bear_on_a_quarter_of_the_surface(n_p):
     contact = Pattern.pillars(120, n_p, n_p).contact
     expected = [(start, n_p) for start in range(n_p // 2, 120, 2 * n_p)]
     for line in (contact[n_p // 2], contact[:, n_p // 2]):
-        assert runs(line) == expected
+        assert segments(line) == expected
     assert not contact[0].any()
     assert contact.mean() == 0.25
 
@@ -41,7 +41,7 @@ def test_pillars_repeat_with_their_period_and_cover_its_square(n, n_p, n_s):
 
 
 def test_an_odd_gap_leaves_its_larger_half_at_the_far_edge():
-    assert runs(Pattern.pillars(14, 4, 3).contact[2]) == [(1, 4), (8, 4)]
+    assert segments(Pattern.pillars(14, 4, 3).contact[2]) == [(1, 4), (8, 4)]
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,8 @@ def test_origins_are_the_first_blocks_of_the_pillars():
 def test_pawls_fill_their_pillar_from_edge_to_edge(n_p2, pawls):
     """Grooves along x cut the pillar's y axis: 58 = 6·8 + 5·2 = 5·10 + 4·2."""
     contact = Pattern.pillars(120, 58, 62).grooved(n_p2, 2, along="x").contact
-    assert runs(contact[:, 60]) == [(31 + k * (n_p2 + 2), n_p2) for k in range(pawls)]
-    assert runs(contact[31]) == [(31, 58)]
+    assert segments(contact[:, 60]) == [(31 + k * (n_p2 + 2), n_p2) for k in range(pawls)]
+    assert segments(contact[31]) == [(31, 58)]
 
 
 def test_grooves_along_y_are_the_transpose_of_grooves_along_x():
@@ -78,7 +78,7 @@ def test_grooves_along_y_are_the_transpose_of_grooves_along_x():
 
 def test_grooves_on_a_flat_surface_are_stripes():
     contact = Pattern.flat(12).grooved(4, 2, along="x").contact
-    assert runs(contact[:, 0]) == [(1, 4), (7, 4)]
+    assert segments(contact[:, 0]) == [(1, 4), (7, 4)]
     assert (contact == contact[:, :1]).all()
 
 
@@ -90,8 +90,8 @@ def test_crossed_grooves_are_pillars_upon_pillars():
 
 def test_a_third_level_cuts_the_second():
     third = Pattern.pillars(16, 11, 5).pillared(5, 1).grooved(2, 1, along="x").contact
-    assert runs(third[:, 3]) == [(2, 2), (5, 2), (8, 2), (11, 2)]
-    assert runs(third[2]) == [(2, 5), (8, 5)]
+    assert segments(third[:, 3]) == [(2, 2), (5, 2), (8, 2), (11, 2)]
+    assert segments(third[2]) == [(2, 5), (8, 5)]
 
 
 def test_contact_is_read_only():

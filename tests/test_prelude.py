@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from scenes import drawn
 from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
+from springblock.accuracy.surfaces import drawn
 from springblock.solver.springs import band_rows
 
 PILLARS = Pattern.pillars(12, 4, 2)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from springblock.scene import Scene
+from springblock.scene import COLUMNS, Scene
+from springblock.tables import SCENE
 
 STRIPS = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
 CUT = Scene(120, **STRIPS, n_p3=8, n_s3=2)
@@ -25,6 +26,11 @@ def test_folders_and_options_name_every_level():
     )
     assert CUT.arguments.endswith("--n-p2 8 --n-s2 2 --n-p3 8 --n-s3 2 --direction x")
     assert Scene(9, direction="30").folder == "n_blocks=9/level=0/direction=30"
+
+
+def test_a_row_of_a_table_names_its_scene():
+    assert set(COLUMNS) == set(SCENE.names)
+    assert Scene.from_row(CUT.row | {"seed": 3}) == CUT
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scenes import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
-from springblock.realisation import first_minimum, heading
+from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.direction import heading
+from springblock.realisation import first_minimum
 from springblock.setup import STEP
 
 PAPER = Material()

@@ -50,7 +50,7 @@ def test_a_group_is_a_grid_over_its_lists():
     assert groups["flat"][0] == Ensemble(Scene(120), range(20), 3e-4)
 
 
-def test_spacings_may_follow_the_pillars():
+def test_gaps_may_follow_the_pillars():
     halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
     assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]
     doubled = changed("scenes", "pillars", "n_s", to=["2n_p"])
@@ -69,6 +69,8 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
     assert len(groups["more"]) == 3  # n_s = n_p = 20 occurs twice
     shared = set(groups["more"]) & set(groups["pillars"])
     assert {(e.scene.n_p, len(e.seeds)) for e in shared} == {(6, 500), (20, 60)}
+    whole, decimal = ({"direction": [angle], "seeds": 1} for angle in (15, 15.0))
+    assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
 
 
 def test_a_group_may_be_left_out():
@@ -114,6 +116,7 @@ def test_any_change_changes_the_digest():
         (("step",), 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
         (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
         (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
+        (("scenes", "flat", "direction"), [float("nan")], "flat: direction must be .* finite"),
         (("scenes", "flat", "duration"), 1e-8, "scenes.flat: duration.*less than one"),
         (("scenes", "pillars", "n_p"), [7] * 7, "scenes.pillars.n_p is not valid"),
         (("scenes", "pillars", "seeds"), [20, 60], "pillars: seeds lists 2 numbers for 7 values"),

@@ -12,13 +12,18 @@ import pytest
 import yaml
 
 from springblock import Material
+from springblock.figures import declarations
+from springblock.solver import INTEGRATORS
 from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
-SUPPLEMENT = ["supplement_repetitions", "supplement_restick"]
-FIGURES = [*(f"figure_{k}" for k in range(1, 10)), *SUPPLEMENT]
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+WHOLE = {"configuration": ("config/config.yaml",)}
+#: What the linter may find, and why.
+ALLOWED = {
+    "Specify a conda environment or container for each rule.",  # all run in environment.lock's
+}
 
 TINY = {
     "n_blocks": 12,
@@ -37,6 +42,13 @@ TINY = {
         "figure_7": {"n_p": 6},
         "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
     },
+}
+
+#: Those of the study without its optional groups of scenes and without its tables of errors.
+FIGURES = {
+    name
+    for name, figure in declarations().items()
+    if figure.is_part_of(TINY["scenes"]) and figure.category != "Accuracy"
 }
 
 
@@ -67,9 +79,8 @@ def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dic
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A finished tiny study in a folder of its own."""
     folder = tmp_path_factory.mktemp("study")
-    for part in ("src", "workflow", "config", "profiles", "tests/validation"):
+    for part in ("src", "workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "tests/scenes.py", folder / "tests")
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
     outcome = snakemake(folder)
@@ -90,6 +101,16 @@ def edited(study: Path, request: pytest.FixtureRequest):
 def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
     assert names == {f"{name}.{suffix}" for name in FIGURES for suffix in ("pdf", "png")}
+    assert {f"figure_{number}" for number in range(1, 10)} <= FIGURES
+    assert {"supplement_repetitions", "supplement_restick"} <= FIGURES
+
+
+def test_the_report_says_of_each_figure_what_it_declares(study, tmp_path):
+    outcome = snakemake(study, "--report", str(tmp_path / "report.html"))
+    assert outcome.returncode == 0, outcome.stderr
+    report = (tmp_path / "report.html").read_text()
+    for name in FIGURES:
+        assert f'"caption": "<p>{declarations()[name].caption[:60]}' in report
 
 
 def test_the_table_holds_every_realisation_once(study):
@@ -137,15 +158,58 @@ def test_each_job_leaves_a_log_and_a_benchmark(study):
         assert files == jobs
 
 
+def test_the_configuration_offers_what_the_package_has():
+    """Every integrator, and every constant with the paper's value."""
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+    assert schema["properties"]["integrator"]["enum"] == list(INTEGRATORS)
+    assert list(schema["properties"]["material"]["properties"]) == list(PAPER["material"])
+    assert PAPER["material"] == dict(Material().items())
+
+
 def test_the_whole_study_can_be_planned(study):
     """With all its groups of scenes and its comparisons, from nothing."""
-    paper = {"configuration": ("config/config.yaml",)}
-    jobs = planned(study, "--config", "results=elsewhere", **paper)
-    assert {"compare", "stability", "work_precision", "accuracy", "claims", *FIGURES} <= set(jobs)
+    jobs = planned(study, "--config", "results=elsewhere", **WHOLE)
+    tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
+    assert {*tables, *declarations()} <= set(jobs)
     assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
-    sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **paper)
-    assert set(sizes) == {"compile", "prelude", "simulate", "correlation", "figure_7"}
-    assert sizes["simulate"] < jobs["simulate"]
+    sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **WHOLE)
+    assert set(sizes) == {
+        "compile_integrator",
+        "prelude_scene",
+        "simulate_batch",
+        "correlation_scene",
+        "figure_7",
+    }
+    assert sizes["simulate_batch"] < jobs["simulate_batch"]
+
+
+def test_every_step_can_be_planned_by_its_name(study):
+    """Where many jobs share a step, they are named after it and one of them: simulate_batch."""
+    rules, steps = (
+        set(snakemake(study, option, **WHOLE).stdout.split())
+        for option in ("--list-rules", "--list-target-rules")
+    )
+    assert {rule.rpartition("_")[0] for rule in rules - steps} <= steps
+    assert steps <= set(planned(study, "--config", "results=elsewhere", "--", *steps, **WHOLE))
+    named = set(re.findall(r"`(\w+)`", (ROOT / "README.md").read_text()))
+    assert {step for step in steps if not step.startswith(("figure", "supplement"))} <= named
+
+
+def test_the_linter_finds_only_what_is_meant_to_be(study):
+    outcome = snakemake(study, "--lint", **WHOLE)
+    assert set(re.findall(r"^ +\* (.+):$", outcome.stderr, re.MULTILINE)) == ALLOWED
+
+
+def test_a_printed_command_runs_by_hand(study):
+    """As in an activated environment, and with the sources that the study selects."""
+    drawn = study / "results/figures/figure_1.pdf"
+    outcome = snakemake(study, "--dry-run", "--printshellcmds", "--force", "--", "figure_1")
+    (command,) = re.findall(r"^Shell command: (.+)$", outcome.stdout, re.MULTILINE)
+    drawn.unlink()
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    by_hand = {**os.environ, "PATH": path, "PYTHONPATH": str(study / "src")}
+    subprocess.run(command, shell=True, cwd=study, env=by_hand, check=True)
+    assert drawn.exists()
 
 
 def test_a_finished_study_has_nothing_to_do(study):
@@ -154,7 +218,7 @@ def test_a_finished_study_has_nothing_to_do(study):
 
 @pytest.mark.parametrize("edited", ["src/springblock/solver/leapfrog.py"], indirect=True)
 def test_an_edited_solver_runs_the_simulations_again(study, edited):
-    assert planned(study)["simulate"] == 7
+    assert planned(study)["simulate_batch"] == 7
 
 
 @pytest.mark.parametrize("edited", ["src/springblock/figures/figure_3.py"], indirect=True)
@@ -173,23 +237,25 @@ def test_an_edited_text_runs_nothing_again(study, edited):
 )
 def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simulations):
     jobs = planned(study, "--config", "results=elsewhere", "--", figure)
-    assert jobs == {"compile": 1, "prelude": preludes, "simulate": simulations, figure: 1}
+    needed = {"compile_integrator": 1, "prelude_scene": preludes, "simulate_batch": simulations}
+    assert jobs == {**needed, figure: 1}
 
 
 def test_figure_7_needs_only_pillars_with_sides(study):
     jobs = planned(study, "--config", "results=elsewhere", "--", "figure_7")
-    assert jobs == {"compile": 1, "prelude": 1, "simulate": 2, "correlation": 1, "figure_7": 1}
+    needed = {"compile_integrator": 1, "prelude_scene": 1, "simulate_batch": 2}
+    assert jobs == {**needed, "correlation_scene": 1, "figure_7": 1}
 
 
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = planned(study, configuration=("config/quick.yaml",))
-    assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
+    assert (jobs["prelude_scene"], jobs["correlation_scene"]) == (5, 4)
 
 
 def test_a_changed_constant_runs_the_simulations_again(study):
     material = dict(Material().items()) | {"gamma": 4e3}
     (study / "damped.yaml").write_text(yaml.safe_dump({"material": material}))
-    assert planned(study, configuration=("tiny.yaml", "damped.yaml"))["simulate"] == 7
+    assert planned(study, configuration=("tiny.yaml", "damped.yaml"))["simulate_batch"] == 7
 
 
 @pytest.mark.parametrize(

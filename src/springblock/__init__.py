@@ -4,12 +4,17 @@ The model of Costagliola, Bosia & Pugno, Int. J. Solids Struct. 243, 111525 (202
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from springblock.asperities import draw_friction
 from springblock.material import Material
 from springblock.pattern import Pattern
-from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
-from springblock.simulation import SimulationError, simulate
+
+if TYPE_CHECKING:
+    from springblock.prelude import Prelude, compute_prelude
+    from springblock.simulation import SimulationError, simulate
 
 __all__ = [
     "Material",
@@ -21,3 +26,15 @@ __all__ = [
     "draw_friction",
     "simulate",
 ]
+
+if not TYPE_CHECKING:  # mypy would accept any name if it saw this
+
+    def __getattr__(name: str) -> object:
+        """Import the solver, and with it numba, for those alone who ask for it (PEP 562)."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        home = "prelude" if name.lower().endswith("prelude") else "simulation"
+        return getattr(import_module(f"springblock.{home}"), name)
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})

@@ -24,47 +24,45 @@ def _count(name: str, value: int) -> int:
 
 @dataclass(frozen=True)
 class Level:
-    """One level of the hierarchy: contact of `size` blocks, then a gap of `spacing` blocks.
+    """One level of the hierarchy: contact of `size` blocks, then none for `gap` blocks.
 
     `axes` names the coordinates that are cut: ("x", "y") gives pillars, ("y",) grooves that
     run along x, ("x",) grooves that run along y.
     """
 
     size: int
-    spacing: int
+    gap: int
     axes: tuple[str, ...]
 
     @property
     def along(self) -> str | None:
         """Axis that the grooves of this level run along; None for pillars."""
-        if len(self.axes) == 2:
-            return None
-        return "x" if self.axes == ("y",) else "y"
+        return None if len(self.axes) == 2 else {"y": "x", "x": "y"}[self.axes[0]]
 
 
 def _cut_surface(n: int, level: Level) -> Segments:
-    """Lay the first level over n blocks, with margins of half a spacing (section 3.2)."""
-    period = level.size + level.spacing
+    """Lay the first level over n blocks, with margins of half a gap (section 3.2)."""
+    period = level.size + level.gap
     if n % period:
         raise ValueError(
-            f"the period n_p + n_s = {level.size} + {level.spacing} = {period} "
+            f"the period n_p + n_s = {level.size} + {level.gap} = {period} "
             f"must divide N = {n}; it leaves {n % period} blocks over"
         )
-    return [(start, level.size) for start in range(level.spacing // 2, n, period)]
+    return [(start, level.size) for start in range(level.gap // 2, n, period)]
 
 
 def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
     """Cut one segment; contact begins and ends at the segment's own edges."""
     start, length = segment
-    period = level.size + level.spacing
-    if level.spacing >= length:
+    period = level.size + level.gap
+    if level.gap >= length:
         raise ValueError(
-            f"a groove of {level.spacing} blocks does not fit into a pillar of {length} blocks"
+            f"a groove of {level.gap} blocks does not fit into a pillar of {length} blocks"
         )
-    if (length + level.spacing) % period:
+    if (length + level.gap) % period:
         raise ValueError(
-            f"pawls of {level.size} and grooves of {level.spacing} blocks do not fill a pillar of "
-            f"{length} blocks from edge to edge: {length} + {level.spacing} must be a multiple "
+            f"pawls of {level.size} and grooves of {level.gap} blocks do not fill a pillar of "
+            f"{length} blocks from edge to edge: {length} + {level.gap} must be a multiple "
             f"of {period}"
         )
     return [(s, level.size) for s in range(start, start + length, period)]

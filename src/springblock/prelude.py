@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.checks import checked_surface
+from springblock.direction import heading
 from springblock.files import whole_file
 from springblock.material import Material
-from springblock.realisation import heading
 from springblock.setup import PAPER, SAMPLE_INTERVAL, STEP, Setup
 from springblock.solver.lattice import Samples, State, prepare
 

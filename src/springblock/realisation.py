@@ -10,8 +10,6 @@ from springblock.energy import Energy
 
 Array = NDArray[np.float64]
 
-_REAL = int | float | np.integer | np.floating
-
 #: Share of the drop after the peak by which the force must have risen again: then it has passed
 #: its first minimum.
 _REBOUND = 0.1
@@ -80,17 +78,3 @@ def first_minimum(force: Array) -> int | None:
     if not rebound.any():
         return None
     return peak + int(np.argmin(after[: int(np.argmax(rebound)) + 1]))
-
-
-def heading(direction: str | float) -> tuple[float, float]:
-    """Unit vector (x, y) of a sliding direction: "x", "y" or an angle from x in degrees."""
-    if isinstance(direction, str) and direction in ("x", "y"):
-        return (1.0, 0.0) if direction == "x" else (0.0, 1.0)
-    if isinstance(direction, bool) or not isinstance(direction, _REAL):
-        raise TypeError(f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}")
-    if not math.isfinite(direction):
-        raise ValueError(f"direction must be 'x', 'y' or a finite angle, not {direction!r}")
-    quarters, rest = divmod(float(direction), 90.0)
-    cosine, sine = math.cos(math.radians(rest)), math.sin(math.radians(rest))
-    turns = ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))
-    return turns[int(quarters) % 4]

@@ -1,10 +1,15 @@
 """A scene: one surface, pulled one way. What the study varies besides the seed."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
+from springblock.direction import normalised
 from springblock.pattern import Pattern
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: of a scene, two for each level
+#: Columns that tell scenes apart, in the order in which the rows of a table are sorted by them.
+COLUMNS = ("n_blocks", "level", *LENGTHS, "direction")
 _SIDE = 6  #: blocks of the shortest side along which a correlation is measured
 
 
@@ -17,8 +22,9 @@ class Scene:
 
     Raises
     ------
-    ValueError
-        Where a length is given without its partner or without the levels above it.
+    TypeError, ValueError
+        Where a length is given without its partner or without the levels above it, or the
+        direction is none.
     """
 
     n_blocks: int
@@ -28,19 +34,34 @@ class Scene:
     n_s2: int = 0
     n_p3: int = 0
     n_s3: int = 0
-    direction: str = "x"  #: "x", "y" or an angle from x in degrees
+    direction: str = "x"  #: "x", "y" or an angle from x in degrees, which is kept as text
 
     def __post_init__(self) -> None:
-        given = [key for key in LENGTHS if getattr(self, key)]
-        missing = [key for key in LENGTHS[: 2 * self.level] if key not in given]
+        object.__setattr__(self, "direction", normalised(self.direction))
+        missing = [key for key in LENGTHS[: 2 * self.level] if key not in self.lengths]
         if missing:
-            raise ValueError(f"{given[-1]} = {getattr(self, given[-1])} needs {missing[0]}")
+            key, value = list(self.lengths.items())[-1]
+            raise ValueError(f"{key} = {value} needs {missing[0]}")
+
+    @classmethod
+    def from_row(cls, row: Mapping[str, Any]) -> "Scene":
+        """Return the scene that a row of a table belongs to."""
+        return cls(**{key: row[key] for key in COLUMNS if key != "level"})
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """Its columns in a row of a table."""
+        return {key: getattr(self, key) for key in COLUMNS}
+
+    @property
+    def lengths(self) -> dict[str, int]:
+        """The lengths of its levels by their names."""
+        return {key: getattr(self, key) for key in LENGTHS if getattr(self, key)}
 
     @property
     def level(self) -> int:
         """Number of levels of the pattern: 0 flat, 1 pillars, 2 strips, 3 strips cut across."""
-        deepest = max((i for i, key in enumerate(LENGTHS) if getattr(self, key)), default=-1)
-        return deepest // 2 + 1
+        return max((LENGTHS.index(key) // 2 + 1 for key in self.lengths), default=0)
 
     @property
     def pattern(self) -> Pattern:
@@ -62,18 +83,13 @@ class Scene:
         return ((), ("x", "y"), ("x",), ())[self.level]
 
     @property
-    def heading(self) -> str | float:
-        """The direction as `simulate` takes it."""
-        return self.direction if self.direction in ("x", "y") else float(self.direction)
-
-    @property
     def folder(self) -> str:
         """Hive-style folder of its realisations."""
-        keys = ("n_blocks", "level", *LENGTHS[: 2 * self.level], "direction")
+        keys = ("n_blocks", "level", *self.lengths, "direction")
         return "/".join(f"{key}={getattr(self, key)}" for key in keys)
 
     @property
     def arguments(self) -> str:
         """The scene as options of `springblock simulate`."""
-        keys = ("n_blocks", *LENGTHS[: 2 * self.level], "direction")
+        keys = ("n_blocks", *self.lengths, "direction")
         return " ".join(f"--{key.replace('_', '-')} {getattr(self, key)}" for key in keys)

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.checks import checked_surface, count_samples, whole_multiple
+from springblock.direction import heading
 from springblock.energy import Energy, elastic_energy
 from springblock.material import Material
 from springblock.prelude import Prelude, conditions
-from springblock.realisation import Realisation, first_minimum, heading
+from springblock.realisation import Realisation, first_minimum
 from springblock.setup import PAPER, SAMPLE_INTERVAL, STEP, Setup
 from springblock.solver.lattice import Constants, Samples, State, prepare, unpadded
 

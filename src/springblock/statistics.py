@@ -11,15 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import find_peaks
-from scipy.stats import t
 
 from springblock.pattern import Pattern
 from springblock.run import Array, Run, friction, percent
 
 _INTERVAL = (2.5, 97.5)  #: percentiles
 #: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
-_LOAD = 0.9
+_LOAD_PEAK = 0.9
 
 
 class Interval(NamedTuple):
@@ -94,9 +92,9 @@ def ratio_interval(numerator: ArrayLike, denominator: ArrayLike, seed: int = 0) 
     top, bottom = pairs.mean(axis=1)
     if k == 1:
         return Interval(top / bottom, np.array(np.nan), np.array(np.nan))
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=1000)
-    tops, bottoms = (drawn / k @ values for values in pairs)
-    return Interval(top / bottom, *np.percentile(tops / bottoms, _INTERVAL))
+    weights = bootstrap_weights(k, seed)
+    tops, bottoms = (weights @ values for values in pairs)
+    return Interval(top / bottom, *limits(tops / bottoms))
 
 
 def repeatability(fields: Array) -> Interval:
@@ -108,6 +106,8 @@ def repeatability(fields: Array) -> Interval:
     doi:10.1037/0033-2909.86.2.420). The 95 % interval is Student's, with the jackknife's error:
     a bootstrap would compare fields with themselves. NaN below three fields.
     """
+    from scipy.stats import t  # slow to load, and most jobs do without
+
     k = len(fields)
     if k < 3:
         return Interval(*np.full(3, np.nan))
@@ -181,12 +181,8 @@ def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
         raise ValueError("a flat surface has no pillar to average over")
     size = pattern.levels[0].size
     rows, columns = (pattern.origins[:, axis, None] + np.arange(size) for axis in (0, 1))
-    return np.stack(
-        [
-            (run.t_det[rows[:, :, None], columns[:, None, :]] / run.t_max).mean(axis=0)
-            for run in runs
-        ]
-    )
+    pillars = rows[:, :, None], columns[:, None, :]
+    return np.stack([(run.t_det[pillars] / run.t_max).mean(axis=0) for run in runs])
 
 
 def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
@@ -209,10 +205,12 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
 
     A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
     by `share` of the largest force, which keeps out the small waves of loading; and it must reach
-    `_LOAD` of the largest force, which keeps out those of sliding. Section 3.3.
+    `_LOAD_PEAK` of the largest force, which keeps out those of sliding. Section 3.3.
     """
+    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
+
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
-    return find_peaks(curve, prominence=needed, height=_LOAD * curve.max())[0]
+    return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 
 def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:
@@ -221,9 +219,9 @@ def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Int
     number = len(load_peaks(curves.mean(axis=0), standard_error(curves)))
     if k == 1:
         return Interval(np.array(number), np.array(np.nan), np.array(np.nan))
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples) / k
-    means = drawn @ curves
-    variances = np.maximum(drawn @ curves**2 - means**2, 0.0)
+    weights = bootstrap_weights(k, seed, resamples)
+    means = weights @ curves
+    variances = np.maximum(weights @ curves**2 - means**2, 0.0)
     scatters = np.sqrt(variances / (k - 1))
     counts = [len(load_peaks(m, scatter)) for m, scatter in zip(means, scatters, strict=True)]
-    return Interval(np.array(number), *np.percentile(counts, _INTERVAL))
+    return Interval(np.array(number), *limits(np.array(counts)))

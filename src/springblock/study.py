@@ -130,8 +130,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
     if len(counts) != len(n_p):
         raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
     pillars = zip(n_p, counts, strict=True)
-    directions = map(str, grid["direction"])
-    for n, (size, count), gap, *rest in product(sizes, pillars, n_s, *deeper, directions):
-        spacing = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(gap, gap)
-        scene = Scene(n, size, spacing, *rest)
+    for n, (size, count), given, *rest in product(sizes, pillars, n_s, *deeper, grid["direction"]):
+        gap = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(given, given)
+        scene = Scene(n, size, gap, *rest)
         yield Ensemble(scene, range(first, first + count), grid.get("duration"))

@@ -1,7 +1,7 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
     return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
 
 
-#: What tells one scene from another.
+#: What tells one scene from another, as `Scene` names it.
 SCENE = pa.schema(
     [
         column("level", pa.int8(), "1", "levels: 0 flat, 1 pillars, 2 strips, 3 strips cut across"),
@@ -192,11 +192,6 @@ class Record:
     static_friction: float
 
 
-def scene_of(row: Mapping[str, Any]) -> Scene:
-    """Return the scene that a row of a table belongs to."""
-    return Scene(**{f.name: row[f.name] for f in fields(Scene)})
-
-
 def read_frame(path: Path) -> "pd.DataFrame":
     """Read a table as a data frame."""
     return pq.read_table(path, partitioning=None).to_pandas()
@@ -212,7 +207,7 @@ def read_records(paths: Iterable[Path]) -> list[Record]:
         force = row["force"][0].values.to_numpy()
         records.append(
             Record(
-                scene=Scene(**{f.name: row[f.name][0].as_py() for f in fields(Scene)}),
+                scene=Scene.from_row(row.select(SCENE.names).to_pylist()[0]),
                 seed=row["seed"][0].as_py(),
                 time=np.arange(len(force)) * row["sample_interval"][0].as_py(),
                 force=force,

@@ -10,10 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from figures.test_ensembles import NORMAL_FORCE, SIZE, record
-from springblock.commands import figures as commands
+from figures.test_ensembles import record
 from springblock.figures import (
-    style,
     supplement_angle,
     supplement_levels,
     supplement_repetitions,
@@ -21,7 +19,6 @@ from springblock.figures import (
     supplement_size,
     supplement_spacing,
 )
-from springblock.scene import Scene
 from springblock.tables import Record
 
 
@@ -55,7 +52,8 @@ def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
     }
 
 
-NAMES = list(drawings(4))
+DRAWINGS = {f"supplement_{name}": draw for name, draw in drawings(6).items()}
+DRAWINGS |= {f"supplement_{name} of one run": draw for name, draw in drawings(1).items()}
 
 
 @cache
@@ -64,32 +62,13 @@ def drawn(name: str, runs: int = 6) -> Figure:
     return drawings(runs)[name]()
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", drawings(4))
 def test_panels_carry_letters_and_axes_say_what_they_show(name):
     texts = [text.get_text() for text in drawn(name).findobj(Text)]
     letters = sorted(text for text in texts if text[1:] == ")")
     assert letters == (["a)", "b)"] if len(drawn(name).axes) > 1 else [])
     assert all(ax.get_ylabel() for ax in drawn(name).axes)
     assert drawn(name).axes[-1].get_xlabel()
-
-
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("runs", [1, 6])
-def test_nothing_leaves_the_page(name, runs):
-    box = style.journal(drawn(name, runs).get_tightbbox)()  # inches
-    width, height = drawn(name, runs).get_size_inches()
-    assert 0.0 <= box.x0 < box.x1 <= width
-    assert 0.0 <= box.y0 < box.y1 <= height
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_same_figure_is_the_same_file(name, tmp_path, monkeypatch):
-    monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)  # quicker
-    contents = []
-    for attempt in ("first.png", "second.png"):
-        style.save(drawings(6)[name](), tmp_path / attempt)
-        contents.append((tmp_path / attempt).read_bytes())
-    assert contents[0] == contents[1]
 
 
 def lines(ax: Axes) -> list[np.ndarray]:
@@ -124,16 +103,6 @@ def test_intervals_narrow_with_the_root_of_the_number():
     assert measured[:, 0].tolist() == [3, 5, 10, 20]
     np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
     assert measured[-1, 1] == pytest.approx(predicted[-1, 1], rel=0.1)
-
-
-def test_scenes_are_told_apart_by_several_keys(monkeypatch):
-    other = replace(record(1), scene=Scene(24, SIZE, 2))
-    monkeypatch.setattr(commands, "read_records", lambda batches: [record(0), other])
-    found = dict(commands._ensembles((), "n_p", "n_s"))
-    assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
-    with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
-        commands._ensembles((), "n_p", "direction")
-    assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
 
 
 def test_only_blocks_that_let_go_again_are_counted():

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from scenes import SPRINGS, rows, spring_forces, with_border
+from springblock.accuracy.kernels import SPRINGS, rows, spring_forces, with_border
 from springblock.solver.springs import (
     Q_MAX,
     Q_MIN,

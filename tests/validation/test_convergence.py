@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from scenes import flat
 from springblock import Material, simulate
-from validation.reference import solve
+from springblock.accuracy.reference import solve
+from springblock.accuracy.surfaces import flat
 
 STEPS = [2e-8, 1e-8, 5e-9]  #: s
 #: Six by six blocks that let go one after another within 1 µs. The slider is ten times as fast

@@ -9,8 +9,8 @@ difference between N + 1 and N rows is exactly one row of the bulk.
 import numpy as np
 import pytest
 
-from scenes import spring_forces
 from springblock import Material
+from springblock.accuracy.kernels import spring_forces
 
 PAPER = Material()
 NU = 1.0 / 3.0

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scenes import drawn, flat, uniform
 from springblock import Material, Pattern, simulate
+from springblock.accuracy.surfaces import drawn, flat, uniform
 from springblock.setup import STEP
 
 PAPER = Material()

@@ -15,8 +15,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scenes import uniform
 from springblock import Material, simulate
+from springblock.accuracy.surfaces import uniform
 
 INTEGRATORS = ["leapfrog", "rk4"]
 UNDAMPED = Material(gamma=0.0)

@@ -9,8 +9,8 @@ amplitudes, TINY spacings, leave the springs linear.
 import numpy as np
 import pytest
 
-from scenes import spring_forces, swing
 from springblock import Material
+from springblock.accuracy.kernels import spring_forces, swing
 from springblock.solver import INTEGRATORS
 
 PAPER = Material(gamma=0.0)

@@ -1,24 +1,13 @@
-# Error against run time, and stability; the programs stand beside the tests that they share.
+# Error against run time, stiff and extreme cases, and the page on both.
 
-VALIDATION = f"PYTHONPATH=tests {sys.executable} -m validation"
-COMPARISONS = expand(
-    f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
-    comparison=["reference", "paired", "twin"],
-    scene=["flat", "pillared", "grooved"],
-)
+from springblock.accuracy import conventions
 
-COMPILED = expand(rules.compile.output, integrator=["leapfrog", "rk4"])
-
-#: Digest of all of the package that the comparisons run.
-COMPARED = sources.digest(
-    *(f"springblock.{module}" for module in ("simulation", "asperities", "pattern", "tables"))
-)
+COMPILED = rules.compile.input
 
 
-rule compare:
+rule compare_scene:
     input:
         COMPILED,
-        code=multiext("tests/validation/", "work_precision.py", "reference.py", "plain_rk4.py"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -32,77 +21,70 @@ rule compare:
         mem_mb=600,
         runtime=20,
     params:
-        code=COMPARED,
+        code=sources.digest("springblock.commands.compare"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "{VALIDATION}.work_precision compare --comparison {wildcards.comparison} "
-        "--scene {wildcards.scene} --output {output} > {log} 2>&1"
+        "springblock compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "--output {output:q} > {log:q} 2>&1"
 
 
-rule work_precision:
+rule compare:
     input:
-        COMPARISONS,
-    output:
-        table=f"{RESULTS}/tables/work_precision.parquet",
-        pdf=f"{RESULTS}/figures/work_precision.pdf",
-        png=report(
-            f"{RESULTS}/figures/work_precision.png",
-            caption="../report/work_precision.rst",
-            category="Accuracy",
-            labels={"figure": "work_precision", "shows": "Error against run time"},
+        expand(
+            rules.compare_scene.output,
+            comparison=conventions.COMPARISONS,
+            scene=conventions.SCENES,
         ),
+    localrule: True
+    message:
+        "All errors are measured"
+
+
+rule precision_table:
+    input:
+        rules.compare.input,
+    output:
+        f"{RESULTS}/tables/work_precision.parquet",
     log:
-        f"{RESULTS}/logs/work_precision.log",
+        f"{RESULTS}/logs/precision_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/work_precision.tsv"
+        f"{RESULTS}/benchmarks/precision_table.tsv"
     resources:
-        mem_mb=500,
+        mem_mb=400,
         runtime=5,
     params:
-        code=figure_code("work_precision"),
+        code=sources.digest("springblock.commands.correlation"),
     message:
-        "Drawing error against run time"
+        "Collecting errors and run times in one table"
     shell:
-        "({VALIDATION}.work_precision collect {input} --output {output.table} && "
-        "{SPRINGBLOCK} work_precision {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule stability:
+rule stability_table:
     input:
         COMPILED,
-        code=["tests/scenes.py", *multiext("tests/validation/", "stability.py", "reference.py")],
     output:
-        table=f"{RESULTS}/tables/stability.parquet",
-        pdf=f"{RESULTS}/figures/stability.pdf",
-        png=report(
-            f"{RESULTS}/figures/stability.png",
-            caption="../report/stability.rst",
-            category="Accuracy",
-            labels={"figure": "stability", "shows": "Stiff and extreme cases"},
-        ),
+        f"{RESULTS}/tables/stability.parquet",
     log:
-        f"{RESULTS}/logs/stability.log",
+        f"{RESULTS}/logs/stability_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/stability.tsv"
+        f"{RESULTS}/benchmarks/stability_table.tsv"
     resources:
         mem_mb=1000,
         runtime=10,
     params:
-        code=[COMPARED, figure_code("stability")],
+        code=sources.digest("springblock.commands.stability"),
     message:
         "Trying stiff and extreme cases"
     shell:
-        "({VALIDATION}.stability --output {output.table} && "
-        "{SPRINGBLOCK} stability {output.table} --output {output.pdf} --output {output.png}"
-        ") > {log} 2>&1"
+        "springblock try --output {output:q} > {log:q} 2>&1"
 
 
 rule accuracy:
     input:
-        rules.work_precision.output.table,
-        rules.stability.output.table,
+        rules.precision_table.output,
+        rules.stability_table.output,
         rules.aggregate.output,
     output:
         f"{RESULTS}/accuracy.md",
@@ -118,4 +100,4 @@ rule accuracy:
     message:
         "Writing down what to trust"
     shell:
-        "{SPRINGBLOCK} accuracy {input} --output {output} > {log} 2>&1"
+        "springblock accuracy {input:q} --output {output:q} > {log:q} 2>&1"

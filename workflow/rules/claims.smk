@@ -1,9 +1,9 @@
 # What becomes of the paper's statements.
 
-#: Tables that statements rest on beside the realisations, by the option that takes them.
+#: Tables that claims rest on beside the realisations, by the option that takes them.
 CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
 if config["accuracy"]:
-    CLAIM_TABLES["precision"] = rules.work_precision.output.table
+    CLAIM_TABLES["precision"] = rules.precision_table.output[0]
 
 
 rule claims:
@@ -28,10 +28,10 @@ rule claims:
     params:
         code=sources.digest("springblock.commands.claims"),
         configuration=sources.configuration_digest(config),
-        tables=" ".join(f"--{option} {table}" for option, table in CLAIM_TABLES.items()),
+        tables=" ".join(f"--{option} {quote(table)}" for option, table in CLAIM_TABLES.items()),
     message:
         "Testing the paper's statements"
     shell:
-        "{SPRINGBLOCK} claims {input.batches} --realisations {input.table} {params.tables} "
-        "--configuration {params.configuration} --output {output.table} --page {output.page} "
-        "> {log} 2>&1"
+        "springblock claims {input.batches:q} --realisations {input.table:q} {params.tables} "
+        "--configuration {params.configuration} --output {output.table:q} --page {output.page:q} "
+        "> {log:q} 2>&1"

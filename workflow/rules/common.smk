@@ -1,10 +1,13 @@
+import os
 import sys
+from pathlib import Path
+from shlex import quote
 
 import yaml
 from snakemake.exceptions import WorkflowError
 
 from springblock import sources, study
-from springblock.scene import Scene
+from springblock.figures import declarations
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -15,7 +18,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
-FIGURES = [f"figure_{number}" for number in range(1, 10)]
+INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
 )
@@ -23,7 +26,13 @@ CORRELATIONS = expand(
 ENSEMBLES = study.ensembles(config)
 #: The ensemble in each folder of realisations.
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
-SPRINGBLOCK = f"{sys.executable} -m springblock"
+#: Scenes by group.
+SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
+#: What figures declare whose groups of scenes the configuration simulates.
+FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
+
+# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
+os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
 def batches(ensembles):
@@ -40,12 +49,19 @@ def realisations(*groups):
     return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
 
 
-def one_for_each(key, group):
-    """The first ensemble of a group's grid for each length or direction, by its value."""
-    first = {}
-    for ensemble in ENSEMBLES[group]:
-        first.setdefault(getattr(ensemble.scene, key), ensemble)
-    return first
+def scene(wildcards):
+    """The scene of a job, as options of its command."""
+    return ENSEMBLE[wildcards.scene].scene.arguments
+
+
+def duration(wildcards):
+    seconds = ENSEMBLE[wildcards.scene].duration
+    return "" if seconds is None else f"--duration {seconds}"
+
+
+def memory(wildcards):
+    """MB, measured with a margin: a part that is always there and one for the lattice."""
+    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
 
 
 def correlations(table, ensembles):
@@ -54,5 +70,13 @@ def correlations(table, ensembles):
     return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
 
 
-def figure_files(name):
-    return expand(f"{RESULTS}/figures/{name}.{{suffix}}", suffix=["pdf", "png"])
+def needed(figure):
+    """Files that a figure is drawn from."""
+    lengths = config["figures"].get(figure, {})
+    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
+        if scene is None:
+            yield f"{RESULTS}/tables/{table}.parquet"
+        elif table == "realisations":
+            yield from batches([ENSEMBLE[scene.folder]])[:number]
+        else:
+            yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"

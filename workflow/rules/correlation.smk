@@ -1,4 +1,4 @@
-rule correlation:
+rule correlation_scene:
     input:
         lambda wildcards: batches([ENSEMBLE[wildcards.scene]]),
     output:
@@ -16,11 +16,19 @@ rule correlation:
     message:
         "Correlating detachment times along the sides of {wildcards.scene}"
     shell:
-        "{SPRINGBLOCK} correlation {input} --output-correlation {output.correlation} "
-        "--output-length {output.length} > {log} 2>&1"
+        "springblock correlation {input:q} --output-correlation {output.correlation:q} "
+        "--output-length {output.length:q} > {log:q} 2>&1"
 
 
-rule correlations:
+rule correlation:
+    input:
+        [correlations(table, ENSEMBLE.values()) for table in ("correlation", "correlation_length")],
+    localrule: True
+    message:
+        "Detachment times are correlated wherever pillars have sides"
+
+
+rule correlations_table:
     input:
         lambda wildcards: correlations(wildcards.table, ENSEMBLE.values()),
     output:
@@ -40,5 +48,13 @@ rule correlations:
     message:
         "Collecting correlations in one table: {wildcards.table}"
     shell:
-        "{SPRINGBLOCK} collect {input} --configuration {params.configuration} "
-        "--output {output} > {log} 2>&1"
+        "springblock collect {input:q} --configuration {params.configuration} "
+        "--output {output:q} > {log:q} 2>&1"
+
+
+rule correlations:
+    input:
+        CORRELATIONS,
+    localrule: True
+    message:
+        "All correlations are in two tables"

@@ -1,16 +1,5 @@
-def scene(wildcards):
-    return ENSEMBLE[wildcards.scene].scene.arguments
-
-
-def duration(wildcards):
-    seconds = ENSEMBLE[wildcards.scene].duration
-    return "" if seconds is None else f"--duration {seconds}"
-
-
-def memory(wildcards):
-    """MB, measured with a margin: a part that is always there and one for the lattice."""
-    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
-
+# From a scene to its realisations, and one table of them all. Where a step has many jobs, its own
+# rule collects what they leave.
 
 #: How every scene is computed, as options of the command line.
 HOW = " ".join(
@@ -26,7 +15,7 @@ wildcard_constraints:
     scene="|".join(ENSEMBLE),
 
 
-rule compile:
+rule compile_integrator:
     output:
         touch(f"{RESULTS}/compiled/{{integrator}}"),
     log:
@@ -43,10 +32,18 @@ rule compile:
     message:
         "Compiling the solver: {wildcards.integrator}"
     shell:
-        "{SPRINGBLOCK} compile --integrator {wildcards.integrator} > {log} 2>&1"
+        "springblock compile --integrator {wildcards.integrator} > {log:q} 2>&1"
 
 
-rule prelude:
+rule compile:
+    input:
+        expand(rules.compile_integrator.output, integrator=INTEGRATORS),
+    localrule: True
+    message:
+        "All integrators are compiled"
+
+
+rule prelude_scene:
     input:
         f"{RESULTS}/compiled/{config['integrator']}",
     output:
@@ -65,12 +62,20 @@ rule prelude:
     message:
         "Loading {wildcards.scene} up to its first detachment"
     shell:
-        "{SPRINGBLOCK} prelude {params.scene} {params.how} --output {output} > {log} 2>&1"
+        "springblock prelude {params.scene} {params.how} --output {output:q} > {log:q} 2>&1"
 
 
-rule simulate:
+rule prelude:
     input:
-        rules.prelude.output,
+        expand(rules.prelude_scene.output, scene=ENSEMBLE),
+    localrule: True
+    message:
+        "All scenes are loaded up to their first detachment"
+
+
+rule simulate_batch:
+    input:
+        rules.prelude_scene.output,
     output:
         f"{RESULTS}/realisations/{{scene}}/seeds={{first}}-{{last}}.parquet",
     log:
@@ -91,14 +96,22 @@ rule simulate:
     message:
         "Simulating {wildcards.scene}, seeds {wildcards.first} to {wildcards.last}"
     shell:
-        "{SPRINGBLOCK} simulate {params.scene} {params.how} {params.duration} "
-        "--prelude {input} --first-seed {wildcards.first} --last-seed {wildcards.last} "
-        "--output {output} > {log} 2>&1"
+        "springblock simulate {params.scene} {params.how} {params.duration} "
+        "--prelude {input:q} --first-seed {wildcards.first} --last-seed {wildcards.last} "
+        "--output {output:q} > {log:q} 2>&1"
+
+
+rule simulate:
+    input:
+        realisations(*ENSEMBLES),
+    localrule: True
+    message:
+        "All realisations are simulated"
 
 
 rule aggregate:
     input:
-        realisations(*ENSEMBLES),
+        rules.simulate.input,
     output:
         f"{RESULTS}/tables/realisations.parquet",
     log:
@@ -114,5 +127,5 @@ rule aggregate:
     message:
         "Collecting all realisations in one table"
     shell:
-        "{SPRINGBLOCK} aggregate {input} --configuration {params.configuration} "
-        "--output {output} > {log} 2>&1"
+        "springblock aggregate {input:q} --configuration {params.configuration} "
+        "--output {output:q} > {log:q} 2>&1"

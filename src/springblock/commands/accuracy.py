@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 import pyarrow.parquet as pq
 
-from springblock.accuracy import page
+from springblock.accuracy.page import page
 from springblock.commands.options import INPUT, OUTPUT
 from springblock.files import whole_file
 

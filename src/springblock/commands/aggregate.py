@@ -5,14 +5,11 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
-from springblock.accuracy import suspects
+from springblock.accuracy.residuals import suspects
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
-from springblock.scene import LENGTHS
+from springblock.scene import COLUMNS
 from springblock.sources import code_version
 from springblock.tables import SUMMARY, read, write
-
-#: What tells one scene from another, in the order of the table.
-SCENE = ["n_blocks", "level", *LENGTHS, "direction"]
 
 
 @click.command("aggregate")
@@ -23,20 +20,17 @@ def aggregate(batches: tuple[Path, ...], configuration: str, output: Path) -> No
     """Collect the summaries of all BATCHES into one table, a row per realisation."""
     with one_sentence():
         table = read(batches, SUMMARY)
-        table = table.sort_by([(name, "ascending") for name in [*SCENE, "seed"]])
+        table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
         _refuse_duplicates(table)
-        for row in suspects(table.to_pylist(), SCENE):
-            which = ", ".join(f"{key} = {row[key]}" for key in [*SCENE, "seed"])
+        for row in suspects(table.to_pylist(), COLUMNS):
+            which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
             click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
-        write(
-            table,
-            output,
-            {"code_version": code_version(__name__), "configuration_digest": configuration},
-        )
+        metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
+        write(table, output, metadata)
 
 
 def _refuse_duplicates(table: pa.Table) -> None:
-    counts = table.group_by([*SCENE, "seed"]).aggregate([([], "count_all")])
+    counts = table.group_by([*COLUMNS, "seed"]).aggregate([([], "count_all")])
     repeated = [row for row in counts.to_pylist() if row["count_all"] > 1]
     if repeated:
         raise ValueError(f"the batches hold this realisation more than once: {repeated[0]}")

@@ -1,35 +1,33 @@
 """springblock claims: what becomes of the paper's statements, as a table and as a page."""
 
+from collections.abc import Callable, Iterable
+from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 import click
 import pyarrow.parquet as pq
 
-from springblock.claims import CLAIMS, Evidence, Row, page, rows
+from springblock.claims import CLAIMS
+from springblock.claims.page import page
+from springblock.claims.rule import Evidence, Row
+from springblock.claims.table import SCHEMA, rows
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
 from springblock.scene import Scene
 from springblock.sources import code_version
-from springblock.statements import STATEMENTS
-from springblock.tables import Record, read_records, rows_to_table, scene_of, write
+from springblock.tables import read_records, rows_to_table, write
+
+
+def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Scene, list[Any]]:
+    found: dict[Scene, list[Any]] = {}
+    for item in items:
+        found.setdefault(scene_of(item), []).append(item)
+    return found
 
 
 def _rows(table: Path | None) -> list[Row]:
     return [] if table is None else pq.read_table(table, partitioning=None).to_pylist()
-
-
-def _summaries(table: Path) -> dict[Scene, dict[int, Row]]:
-    summaries: dict[Scene, dict[int, Row]] = {}
-    for row in _rows(table):
-        summaries.setdefault(scene_of(row), {})[row["seed"]] = row
-    return summaries
-
-
-def _records(batches: tuple[Path, ...]) -> dict[Scene, list[Record]]:
-    records: dict[Scene, list[Record]] = {}
-    for record in read_records(batches):
-        records.setdefault(record.scene, []).append(record)
-    return records
 
 
 @click.command("claims")
@@ -41,7 +39,7 @@ def _records(batches: tuple[Path, ...]) -> dict[Scene, list[Record]]:
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 @click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
-def test_statements(
+def claims(
     batches: tuple[Path, ...],
     realisations: Path,
     correlation: Path | None,
@@ -51,17 +49,17 @@ def test_statements(
     output: Path,
     text: Path,
 ) -> None:
-    """Test the statements on BATCHES of realisations and on tables; a missing table tests none."""
+    """Test the claims on BATCHES of realisations and on tables; a missing table tests none."""
     with one_sentence():
         evidence = Evidence(
-            summaries=_summaries(realisations),
-            records=_records(batches),
-            correlation=_rows(correlation),
-            correlation_length=_rows(correlation_length),
+            records=_by_scene(read_records(batches), attrgetter("scene")),
+            summaries=_by_scene(_rows(realisations), Scene.from_row),
+            correlation=_by_scene(_rows(correlation), Scene.from_row),
+            correlation_length=_by_scene(_rows(correlation_length), Scene.from_row),
             precision=_rows(precision),
         )
-        table = rows(STATEMENTS, evidence)
+        table = rows(CLAIMS, evidence)
         origin = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        write(rows_to_table(table, CLAIMS), output, origin)
+        write(rows_to_table(table, SCHEMA), output, origin)
         with whole_file(text) as partial:
             partial.write_text(page(table), encoding="utf-8")

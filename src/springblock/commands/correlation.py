@@ -1,7 +1,6 @@
 """springblock correlation and collect: correlations of scenes, and one table of them all."""
 
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +51,7 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
         raise ValueError(f"one scene is correlated, not {scene.folder} and {others.pop()}")
     if not scene.sides:
         raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
-    columns = {**asdict(scene), "level": scene.level, "realisations": len(records)}
+    columns = scene.row | {"realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
 
@@ -71,14 +70,11 @@ def _curve(found: Correlation) -> Iterator[Row]:
 
 
 def _length(length: Length) -> Row:
-    names = {
-        "fitted": ("l_c", "ci_low", "ci_high"),
-        "integral": ("integral", "integral_low", "integral_high"),
-        "tail": ("tail", "tail_low", "tail_high"),
-    }
-    intervals = [zip(columns, getattr(length, key), strict=True) for key, columns in names.items()]
+    names = ["l_c", "ci_low", "ci_high"]
+    names += [f"{key}{end}" for key in ("integral", "tail") for end in ("", "_low", "_high")]
+    values = map(float, [*length.fitted, *length.integral, *length.tail])
     return {
-        **{name: float(value) for interval in intervals for name, value in interval},
+        **dict(zip(names, values, strict=True)),
         "bias": length.bias,
         "r_last": length.last,
         "deviation": length.deviation,
@@ -87,11 +83,17 @@ def _length(length: Length) -> Row:
 
 @click.command("collect")
 @click.argument("tables", type=INPUT, nargs=-1, required=True)
-@click.option("--configuration", required=True, help="Digest of the study's configuration.")
+@click.option("--configuration", help="Digest of the configuration, where one matters.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
-def collect(tables: tuple[Path, ...], configuration: str, output: Path) -> None:
-    """Collect TABLES of equal columns in one."""
+def collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
+    """Collect TABLES of equal columns, made by the same code, in one."""
     with one_sentence():
-        schema: pa.Schema = pq.read_schema(tables[0]).remove_metadata()
-        metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        write(read(tables, schema), output, metadata)
+        schemas: list[pa.Schema] = [pq.read_schema(table) for table in tables]
+        versions = {(each.metadata or {}).get(b"code_version", b"none") for each in schemas}
+        if len(versions) > 1:
+            named = ", ".join(sorted(version.decode() for version in versions))
+            raise ValueError(f"the tables must be of one code_version; they hold {named}")
+        metadata = {"code_version": versions.pop().decode()}
+        if configuration is not None:
+            metadata["configuration_digest"] = configuration
+        write(read(tables, schemas[0].remove_metadata()), output, metadata)

@@ -8,10 +8,18 @@ from typing import Any
 
 import click
 
+from springblock.direction import normalised
 from springblock.scene import LENGTHS, Scene
 
 OUTPUT = click.Path(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
+
+
+def _direction(context: click.Context, parameter: click.Parameter, value: str) -> str:
+    try:
+        return normalised(value)
+    except (TypeError, ValueError) as error:
+        raise click.BadParameter(str(error)) from None
 
 
 _SCENE = [
@@ -22,7 +30,9 @@ _SCENE = [
     click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
     click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
     click.option("--n-s3", type=int, default=0, help="Width of the grooves along y, blocks."),
-    click.option("--direction", default="x", show_default=True, help="x, y or degrees."),
+    click.option(
+        "--direction", default="x", callback=_direction, show_default=True, help="x, y or degrees."
+    ),
 ]
 
 

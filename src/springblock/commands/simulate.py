@@ -76,8 +76,7 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
     """One row of a batch."""
     return {
-        **asdict(scene),
-        "level": scene.level,
+        **scene.row,
         "seed": seed,
         "static_friction": run.static_friction,
         "dynamic_friction": run.dynamic_friction,
@@ -101,7 +100,7 @@ def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float)
 def prelude(scene: Scene, setup: Setup, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        contact, direction = scene.pattern.contact, scene.heading
+        contact, direction = scene.pattern.contact, scene.direction
         compute_prelude(contact, direction=direction, **vars(setup)).save(output)
 
 
@@ -132,7 +131,7 @@ def simulate_batch(
                 run = simulate(
                     contact,
                     *draw_friction(scene.n_blocks, seed, setup.material),
-                    direction=scene.heading,
+                    direction=scene.direction,
                     duration=duration,
                     prelude=loaded,
                     **vars(setup),

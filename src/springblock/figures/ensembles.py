@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
-from seaborn import color_palette
 
 from springblock.figures import style
 from springblock.figures.style import BLACK, GREY, MICRO, PURPLE, VERMILION
@@ -157,6 +156,8 @@ def draw_no_lag(ax: Axes) -> None:
 
 def size_colors(sizes: Iterable[int]) -> dict[int, Any]:
     """Black for the flat surface, n_p = 0, and a palette in order of n_p for pillars."""
+    from seaborn import color_palette  # slow to load: it brings pandas and scipy
+
     pillars = sorted({size for size in sizes if size})
     return {0: BLACK} | dict(zip(pillars, color_palette("viridis", len(pillars)), strict=True))
 

@@ -15,9 +15,19 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Source
 from springblock.figures.style import BLACK, BLUE, CONTACT, GREY, NO_CONTACT, VERMILION, journal
 from springblock.figures.surface import Axis, arrow, dimension
 from springblock.pattern import Pattern
+
+FIGURE = Declaration(
+    title="The model",
+    category="Figures",
+    caption="""The model: a) the mesh of internal springs, drawn from a list of bonds that is tested
+    against the energy of all springs; b) side view of the slider, moving at constant velocity v,
+    and of the shear springs K_s. Figure 1 of the paper.""",
+    source=Source(),
+)
 
 Point = tuple[float, float]
 

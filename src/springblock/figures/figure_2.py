@@ -12,10 +12,21 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.style import BLACK, BLUE, MICRO, journal
 from springblock.figures.surface import arrow
 from springblock.run import Array, Run, friction, percent
 from springblock.statistics import cut
+
+FIGURE = Declaration(
+    title="Force and detachments, flat surface",
+    category="Figures",
+    caption="""Friction force on a flat surface over the normal force, and share of blocks that
+    detach in each sample interval. Dotted: t_max, the time of the force maximum; solid: t_avg, the
+    mean first detachment time. One realisation, the first seed, in front of the whole ensemble.
+    Figure 2 of the paper.""",
+    source=Realisations(groups=("flat",)),
+)
 
 _BAND = (5.0, 95.0)  #: percentiles of the ensemble
 _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that are enlarged

@@ -3,6 +3,8 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.colors import CenteredNorm, LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -10,8 +12,18 @@ from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.style import NO_CONTACT, journal
 from springblock.run import Array, Run
+
+FIGURE = Declaration(
+    title="First detachment times, flat surface",
+    category="Figures",
+    caption="""First detachment times t_det over t_max of the realisation shown in figure 2: blue
+    blocks detach before the force peak, red ones after it. One realisation; a map of single events
+    has no error bar. Figure 3 of the paper.""",
+    source=Realisations(groups=("flat",), batches=1),
+)
 
 #: Blue before t_max, red after it. The blue end is darker than the red one, so that in shades of
 #: grey, too, the precursors are the darkest spots.
@@ -22,9 +34,9 @@ _ROBUST = (1.0, 99.0)  #: percentiles of the times that the colours cover
 
 
 @journal
-def draw(run: Run) -> Figure:
-    """Map t_det/t_max of every block; light grey where a block is not in contact."""
-    times = run.t_det / run.t_max
+def draw(runs: Sequence[Run]) -> Figure:
+    """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
+    times = runs[0].t_det / runs[0].t_max
     has_grey = bool(np.isnan(times).any())
     picture = style.figure(style.COLUMN, 99.0 if has_grey else 95.0)
     ax = style.axes(picture, 13.5, 24.0, 69.0, 69.0)

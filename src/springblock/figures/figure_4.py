@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from springblock.figures.declaration import Declaration, Surface
 from springblock.figures.style import BLACK, BLUE, CONTACT, VERMILION, journal
 from springblock.figures.surface import (
     Axis,
@@ -18,6 +19,14 @@ from springblock.figures.surface import (
     surface_and_pillar,
 )
 from springblock.pattern import Pattern
+
+FIGURE = Declaration(
+    title="Square pillars",
+    category="Figures",
+    caption="""Square pillars, drawn from the mask that the solver uses, with the coordinates (x_p,
+    y_p) of one pillar. Figure 4 of the paper.""",
+    source=Surface(),
+)
 
 #: Distances of the two lines of text from the side that they describe, as shares of its length.
 _LINES = (0.05, 0.16)
@@ -33,12 +42,15 @@ _BEHIND = {"facecolor": CONTACT, "edgecolor": "none", "pad": 0.8}  #: hides bord
 
 
 @journal
-def draw(pattern: Pattern, portion: int) -> Figure:
+def draw(pattern: Pattern, portion: int | None = None) -> Figure:
     """Draw a) `portion` x `portion` blocks of the surface and b) one pillar with its sides.
 
-    The side along x is y_p = 0, the side along y is x_p = 0; the correlation functions c_x and
-    c_y start at their centres (n_p/2, 0) and (0, n_p/2).
+    By default the portion holds three pillars each way. The side along x is y_p = 0, the side
+    along y is x_p = 0; the correlation functions c_x and c_y start at their centres (n_p/2, 0) and
+    (0, n_p/2).
     """
+    if portion is None:
+        portion = 3 * sum(level.size + level.gap for level in pattern.levels[:1])
     picture, surface, pillar = surface_and_pillar(pattern, portion)
     draw_pillar_dimensions(surface, pattern, "$n_p$", "$n_s$")
     size = pattern.levels[0].size

@@ -4,7 +4,7 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
 from collections.abc import Sequence
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,12 +12,25 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import BAR
 from springblock.figures.style import BLACK, BLUE, GREY, VERMILION, journal
 from springblock.figures.surface import Axis, draw_sliding
-from springblock.pattern import Pattern
-from springblock.run import Array, Run
+from springblock.run import Array
 from springblock.statistics import mean_interval, pillar_map, pillar_ring
+
+if TYPE_CHECKING:
+    from springblock.tables import Record
+
+FIGURE = Declaration(
+    title="First detachment times on one pillar",
+    category="Figures",
+    caption="""First detachment times t_det over t_max on one pillar, means over all pillars and
+    realisations: a) by place on the pillar, b) by part of each ring of blocks from the edge to the
+    middle, with 95 % bootstrap intervals over realisations. Figure 5 of the paper; b) is an
+    addition.""",
+    source=Realisations(groups=("pillars",)),
+)
 
 _TIME = r"mean first detachment $t_\mathrm{det}/t_\mathrm{max}$"
 #: Colour, marker and name of the parts of a ring, each moved aside a little to show its bar.
@@ -29,15 +42,16 @@ _PARTS = {
 
 
 @journal
-def draw(runs: Sequence[Run], pattern: Pattern, direction: str = "x") -> Figure:
+def draw(runs: "Sequence[Record]") -> Figure:
     """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
 
-    Means over all pillars and runs; bars are 95 % bootstrap intervals over runs. An arrow shows
-    the sliding `direction` if it is "x" or "y".
+    Means over all pillars and `runs`, which share one scene; bars are 95 % bootstrap intervals
+    over runs. An arrow shows the sliding direction if it is "x" or "y".
     """
-    times = pillar_map(runs, pattern)
+    scene = runs[0].scene
+    times = pillar_map(runs, scene.pattern)
     picture = style.figure(style.DOUBLE, 75.0)
-    _draw_map(picture, times.mean(axis=0), direction)
+    _draw_map(picture, times.mean(axis=0), scene.direction)
     rings = style.axes(picture, 110.0, 11.0, 76.0, 54.0)
     _draw_rings(rings, times)
     style.panel_letter(picture.axes[0], "a", left=11.0, above=1.5)

@@ -3,7 +3,7 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,10 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import (
     FORCE,
     FRICTION,
     LAG,
+    Runs,
     draw_detachments,
     draw_force,
     draw_no_lag,
@@ -24,24 +26,32 @@ from springblock.figures.ensembles import (
     size_colors,
 )
 from springblock.figures.style import BLACK, GREY, MICRO, journal
-from springblock.run import Array, Run
+from springblock.run import Array
 from springblock.statistics import common_curve, mean_interval
+
+FIGURE = Declaration(
+    title="Force and detachments, pillars",
+    category="Figures",
+    caption="""a) Friction force over the normal force and b) share of first detachments in each
+    bin, on a flat surface and on pillars of several sizes; dots: t_max, rings: t_avg. c) Static
+    friction and d) t_max - t_avg over the size of the pillars; dashed: flat surface. Means over
+    realisations with 95 % bootstrap intervals. Curves end with the shortest realisation. Figure 6
+    of the paper; c) and d) are additions.""",
+    source=Realisations(groups=("flat", "pillars"), keys=("n_p",)),
+)
 
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins
 _LEFT, _RIGHT = (17.0, 91.0), (128.0, 58.0)  #: left edge and width of the panels, mm
 _UPPER, _LOWER = (54.0, 43.0), (11.0, 37.0)  #: lower edge and height
 
-Ensembles = Sequence[tuple[int, Sequence[Run]]]  #: n_p, or 0 for the flat surface, and its runs
+Ensembles = Mapping[int, Runs]  #: by n_p, 0 for the flat surface
 
 
 @journal
 def draw(ensembles: Ensembles) -> Figure:
-    """Draw a) force and b) detachments over time, c) static friction and d) t_max - t_avg over n_p.
-
-    Bands and bars are 95 % bootstrap intervals of the mean over runs.
-    """
-    ensembles = sorted(ensembles, key=lambda ensemble: ensemble[0])
-    colors = size_colors([n_p for n_p, _ in ensembles])
+    """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
+    ensembles = dict(sorted(ensembles.items()))
+    colors = size_colors(ensembles)
     picture = style.figure(style.DOUBLE, 103.0)
     places = [(column, row) for column in (_LEFT, _RIGHT) for row in (_UPPER, _LOWER)]
     force, blocks, friction, lag = (
@@ -49,7 +59,7 @@ def draw(ensembles: Ensembles) -> Figure:
         for (left, width), (bottom, height) in places
     )
     _draw_time(force, blocks, ensembles, colors)
-    samples = zip(*(highest_and_lag(runs) for _, runs in ensembles), strict=True)
+    samples = zip(*(highest_and_lag(runs) for runs in ensembles.values()), strict=True)
     for ax, values in zip((friction, lag), samples, strict=True):
         _draw_sizes(ax, ensembles, values, colors)
     draw_no_lag(lag)
@@ -63,7 +73,7 @@ def draw(ensembles: Ensembles) -> Figure:
 
 def _draw_time(force: Axes, blocks: Axes, ensembles: Ensembles, colors: dict[int, Any]) -> None:
     """Mean curves; on those of the force, dots at t_max and rings at t_avg."""
-    for n_p, runs in ensembles:
+    for n_p, runs in ensembles.items():
         curve, color = common_curve(runs), colors[n_p]
         mean = draw_force(force, curve, color, f"$n_p$ = {n_p}" if n_p else "flat")
         draw_detachments(blocks, curve, color)
@@ -85,8 +95,7 @@ def _draw_sizes(
     ax: Axes, ensembles: Ensembles, values: Sequence[Array], colors: dict[int, Any]
 ) -> None:
     """Means over n_p on a logarithmic axis; the flat surface as a line with a band."""
-    sizes = [n_p for n_p, _ in ensembles if n_p]
-    for (n_p, _), sample in zip(ensembles, values, strict=True):
+    for n_p, sample in zip(ensembles, values, strict=True):
         interval = mean_interval(sample)
         if n_p:
             draw_point(ax, n_p, interval, colors[n_p], marker="o")
@@ -102,4 +111,4 @@ def _draw_sizes(
             ha="center",
             va="top",
         )
-    logarithmic([ax], sizes)
+    logarithmic([ax], [n_p for n_p in ensembles if n_p])

@@ -3,15 +3,31 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from springblock.figures import style
+from springblock.figures.declaration import Correlations, Declaration
 from springblock.figures.ensembles import BAR
 from springblock.figures.style import BLUE, GREY, VERMILION, journal
+
+if TYPE_CHECKING:  # read by the command, and only then
+    import pandas as pd
+
+FIGURE = Declaration(
+    title="Correlation of detachments on pillars",
+    category="Figures",
+    caption="""Correlation of first detachment times along the sides of a pillar, from the middle of
+    the side, sliding along x: c_x on sides along x, c_y on sides along y. Lines: exp(-r/l_c),
+    dotted beyond the range of the fit. Inset: l_c of c_x over the size of the pillars; open: fits
+    of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are 95 % bootstrap
+    intervals over realisations. Figure 7 of the paper; the open points are an addition.""",
+    source=Correlations(groups=("pillars",)),
+)
 
 #: Colour and marker of the sides along each axis.
 _SIDES = {"x": (BLUE, "D"), "y": (VERMILION, "s")}
@@ -20,12 +36,11 @@ _EXPONENTIAL = r"$\exp(-r/l_c)$"
 
 
 @journal
-def draw(correlation: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
+def draw(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
     """Draw c_x(r) and c_y(r) of one scene with their fits, and l_c over n_p in an inset.
 
     `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
-    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them. Bands and bars
-    are 95 % bootstrap intervals over realisations.
+    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
 
     Raises
     ------
@@ -53,7 +68,7 @@ def draw(correlation: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
     return picture
 
 
-def _draw_side(ax: Axes, side: str, curve: pd.DataFrame, length: pd.Series) -> None:
+def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
     """Points and band of c(r) and the fitted exponential, dotted beyond what it was fitted to."""
     color, marker = _SIDES[side]
     ax.fill_between(
@@ -72,7 +87,7 @@ def _draw_side(ax: Axes, side: str, curve: pd.DataFrame, length: pd.Series) -> N
         ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
 
 
-def _draw_lengths(ax: Axes, lengths: pd.DataFrame) -> None:
+def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     """Draw l_c of c_x over n_p on a logarithmic axis; open points have a free amplitude."""
     color, marker = _SIDES["x"]
     look = {"color": color, "marker": marker, "linestyle": "none", **BAR}

@@ -6,6 +6,7 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from springblock.figures.declaration import Declaration, Surface
 from springblock.figures.style import journal
 from springblock.figures.surface import (
     Axis,
@@ -15,6 +16,14 @@ from springblock.figures.surface import (
     surface_and_pillar,
 )
 from springblock.pattern import Pattern
+
+FIGURE = Declaration(
+    title="Grooved pillars",
+    category="Figures",
+    caption="""Pillars with grooves along x, drawn from the mask that the solver uses, with the
+    coordinates of one pillar. Figure 8 of the paper.""",
+    source=Surface(),
+)
 
 
 @journal
@@ -43,7 +52,7 @@ def _draw_groove_dimensions(ax: Axes, pattern: Pattern) -> None:
     first = pattern.profile(across, depth=1)[0][0]
     starts = [start - first - 0.5 for start, _ in pattern.profile(across, depth=2)]
     level, size = pattern.levels[1], pattern.levels[0].size
-    pawl = starts[size // (level.size + level.spacing) // 2]
+    pawl = starts[size // (level.size + level.gap) // 2]
     groove = pawl + level.size
     dimension(ax, across, pawl, groove, 0.2 * size, "$n_p^{(2)}$")
-    dimension(ax, across, groove, groove + level.spacing, 0.6 * size, "$n_s^{(2)}$", narrow=True)
+    dimension(ax, across, groove, groove + level.gap, 0.6 * size, "$n_s^{(2)}$", narrow=True)

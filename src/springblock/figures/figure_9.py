@@ -3,15 +3,17 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from itertools import cycle
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import (
     FORCE,
+    Runs,
     draw_detachments,
     draw_force,
     enlarged_span,
@@ -21,8 +23,18 @@ from springblock.figures.ensembles import (
     sliding,
 )
 from springblock.figures.style import BLUE, GREEN, PURPLE, VERMILION, journal
-from springblock.run import Run
 from springblock.statistics import Curve, common_curve
+
+FIGURE = Declaration(
+    title="Force and detachments, grooved pillars",
+    category="Figures",
+    caption="""Friction force over the normal force and share of first detachments in each bin on
+    pillars with grooves, for each sliding direction; b) and d) enlarge the end. Means over
+    realisations with 95 % bootstrap intervals. Triangles are load peaks of the mean: those that
+    stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
+    Figure 9 of the paper.""",
+    source=Realisations(groups=("grooves",), keys=("direction",)),
+)
 
 _COLUMNS = ((18.0, 75.0), (111.0, 75.0))  #: left edge and width of the panels, mm
 _ROWS = ((54.0, 40.0), (11.0, 37.0))  #: lower edge and height
@@ -30,13 +42,12 @@ _COLORS = (BLUE, VERMILION, GREEN, PURPLE)
 
 
 @journal
-def draw(ensembles: Sequence[tuple[str, Sequence[Run]]]) -> Figure:
+def draw(ensembles: Mapping[str, Runs]) -> Figure:
     """Draw a), b) the mean force and c), d) detachments for each sliding direction.
 
-    The left panels show the whole run, the right ones its end. Bands are 95 % bootstrap
-    intervals of the mean over runs; triangles are the load peaks that `load_peaks` finds.
+    The left panels show the whole run, the right ones its end, with the peaks of `load_peaks`.
     """
-    curves = {direction: common_curve(runs) for direction, runs in sorted(ensembles)}
+    curves = {direction: common_curve(runs) for direction, runs in sorted(ensembles.items())}
     span = enlarged_span(list(curves.values()))
     picture = style.figure(style.DOUBLE, 100.0)
     for (left, width), letters in zip(_COLUMNS, ("ac", "bd"), strict=True):

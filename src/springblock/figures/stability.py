@@ -11,11 +11,20 @@ from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Table
 from springblock.figures.style import BLACK, BLUE, GREY, VERMILION, journal
 
 if TYPE_CHECKING:
     import pandas as pd
     import pyarrow as pa
+
+FIGURE = Declaration(
+    title="Stiff and extreme cases",
+    category="Accuracy",
+    caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond the
+    stability limit; failing ones end in an exception.""",
+    source=Table("stability"),
+)
 
 _INTEGRATORS: dict[str, tuple[str, dict[str, Any]]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),

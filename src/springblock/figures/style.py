@@ -20,10 +20,7 @@ COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's 
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/).
 BLACK = "#000000"
-ORANGE = "#E69F00"
-SKY = "#56B4E9"
 GREEN = "#009E73"
-YELLOW = "#F0E442"
 BLUE = "#0072B2"
 VERMILION = "#D55E00"
 PURPLE = "#CC79A7"

@@ -4,11 +4,13 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
 from collections.abc import Mapping
+from itertools import chain
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Realisations, Scenes
 from springblock.figures.ensembles import (
     FORCE,
     Runs,
@@ -20,18 +22,35 @@ from springblock.figures.ensembles import (
     sliding,
 )
 from springblock.figures.style import BLUE, GREEN, VERMILION, journal
+from springblock.scene import Scene
 from springblock.statistics import Curve, common_curve
 
 _COLORS = {2: BLUE, 3: VERMILION}
 _BOTTOMS, _PANEL = (53.0, 11.0), (16.0, 71.0, 38.0)  #: left edge, width and height, mm
 
 
+def _along_and_across(*groups: Scenes) -> list[Scene]:
+    return [scene for scene in chain(*groups) if scene.direction in ("x", "y")]
+
+
+FIGURE = Declaration(
+    title="A third level",
+    category="Supplement",
+    caption="""Friction force over the normal force towards the end of a run, on patterns of two and
+    of three levels, sliding a) along and b) across the grooves. Means over realisations with 95 %
+    bootstrap intervals; triangles are load peaks of the mean, as in figure 9. The paper expects
+    that its effects remain on further levels.""",
+    source=Realisations(
+        groups=("grooves", "third_level"), keys=("direction", "level"), pick=_along_and_across
+    ),
+)
+
+
 @journal
 def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level.
 
-    `ensembles` holds runs by (direction, number of levels). Bands are 95 % bootstrap intervals
-    of the mean over runs; triangles are the load peaks of the mean.
+    `ensembles` holds runs by (direction, number of levels).
     """
     curves = {key: common_curve(runs) for key, runs in sorted(ensembles.items())}
     span = enlarged_span(list(curves.values()))

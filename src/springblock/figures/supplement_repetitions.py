@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import (
     Key,
     Runs,
@@ -27,6 +28,16 @@ from springblock.figures.style import GREY, journal
 from springblock.run import Array
 from springblock.statistics import half_widths
 
+FIGURE = Declaration(
+    title="Number of realisations",
+    category="Supplement",
+    caption="""Half the 95 % interval of a) static friction and b) t_max - t_avg over the number k
+    of realisations, which the paper does not give. Markers: bootstrap intervals, mean over random
+    subsets of the ensembles; lines: 1.96 standard deviations of the whole ensemble over the root of
+    k. Bootstrap intervals of few realisations are too narrow.""",
+    source=Realisations(groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction")),
+)
+
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)
 _MILLI = 1e3  #: 10⁻³ per unit
 _NORMAL = 1.96  #: half a 95 % interval in standard errors
@@ -36,8 +47,7 @@ _NORMAL = 1.96  #: half a 95 % interval in standard errors
 def draw(ensembles: Mapping[Key, Runs]) -> Figure:
     """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations.
 
-    `ensembles` holds runs by (n_p, n_p2, direction). Markers are means over random subsets of an
-    ensemble; lines show the scatter of the whole ensemble over the root of k, the number.
+    `ensembles` holds runs by (n_p, n_p2, direction).
     """
     picture, panels = two_panels("number of realisations", above=12.0)
     colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)

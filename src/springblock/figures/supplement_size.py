@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
+from springblock.figures.declaration import Declaration, Realisations, Scenes, one_pattern
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,
@@ -16,14 +17,33 @@ from springblock.figures.ensembles import (
     two_panels,
 )
 from springblock.figures.style import journal
+from springblock.scene import Scene
+
+
+def _two_patterns(*groups: Scenes) -> list[Scene]:
+    """Flat surfaces and one kind of pillars, each with those of other sizes."""
+    return one_pattern(*groups[:2]) + one_pattern(*groups[2:])
+
+
+FIGURE = Declaration(
+    title="Size of the surface",
+    category="Supplement",
+    caption="""a) Static friction and b) t_max - t_avg over the side N of a flat and of a pillared
+    surface. Means over realisations with 95 % bootstrap intervals. Everything else is at N = 120,
+    as in the paper.""",
+    source=Realisations(
+        groups=("flat", "size_flat", "pillars", "size_pillars"),
+        keys=("n_p", "n_s", "n_blocks"),
+        pick=_two_patterns,
+    ),
+)
 
 
 @journal
 def draw(ensembles: Mapping[tuple[int, int, int], Runs]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over N, a line for each surface.
 
-    `ensembles` holds runs by (n_p, n_s, N), with zeros for flat surfaces. Bars are 95 %
-    bootstrap intervals of the mean over runs.
+    `ensembles` holds runs by (n_p, n_s, N), with zeros for flat surfaces.
     """
     picture, panels = two_panels("side of the surface $N$ (blocks)")
     colors = size_colors(n_p for n_p, _, _ in ensembles)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
+from springblock.figures.declaration import Declaration, Realisations, Scenes
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,
@@ -16,13 +17,30 @@ from springblock.figures.ensembles import (
     two_panels,
 )
 from springblock.figures.style import journal
+from springblock.scene import Scene
+
+
+def _sizes_varied(pillars: Scenes, spacing: Scenes) -> list[Scene]:
+    """Pillars of the sizes whose distance is varied."""
+    sizes = {scene.n_p for scene in spacing}
+    return [scene for scene in (*pillars, *spacing) if scene.n_p in sizes]
+
+
+FIGURE = Declaration(
+    title="Distance between pillars",
+    category="Supplement",
+    caption="""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s, which
+    the paper leaves open; a line for each size of the pillars. Means over realisations with 95 %
+    bootstrap intervals.""",
+    source=Realisations(groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=_sizes_varied),
+)
 
 
 @journal
 def draw(ensembles: Mapping[tuple[int, int], Runs]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p.
 
-    `ensembles` holds runs by (n_p, n_s). Bars are 95 % bootstrap intervals of the mean over runs.
+    `ensembles` holds runs by (n_p, n_s).
     """
     picture, panels = two_panels("distance between the pillars $n_s$")
     for n_p, color in size_colors(n_p for n_p, _ in ensembles).items():

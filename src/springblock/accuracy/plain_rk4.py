@@ -1,0 +1,127 @@
+"""Runge-Kutta as one would first write it; it does not converge, and shows why care is needed.
+
+Friction opposes the velocity of each *stage*, and a block sticks again when its velocity turns
+back. The stage velocities of a slow block alternate in sign, so that it creeps instead of coming
+to rest. SI units throughout, one force evaluation per stage, no thought given to speed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from springblock.material import Material
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Solution:
+    """Names and units as in `springblock.Realisation`."""
+
+    time: Array
+    force: Array
+    t_det: Array
+    static_friction: float
+    t_max: float
+    t_avg: float
+    steps: int
+
+
+@njit(cache=True)
+def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
+    n = contact.shape[0]
+    k_int, k_s, mass, length, gamma, speed = c
+    for y in range(n):
+        for x in range(n):
+            fx = k_s * (speed * t - r[y, x, 0])
+            fy = -k_s * r[y, x, 1]
+            for dy in range(-1, 2):
+                for dx in range(-1, 2):
+                    i, j = y + dy, x + dx
+                    if (dx == 0 and dy == 0) or i < 0 or j < 0 or i >= n or j >= n:
+                        continue
+                    ex = length * dx + r[i, j, 0] - r[y, x, 0]
+                    ey = length * dy + r[i, j, 1] - r[y, x, 1]
+                    rest = length * np.sqrt(float(dx * dx + dy * dy))
+                    k = k_int if dx == 0 or dy == 0 else 0.5 * k_int
+                    distance = np.sqrt(ex * ex + ey * ey)
+                    pull = k * (distance - rest) / distance
+                    fx += pull * ex
+                    fy += pull * ey
+            driving[y, x] = np.sqrt(fx * fx + fy * fy)
+            s = np.sqrt(v[y, x, 0] ** 2 + v[y, x, 1] ** 2)
+            if contact[y, x] and s > 0.0:
+                fx -= mu_d_load[y, x] * v[y, x, 0] / s
+                fy -= mu_d_load[y, x] * v[y, x, 1] / s
+            moves = sliding[y, x] or not contact[y, x]
+            a[y, x, 0] = (fx / mass - gamma * v[y, x, 0]) if moves else 0.0
+            a[y, x, 1] = (fy / mass - gamma * v[y, x, 1]) if moves else 0.0
+
+
+@njit(cache=True)
+def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det):
+    n = contact.shape[0]
+    r, v = np.zeros((n, n, 2)), np.zeros((n, n, 2))
+    sliding = np.zeros((n, n), np.bool_)
+    driving, unused = np.zeros((n, n)), np.zeros((n, n))
+    a1, a2, a3, a4 = (np.zeros((n, n, 2)), np.zeros((n, n, 2)),
+                      np.zeros((n, n, 2)), np.zeros((n, n, 2)))  # fmt: skip
+    for k in range(every * samples):
+        t = k * h
+        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, driving)
+        for y in range(n):
+            for x in range(n):
+                if contact[y, x] and not sliding[y, x] and driving[y, x] > mu_s_load[y, x]:
+                    sliding[y, x] = True
+                    if np.isnan(t_det[y, x]):
+                        t_det[y, x] = t
+        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, unused)
+        v2 = v + 0.5 * h * a1
+        _accelerations(r + 0.5 * h * v, v2, sliding, contact, mu_d_load, t + h / 2, c, a2, unused)
+        v3 = v + 0.5 * h * a2
+        _accelerations(r + 0.5 * h * v2, v3, sliding, contact, mu_d_load, t + h / 2, c, a3, unused)
+        v4 = v + h * a3
+        _accelerations(r + h * v3, v4, sliding, contact, mu_d_load, t + h, c, a4, unused)
+        r += h / 6 * (v + 2 * v2 + 2 * v3 + v4)
+        new = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        for y in range(n):
+            for x in range(n):
+                back = v[y, x, 0] * new[y, x, 0] + v[y, x, 1] * new[y, x, 1] < 0.0
+                if contact[y, x] and sliding[y, x] and back:
+                    sliding[y, x] = False
+                    new[y, x, :] = 0.0
+        v = new
+        if (k + 1) % every == 0:
+            fx = c[1] * (n * n * c[5] * (t + h) - r[:, :, 0].sum())
+            force[(k + 1) // every] = np.sqrt(fx**2 + (c[1] * r[:, :, 1].sum()) ** 2)
+
+
+def solve(
+    contact: NDArray[np.bool_],
+    mu_static: Array,
+    mu_dynamic: Array,
+    duration: float,
+    step: float,
+    sample_interval: float,
+) -> Solution:
+    """Pull one surface along x; arguments and units as of `springblock.simulate`."""
+    m = Material()
+    load = m.block_load * contact.size / contact.sum()
+    every, samples = round(sample_interval / step), round(duration / sample_interval)
+    force, t_det = np.zeros(samples + 1), np.full(contact.shape, np.nan)
+    constants = (m.k_int, m.k_s, m.mass, m.spacing, m.gamma, m.slider_velocity)
+    _integrate(
+        contact, mu_static * load, mu_dynamic * load, constants, step, every, samples, force, t_det
+    )
+    peak = int(force.argmax())
+    return Solution(
+        time=np.arange(samples + 1.0) * sample_interval,
+        force=force,
+        t_det=t_det,
+        static_friction=force[peak] / (m.block_load * contact.size),
+        t_max=peak * sample_interval,
+        t_avg=float(np.nanmean(t_det)),
+        steps=every * samples,
+    )

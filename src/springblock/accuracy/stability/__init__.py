@@ -1,0 +1,15 @@
+"""Stiff and extreme cases: a module for each kind, over common ground.
+
+Every case says what it expects, in a word, and measures what comes out. Most compare a number with
+its closed form; how far it may be off follows from the order of the scheme, or from rounding:
+
+- A release falls on the first step boundary beyond t = mu_s F_n/(K_s v), and a stop on the boundary
+  of the step that holds it. What depends on them may be wrong by what changes in one step.
+- While a block slides one way, or has no friction, both schemes are linear at small strains, and
+  their own solution is known exactly (`schemes.path`). What is left is the strain, and rounding.
+
+Each of these also bounds what may be missing from the energy balance (`Pull.may_miss`).
+
+Units in the code: forces in F_n, lengths in F_n/K_s, times in 1/omega with omega² = K_s/m, and so
+speeds in F_n omega/K_s, unless they are said to be SI.
+"""

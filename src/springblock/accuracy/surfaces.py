@@ -1,0 +1,26 @@
+"""Surfaces that errors are measured on: contact, mu_static and mu_dynamic, each (N, N)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.asperities import draw_friction
+from springblock.material import Material
+from springblock.pattern import Pattern
+
+Array = NDArray[np.float64]
+Surface = tuple[NDArray[np.bool_], Array, Array]
+
+
+def uniform(n: int, mu_static: float, mu_dynamic: float) -> Surface:
+    """A flat surface without scatter."""
+    return np.ones((n, n), bool), np.full((n, n), mu_static), np.full((n, n), mu_dynamic)
+
+
+def drawn(pattern: Pattern, seed: int, material: Material | None = None) -> Surface:
+    """A pattern with the scatter of `material`, the paper's if there is none."""
+    return pattern.contact, *draw_friction(pattern.n_blocks, seed, material)
+
+
+def flat(n: int, seed: int, material: Material | None = None) -> Surface:
+    """A flat surface with such a scatter."""
+    return drawn(Pattern.flat(n), seed, material)

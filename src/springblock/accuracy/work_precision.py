@@ -1,0 +1,274 @@
+"""Error against run time: the rows of results/tables/work_precision.parquet.
+
+Three comparisons, each for a flat, a pillared and a grooved scene:
+
+reference  single runs against the event-located reference solution, run by run;
+paired     ensembles against the leapfrog at a fine step with the same seeds: what is left on the
+           mean where single runs no longer agree; and `scatter`, the spread from seed to seed;
+twin       single runs against themselves with thresholds nudged by a little: the horizon beyond
+           which no step makes single runs agree.
+"""
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, TypeVar
+
+import numpy as np
+import pyarrow as pa
+from scipy.stats import spearmanr, t
+from tqdm import tqdm
+
+from springblock.accuracy import plain_rk4, reference
+from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
+from springblock.accuracy.surfaces import Array, Surface, drawn
+from springblock.pattern import Pattern
+from springblock.prelude import compute_prelude
+from springblock.realisation import Realisation
+from springblock.simulation import simulate
+from springblock.solver import INTEGRATORS
+from springblock.tables import column
+
+SCHEMA = pa.schema(
+    [
+        column("comparison", pa.string(), "1", "reference, paired, scatter or twin"),
+        column("scene", pa.string(), "1", "flat, pillared or grooved"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+        column("integrator", pa.string(), "1", "leapfrog, rk4 or plain rk4"),
+        column("step", pa.float64(), "s", "integration step h"),
+        column("nudge", pa.float64(), "1", "relative change of the thresholds of a twin; else 0"),
+        column("quantity", pa.string(), "1", "what the error is of"),
+        column(
+            "error",
+            pa.float64(),
+            "1",
+            "reference and twin: root mean square over the realisations of the relative error; "
+            "t_det and t_avg relative to t_max; order: 1 - rank correlation. paired: relative bias",
+        ),
+        column("ci_low", pa.float64(), "1", "paired: lower end of the 95 % t interval; else error"),
+        column("ci_high", pa.float64(), "1", "paired: upper end; else error"),
+        column("worst", pa.float64(), "1", "largest modulus among the realisations"),
+        column("realisations", pa.int32(), "1", "number of seeds"),
+        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
+        column("force_evaluations", pa.float64(), "1", "mean number per realisation"),
+    ]
+)
+
+
+@dataclass(frozen=True)
+class _Scene:
+    """What stands for a scene."""
+
+    single: Pattern  #: small enough for the reference solution
+    duration: float  #: of single runs, s
+    ensemble: Pattern  #: small enough for paired ensembles
+    seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
+
+
+_FLAT = _Scene(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100)
+_PILLARED = _Scene(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100)
+_GROOVED = _Scene(
+    Pattern.pillars(6, 5, 1).grooved(2, 1), 2.0e-4, Pattern.pillars(16, 8, 8).grooved(2, 1), 200
+)
+_BY_NAME = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+
+STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
+PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
+SAMPLE_INTERVAL = 8e-8
+SEEDS = range(2)
+PAIRED_STEPS = {"leapfrog": (8e-8, 4e-8, 2e-8, 1e-8), "rk4": (8e-8, 4e-8)}
+PAIRED_SEEDS_RK4 = 50  #: fewer where a step costs four times as much
+FINE_STEP = 2.5e-9
+NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
+TWIN_STEP = 2.5e-9
+TWIN_SEEDS = range(3)
+
+Row = dict[str, Any]
+Errors = dict[str, float]
+Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
+Computed = Realisation | plain_rk4.Solution
+Solution = Computed | reference.Reference
+Result = TypeVar("Result")
+
+
+def run_errors(run: Solution, exact: Solution, until: float) -> Errors:
+    """Relative errors of one run; times relative to the exact t_max.
+
+    `until` is the horizon, s, up to which single runs can be compared.
+    """
+    upto = exact.time < exact.t_max
+    force = np.abs(run.force[: len(exact.force)] - exact.force)[upto].max() / exact.force.max()
+    both = np.isfinite(exact.t_det) & np.isfinite(run.t_det)
+    shift = (run.t_det - exact.t_det) / exact.t_max
+    before_peak, before_horizon = (both & (exact.t_det < end) for end in (exact.t_max, until))
+    return {
+        "force": float(force),
+        "static_friction": run.static_friction / exact.static_friction - 1.0,
+        "t_max": run.t_max / exact.t_max - 1.0,
+        "t_avg": (run.t_avg - exact.t_avg) / exact.t_max,
+        "t_det before peak": root_mean_square(shift[before_peak]),
+        "t_det before horizon": root_mean_square(shift[before_horizon]),
+        "horizon": until / exact.t_max,
+        "order": 1.0 - float(spearmanr(run.t_det[both], exact.t_det[both]).statistic),
+    }
+
+
+def root_mean_square(values: Array) -> float:
+    """Zero for no values at all."""
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+
+
+def means(run: Realisation) -> Errors:
+    """What ensembles are used for."""
+    return {name: getattr(run, name) for name in MEANS}
+
+
+def relative(values: Errors, exact: Errors) -> Errors:
+    """Relative errors."""
+    return {name: float(values[name] / exact[name] - 1.0) for name in exact}
+
+
+def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
+    """Return what `solve` returns, and the CPU seconds that it took."""
+    start = time.process_time()
+    return solve(), time.process_time() - start
+
+
+def solve_with(integrator: str, step: float, surface: Surface, duration: float) -> Computed:
+    """One realisation by any of the three methods."""
+    if integrator == PLAIN:
+        return plain_rk4.solve(*surface, duration, step, SAMPLE_INTERVAL)
+    return simulate(
+        *surface,
+        integrator=integrator,
+        step=step,
+        duration=duration,
+        sample_interval=SAMPLE_INTERVAL,
+    )
+
+
+def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
+    """What one of these timed runs costs."""
+    solutions, seconds = zip(*runs, strict=True)
+    evaluations = 4 if integrator == PLAIN else INTEGRATORS[integrator].FORCE_EVALUATIONS
+    steps = float(np.mean([run.steps for run in solutions]))
+    return float(np.median(seconds)), steps * evaluations
+
+
+def single_rows(scene: str) -> Iterator[Row]:
+    """All methods and steps against the reference solution."""
+    pattern, duration = _BY_NAME[scene].single, _BY_NAME[scene].duration
+    surfaces = [drawn(pattern, seed) for seed in SEEDS]
+    solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
+    exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
+    horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in SEEDS]
+    for integrator in (*INTEGRATORS, PLAIN):
+        for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
+            runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
+            errors = [
+                run_errors(run, solution, until)
+                for (run, _), solution, until in zip(runs, exact, horizons, strict=True)
+            ]
+            cost = cost_of(integrator, runs)
+            yield from rows_of("reference", scene, integrator, step, errors, cost)
+
+
+def paired_rows(scene: str) -> Iterator[Row]:
+    """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
+    seeds = _BY_NAME[scene].seeds
+    exact = [means(run) for run, _ in ensemble(scene, "leapfrog", FINE_STEP, seeds)]
+    for integrator, steps in PAIRED_STEPS.items():
+        few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
+        for step in steps:
+            runs = ensemble(scene, integrator, step, few)
+            errors = [
+                relative(means(run), fine) for (run, _), fine in zip(runs, exact, strict=False)
+            ]
+            cost = cost_of(integrator, runs)
+            yield from rows_of("paired", scene, integrator, step, errors, cost)
+    middle = {name: float(np.mean([each[name] for each in exact])) for name in MEANS}
+    spread = [relative(each, middle) for each in exact]
+    yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread, (0.0, 0.0))
+
+
+def ensemble(
+    scene: str, integrator: str, step: float, seeds: int
+) -> list[tuple[Realisation, float]]:
+    """Runs of so many seeds, each with its CPU seconds."""
+    pattern = _BY_NAME[scene].ensemble
+    how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
+    pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
+    return [
+        timed(partial(pull, *drawn(pattern, seed)))
+        for seed in tqdm(range(seeds), desc=f"{integrator} {step:g}")
+    ]
+
+
+def twin_rows(scene: str) -> Iterator[Row]:
+    """Runs against themselves with thresholds changed by a little, at a fine step."""
+    steps = _BY_NAME[scene].duration / TWIN_STEP
+    for nudge in tqdm(NUDGES, desc=f"{scene}, twins"):
+        pairs = [timed(partial(twins, scene, seed, nudge)) for seed in TWIN_SEEDS]
+        errors = [run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs]
+        cost = (float(np.median([seconds for _, seconds in pairs])) / 2.0, steps)
+        yield from rows_of("twin", scene, "leapfrog", TWIN_STEP, errors, cost, nudge)
+
+
+def twins(scene: str, seed: int, nudge: float) -> tuple[Computed, Computed]:
+    """A run, and one with each threshold changed by a random share of the size of `nudge`."""
+    contact, mu_static, mu_dynamic = drawn(_BY_NAME[scene].single, seed)
+    change = 1.0 + nudge * np.random.default_rng(seed).standard_normal(mu_static.shape)
+    one, other = (
+        solve_with("leapfrog", TWIN_STEP, (contact, mu, mu_dynamic), _BY_NAME[scene].duration)
+        for mu in (mu_static, mu_static * change)
+    )
+    return one, other
+
+
+def horizon(one: Solution, other: Solution) -> float:
+    """Time in s up to which two runs agree on t_det within 0.1 % of t_max; t_max at most."""
+    both = np.isfinite(one.t_det) & np.isfinite(other.t_det)
+    apart = both & (np.abs(one.t_det - other.t_det) > 1e-3 * one.t_max)
+    parting = np.minimum(one.t_det, other.t_det)[apart]
+    return min(one.t_max, float(parting.min()) if parting.size else np.inf)
+
+
+def rows_of(
+    comparison: str,
+    scene: str,
+    integrator: str,
+    step: float,
+    errors: list[Errors],
+    cost: Cost,
+    nudge: float = 0.0,
+) -> Iterator[Row]:
+    """Summarise the errors of several realisations, a row per quantity."""
+    of_means = comparison in ("paired", "scatter")
+    pattern = _BY_NAME[scene].ensemble if of_means else _BY_NAME[scene].single
+    for quantity in errors[0]:
+        values = np.array([error[quantity] for error in errors])
+        count, error, half = len(values), root_mean_square(values), 0.0
+        if of_means:
+            error = float(values.mean())
+            half = t.ppf(0.975, count - 1) * float(values.std(ddof=1)) / np.sqrt(count)
+        yield {
+            "comparison": comparison,
+            "scene": scene,
+            "n_blocks": pattern.n_blocks,
+            "integrator": integrator,
+            "step": step,
+            "nudge": nudge,
+            "quantity": quantity,
+            "error": error,
+            "ci_low": error - half,
+            "ci_high": error + half,
+            "worst": float(np.abs(values).max()),
+            "realisations": count,
+            "cpu_seconds": cost[0],
+            "force_evaluations": cost[1],
+        }
+
+
+#: Rows of each comparison, by its name, from the name of a scene.
+ROWS = dict(zip(COMPARISONS, (single_rows, paired_rows, twin_rows), strict=True))

@@ -1,0 +1,9 @@
+"""The claims of the paper that the study can test, each with the statistic that tests it.
+
+Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the paper compares in
+words ("similar", "uniform", "the same"), the claimed range says how close is close enough.
+"""
+
+from springblock.claims import correlation, flat, grooves, model, pillars
+
+CLAIMS = (*flat.CLAIMS, *pillars.CLAIMS, *correlation.CLAIMS, *grooves.CLAIMS, *model.CLAIMS)

@@ -1,0 +1,23 @@
+"""springblock compare: errors of integrators, in one comparison on one scene."""
+
+from pathlib import Path
+
+import click
+
+from springblock.accuracy.conventions import COMPARISONS, SCENES
+from springblock.accuracy.work_precision import ROWS, SCHEMA
+from springblock.commands.options import OUTPUT, one_sentence
+from springblock.sources import code_version
+from springblock.tables import rows_to_table, write
+
+
+@click.command("compare")
+@click.option("--comparison", type=click.Choice(COMPARISONS), required=True)
+@click.option("--scene", type=click.Choice(SCENES), required=True)
+@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
+def compare(comparison: str, scene: str, output: Path) -> None:
+    """Measure errors and run times in one comparison on one scene."""
+    with one_sentence():
+        table = rows_to_table(list(ROWS[comparison](scene)), SCHEMA)
+        # there is nothing to configure
+        write(table, output, {"code_version": code_version(__name__)})

@@ -1,0 +1,46 @@
+"""Sliding directions: along x, along y, or at an angle from x in degrees."""
+
+import math
+
+import numpy as np
+
+_REAL = int | float | np.integer | np.floating
+_AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
+#: By angles from -180 to 180 degrees: those that would have two names.
+_NAMES = {0.0: "x", 90.0: "y", -180.0: "180"}
+
+
+def normalised(direction: str | float) -> str:
+    """Write a direction the one way it is written: "x", "y" or degrees from x, as "15".
+
+    Whole turns are taken out, exactly, and an angle along x or y has the name of that axis.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where it is neither "x" nor "y" nor a finite number, itself or as text.
+    """
+    if isinstance(direction, str) and direction in _AXES:
+        return direction
+    refusal = f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}"
+    if isinstance(direction, bool) or not isinstance(direction, _REAL | str):
+        raise TypeError(refusal)
+    try:
+        angle = float(direction)
+    except ValueError:
+        raise TypeError(refusal) from None
+    if not math.isfinite(angle):
+        raise ValueError(f"direction must be 'x', 'y' or a finite angle, not {direction!r}")
+    angle = math.remainder(angle, 360.0)
+    return _NAMES.get(angle, repr(angle).removesuffix(".0"))
+
+
+def heading(direction: str | float) -> tuple[float, float]:
+    """Unit vector (x, y) of a sliding direction: "x", "y" or an angle from x in degrees."""
+    name = normalised(direction)
+    if name in _AXES:
+        return _AXES[name]
+    quarters, rest = divmod(float(name), 90.0)
+    cosine, sine = math.cos(math.radians(rest)), math.sin(math.radians(rest))
+    turns = ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))
+    return turns[int(quarters) % 4]

@@ -1,0 +1,27 @@
+"""springblock claims."""
+
+import pyarrow.parquet as pq
+import pytest
+
+
+@pytest.fixture
+def outputs(tmp_path):
+    return ("--configuration", "0123", "--output", tmp_path / "a", "--page", tmp_path / "page.md")
+
+
+def test_statements_are_tested_on_what_was_simulated(springblock, batch, outputs, tmp_path):
+    flat, table = batch(0, 2), tmp_path / "realisations"
+    springblock("aggregate", flat, "--configuration", "0123", "--output", table)
+    springblock("claims", flat, "--realisations", table, *outputs)
+    verdicts = {row["claim"]: row["verdict"] for row in pq.read_table(tmp_path / "a").to_pylist()}
+    assert verdicts["t_max < t_avg on flat surfaces"] != "not tested"
+    assert verdicts["Correlation length grows with n_p"] == "not tested"
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert "| 17. Correlation length grows with n_p | **not tested** |" in text
+
+
+def test_what_is_no_table_is_refused(springblock, batch, outputs, tmp_path):
+    (text := tmp_path / "text").write_text("text")
+    refusal = springblock("claims", batch(0, 2), "--realisations", text, *outputs, refused=True)
+    assert "Parquet" in refusal
+    assert list(tmp_path.iterdir()) == [text]

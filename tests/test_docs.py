@@ -1,0 +1,36 @@
+"""The pages in docs are those that the code writes today, but for what was measured."""
+
+import re
+from pathlib import Path
+
+from precision import precision_rows
+from springblock.accuracy.page import page as accuracy_page
+from springblock.accuracy.stability.table import all_cases
+from springblock.claims import CLAIMS
+from springblock.claims.page import page as claims_page
+from springblock.claims.rule import Evidence
+from springblock.claims.table import rows
+
+DOCS = Path(__file__).parents[1] / "docs"
+
+
+def numberless(text):
+    """Lines of the page on errors, which numbers and nothing else may tell apart."""
+    return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]\d+)?", "#", text).splitlines()
+
+
+def unmeasured(text):
+    """Lines of the page on statements that hold for any study."""
+    measured = ("|", "Verdict: ", "Rests on", "- realisations/", "- tables/")
+    return [line for line in text.splitlines() if line and not line.startswith(measured)]
+
+
+def test_the_page_on_errors_is_what_the_code_writes():
+    stability = [{"family": case.family, "expected": "", "outcome": ""} for case in all_cases()]
+    text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}])
+    assert numberless((DOCS / "accuracy.md").read_text()) == numberless(text)
+
+
+def test_the_page_on_statements_is_what_the_code_writes():
+    text = claims_page(rows(CLAIMS, Evidence()))
+    assert unmeasured((DOCS / "claims.md").read_text()) == unmeasured(text)

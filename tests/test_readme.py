@@ -1,0 +1,26 @@
+"""What the README shows can be run as it stands there."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_example_runs():
+    names = {}
+    for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
+        exec(example, names)
+    assert 0.5 < names["run"].static_friction < 1.0
+    assert abs(names["run"].energy.relative_residual) < 1e-4
+
+
+def test_commands_that_plan_or_explain_run():
+    commands = re.findall(r"snakemake -n \w+|springblock \w+ --help", README)
+    assert len(commands) >= 2
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    for command in commands:
+        subprocess.run(command.split(), cwd=ROOT, env={**os.environ, "PATH": path}, check=True)
