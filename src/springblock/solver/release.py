@@ -22,10 +22,12 @@ from springblock.solver.springs import Array, g
 
 
 class Released(NamedTuple):
-    """Room for the blocks that let go in one step, and for what is known around one of them."""
+    """Room for the blocks that let go in one step, and for the surroundings of one of them."""
 
     row: NDArray[np.int64]  #: (N²,)
     x: NDArray[np.int64]  #: (N²,) column, from 1
+    ax: Array  #: (N²,) velocity that the net force adds to each in one step
+    ay: Array
     share: Array  #: (N²,) θ
     now: Array  #: (2, 5, 5) displacements at step k, [y, x]; NaN beyond the edges
     before: Array  #: (2, 3, 3) of the middle at step k - 1
@@ -37,6 +39,8 @@ def room(blocks):
     return Released(
         np.empty(blocks, np.int64),
         np.empty(blocks, np.int64),
+        np.empty(blocks),
+        np.empty(blocks),
         np.empty(blocks),
         np.empty((2, 5, 5)),
         np.empty((2, 3, 3)),
