@@ -225,7 +225,7 @@ def _place_releases(blocks, rows, released, count, constants, k):
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
     slider, block = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
-    back = (springs.k_s + 6.0 * springs.kappa) ** 2 / 128.0  # (h/limit)⁴/8
+    near = (springs.k_s + 6.0 * springs.kappa) / 4.0  # (h/limit)²
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = row * np.int64(constants.pitch) + x
@@ -238,17 +238,18 @@ def _place_releases(blocks, rows, released, count, constants, k):
         if np.isnan(share):
             continue
         ax, ay = released.ax[m], released.ay[m]
-        a2, moved, speed = ax * ax + ay * ay, 0.5 * share * share - back, 0.5 + share
-        further = moved + speed - 1.0  # than the loop has moved it
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
+        share += near * (0.5 - share)
+        a2, moved, speed = ax * ax + ay * ay, 0.5 * share * share - near / 8.0, 0.5 + share
+        further = moved + speed - 1.0  # than the loop has moved it
         blocks.ux[b] += further * ax
         blocks.uy[b] += further * ay
         blocks.wx[b], blocks.wy[b] = speed * ax, speed * ay
         rows.x[row] += further * ax
         rows.y[row] += further * ay
         rubbed = blocks.dynamic[b] * math.sqrt(a2) * (moved + 0.5 * (share - 0.5))
-        rows.heat[row] += rubbed + a2 * (0.125 - back - 0.5 * block * moved * moved)
+        rows.heat[row] += rubbed + a2 * (0.125 - near / 8.0 - 0.5 * block * moved * moved)
         rows.squares[row] += (speed * speed - 1.0) * a2
         close_edge(blocks.ux, blocks.uy, U(row) * constants.pitch, constants.n)
 

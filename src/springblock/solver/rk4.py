@@ -146,6 +146,7 @@ def _place_releases(blocks, stage, released, count, constants, k):
     """
     slide = constants.slider_x, constants.slider_y
     slider = slide[0] * k, slide[1] * k
+    near = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0  # (h/limit)²
     for m in range(count):
         b = released.row[m] * np.int64(constants.pitch) + released.x[m]
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
@@ -160,6 +161,7 @@ def _place_releases(blocks, stage, released, count, constants, k):
         b, share = released.row[m] * np.int64(constants.pitch) + released.x[m], released.share[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
+        share += near * (0.5 - share)
         further = 0.5 * share * share - 0.125 + share - 0.5
         blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
         stage.dx[b] += further * released.ax[m]
