@@ -192,8 +192,7 @@ class _Motion:
     def result(self, snapshots: list[Array]) -> Realisation:
         """Turn what has been recorded into SI units."""
         n, material, step = int(self.constants.n), self.setup.material, self.setup.step
-        # A threshold is passed within the step before it is noticed: in its middle, on average.
-        t_det = np.maximum(unpadded(self.state.blocks.t_det, n) - 0.5, 0.0) * step
+        t_det = step * unpadded(self.state.blocks.t_det, n)
         t_det = np.where(np.isfinite(t_det), t_det, np.nan)
         time = self.setup.every * step * np.arange(self.samples + 1.0)
         velocity, heat = self.setup.method.at_step(self.state, self.constants, self.steps)
@@ -223,8 +222,9 @@ class _Motion:
         return material.mass * material.spacing / (step * force_time)
 
     def _first_detachments(self) -> NDArray[np.int64]:
-        """Blocks that detached for the first time in each interval; none before the first."""
-        steps = self.state.blocks.t_det[np.isfinite(self.state.blocks.t_det)].astype(np.int64)
+        """Blocks seen to detach for the first time in each interval; none before the first."""
+        t_det = self.state.blocks.t_det
+        steps = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64)
         return np.bincount(steps // self.setup.every + 1, minlength=self.samples + 1)
 
     def _energy(self, velocity: Array, heat: float) -> Energy:

@@ -55,7 +55,7 @@ def test_a_surface_turned_by_ninety_degrees_is_pulled_along_y(integrator):
     contact, *mu = drawn(pattern, seed=3)
     run = simulate(contact, *mu, integrator=integrator)
     turned = simulate(contact.T, *(m.T for m in mu), direction="y", integrator=integrator)
-    np.testing.assert_array_equal(turned.t_det, run.t_det.T)
+    np.testing.assert_allclose(turned.t_det, run.t_det.T, rtol=1e-12)
     np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
     np.testing.assert_allclose(
         turned.displacement[::-1], run.displacement.transpose(0, 2, 1), rtol=0, atol=1e-9 * SLIP
@@ -105,7 +105,7 @@ def test_a_surface_without_scatter_lets_go_as_one(integrator):
     many, one = (
         simulate(*uniform(n, 1.0, 0.6), integrator=integrator, duration=1.4e-4) for n in (6, 1)
     )
-    assert np.unique(many.t_det).tolist() == np.unique(one.t_det).tolist()
+    np.testing.assert_allclose(many.t_det, one.t_det[0, 0], rtol=1e-14)
     assert np.unique(many.displacement[0]).size == 1
     assert not many.displacement[1].any()
     np.testing.assert_allclose(many.displacement[0], one.displacement[0, 0, 0], rtol=1e-12)

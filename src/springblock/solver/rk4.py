@@ -5,10 +5,8 @@ converge: the stage velocities of a slow block alternate in sign, and it creeps 
 to rest. Here friction keeps through all four stages the direction that it has at the start of
 the step: against the velocity of a moving block, against F_mot of one that has just let go. A
 block whose velocity has turned back at the end of the step stops there; a block at rest stays
-through all stages. A block that lets go does so at the first step after its threshold, and has
-been sliding for half a step on average: it starts with the velocity of half a step, without which
-all detachments would lag behind. Without friction the method is of fourth order; releases and
-stops fall on step boundaries, which makes it first order across them.
+through all stages. Without friction the method is of fourth order. Releases are placed within their
+steps, which makes it second order across them; stops fall on step boundaries.
 """
 
 import math
@@ -28,6 +26,7 @@ from springblock.solver.lattice import (
     close_edge,
     keep_peaks,
 )
+from springblock.solver.release import room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 
@@ -90,14 +89,14 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _set_out(blocks, stage, band, s, now):
-    """Choose friction's direction in a band, and let go; returns how many let go.
+def _set_out(blocks, stage, released, count, band, s, now):
+    """Choose friction's direction in a band, and let go; returns how many have let go so far.
 
-    The stage's velocity is that of the step's start; all sums over stages are zero.
+    The stage's velocity is that of the step's start; all sums over stages are zero. A block that
+    lets go has been sliding for half a step, as far as is known yet.
     """
     wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
-    switches = 0
     for row in range(band.start, band.stop):
         i, own = row * band.pitch, (row - band.start) * band.pitch
         for x in range(ONE, band.n + ONE):
@@ -107,14 +106,66 @@ def _set_out(blocks, stage, band, s, now):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
             if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
-                switches += 1
                 t_det[b] = min(t_det[b], now)
-                # It has slid since the threshold was reached, half a step ago on average.
                 excess = fx * ex[b] + fy * ey[b] - dynamic[b]
-                wx[b], wy[b] = 0.5 * excess * ex[b], 0.5 * excess * ey[b]
+                ax, ay = excess * ex[b], excess * ey[b]
+                wx[b], wy[b] = 0.5 * ax, 0.5 * ay
                 stage.wx[b], stage.wy[b] = wx[b], wy[b]
-                stage.dx[b], stage.dy[b] = 0.125 * excess * ex[b], 0.125 * excess * ey[b]
-    return switches
+                stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
+                released.row[count], released.x[count] = np.int64(row), np.int64(x)
+                released.ax[count], released.ay[count] = ax, ay
+                count += 1
+    return count
+
+
+@njit(**JIT)
+def _look_around(blocks, stage, released, row, x, constants):
+    """Reconstruct the displacements around a block at the step's start, and one step before."""
+    n, now, before = np.int64(constants.n), released.now, released.before
+    for j in range(3):
+        for i in range(3):
+            y, z = row + j - 1, x + i - 1
+            b = y * np.int64(constants.pitch) + z
+            inside = 0 <= y < n and 1 <= z <= n
+            ux, uy = (blocks.ux[b], blocks.uy[b]) if inside else (np.nan, np.nan)
+            now[0, j + 1, i + 1], now[1, j + 1, i + 1] = ux, uy
+            if inside and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
+                ux, uy = (
+                    ux - blocks.wx[b] + 0.5 * stage.ax[b],
+                    uy - blocks.wy[b] + 0.5 * stage.ay[b],
+                )
+            before[0, j, i], before[1, j, i] = ux, uy
+
+
+@njit(**JIT)
+def _place_releases(blocks, stage, released, count, constants, k):
+    """Let `count` blocks go at their times before step k, not half a step before it.
+
+    To second order, that shifts where they are at the end of the step by what it shifts at its
+    start, and by the difference in velocity.
+    """
+    slide = constants.slider_x, constants.slider_y
+    slider = slide[0] * k, slide[1] * k
+    near = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0  # (h/limit)²
+    for m in range(count):
+        b = released.row[m] * np.int64(constants.pitch) + released.x[m]
+        blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
+    for m in range(count):
+        row, x = released.row[m], released.x[m]
+        b = row * np.int64(constants.pitch) + x
+        _look_around(blocks, stage, released, row, x, constants)
+        threshold = max(blocks.static[b], blocks.dynamic[b])
+        share = share_of_step(released, threshold, constants.springs, slider, slide)
+        released.share[m] = 0.5 if np.isnan(share) else share
+    for m in range(count):
+        b, share = released.row[m] * np.int64(constants.pitch) + released.x[m], released.share[m]
+        if blocks.t_det[b] == k:
+            blocks.t_det[b] = k - share
+        share += near * (0.5 - share)
+        further = 0.5 * share * share - 0.125 + share - 0.5
+        blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
+        stage.dx[b] += further * released.ax[m]
+        stage.dy[b] += further * released.ay[m]
 
 
 @njit(**JIT)
@@ -193,9 +244,9 @@ def advance(state, constants, first, steps, every, samples):
     """See `Integrator.advance`."""
     blocks, s, n, stage = state.blocks, state.scratch, constants.n, Stage(*state.work)
     _begin(blocks, stage)
-    every_row, switches = np.ones(n + ONE, np.bool_), 0
+    every_row, released, switches = np.ones(n + ONE, np.bool_), room(np.int64(n * n)), np.int64(0)
     for k in range(first, first + steps):
-        squares = 0.0
+        squares, count = 0.0, np.int64(0)
         for weight, node, reach in STAGES:
             slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
             for start in range(U(0), n, constants.band_rows):
@@ -207,8 +258,10 @@ def advance(state, constants, first, steps, every, samples):
                     return k - first, np.int64(row), np.int64(column) - 1
                 if node == 0.0:
                     keep_peaks(state.peak, band, s)
-                    switches += _set_out(blocks, stage, band, s, k)
+                    count = _set_out(blocks, stage, released, count, band, s, k)
                 squares += _take_stage(blocks, stage, weight, reach, band, s, constants.damping)
+        if count > 0:
+            _place_releases(blocks, stage, released, count, constants, k)
         totals = _finish(blocks, stage, n, constants.pitch, squares)
-        switches = book(state.ledger, samples, constants, totals, switches, k, first, every)
+        switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
