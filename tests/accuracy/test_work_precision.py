@@ -36,5 +36,5 @@ def test_a_table_of_parts_says_which_code_made_them(collect):
 def test_parts_of_different_code_are_refused(collect):
     outcome, output = collect("1+a", "1+b")
     assert outcome.exit_code == 1
-    assert "one code_version; they hold 1+a, 1+b" in outcome.output
+    assert "made by the same code; theirs is 1+a, 1+b" in outcome.output
     assert not output.exists()
