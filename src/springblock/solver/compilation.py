@@ -4,6 +4,7 @@ import os
 import sysconfig
 from pathlib import Path
 
+import llvmlite.binding
 import numba
 from numba import types
 from numba.core.compiler import Compiler
@@ -23,6 +24,23 @@ numba.config.CACHE_DIR = str(
     Path(os.environ.get("NUMBA_CACHE_DIR") or _default_cache())
     / f"{digest('springblock.solver')}-{sysconfig.get_python_version()}"
 )
+
+
+def _wide_vectors() -> str | None:
+    """Features of a processor with AVX-512, of which vectors of 512 bits are to be made use of.
+
+    LLVM prefers half of that, lest the clock slows down, as it did on the first of them. None
+    leaves the choice to numba, which tells processors apart in its cache.
+    """
+    try:
+        features = llvmlite.binding.get_host_cpu_features()
+    except RuntimeError:  # LLVM does not know this processor
+        return None
+    return f"{features.flatten()},-prefer-256-bit" if features.get("avx512f") else None
+
+
+if not (numba.config.CPU_NAME or numba.config.CPU_FEATURES):
+    numba.config.CPU_FEATURES = _wide_vectors()
 
 
 class _Restrict(Compiler):  # type: ignore[misc]
