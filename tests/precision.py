@@ -2,14 +2,14 @@
 
 from itertools import product
 
-from springblock.accuracy.conventions import PLAIN, SCENES
+from springblock.accuracy.conventions import PAPER_STEP, PLAIN, SCENES
 from springblock.defaults import STEP
 
 QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
 QUANTITIES += ["t_det before horizon", "t_det before peak"]
 #: Integrators and steps of each comparison.
 COMPARISONS = {
-    "reference": (["leapfrog", "rk4", PLAIN], [1e-9, STEP]),
+    "reference": (["leapfrog", "rk4", PLAIN], [1e-9, PAPER_STEP, STEP]),
     "paired": (["leapfrog"], [STEP]),
     "scatter": (["leapfrog"], [STEP]),
 }

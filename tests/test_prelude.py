@@ -82,7 +82,7 @@ def test_a_prelude_survives_its_file(prelude, tmp_path):
     [
         {"direction": "y"},
         {"integrator": "rk4"},
-        {"step": 2e-8},
+        {"step": 1e-8},
         {"sample_interval": 4e-7},
         {"material": Material(gamma=0.0)},
     ],

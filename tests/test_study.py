@@ -103,7 +103,7 @@ def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
 
 
 def test_any_change_changes_the_digest():
-    digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=2e-8))}
+    digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=1e-8))}
     assert len(digests) == 2
 
 

@@ -2,6 +2,6 @@
 
 INTEGRATOR = "leapfrog"
 #: Integration step, s; results/tables/work_precision.parquet says why.
-STEP = 1e-8
+STEP = 2e-8
 #: Time between two entries of the force curve, s.
 SAMPLE_INTERVAL = 2e-7

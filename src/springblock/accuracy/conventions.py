@@ -16,8 +16,8 @@ ENSEMBLE = 20
 #: Relative change of the thresholds that sets the horizon; the largest that is small against any
 #: spread.
 HORIZON_NUDGE = 1e-5
-#: Step in s below which errors fall with one order.
-_SETTLED = 2.001e-8
+#: Step in s up to which errors fall with one order, on patterned surfaces too.
+_SETTLED = 1.001e-8
 
 
 def order(steps: ArrayLike, errors: ArrayLike) -> float:

@@ -54,7 +54,7 @@ _TWINS: dict[str, dict[str, Any]] = {
     "pillared": {"color": GREEN, "marker": "v", "markersize": 3.6},
     "grooved": {"color": PURPLE, "marker": "P", "markersize": 3.8},
 }
-_ORDER_ONE: dict[str, Any] = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
+_ORDER_TWO: dict[str, Any] = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _FLOOR: dict[str, Any] = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
 _SCATTER: dict[str, Any] = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
 _RINGS: dict[str, dict[str, Any]] = {
@@ -165,10 +165,10 @@ def _share_limits(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
 
 
 def _draw_guides(ax: Axes, rows: DataFrame, cost: str) -> None:
-    """A line of order 1 below the leapfrog, and the error of its finest step as a floor."""
+    """A line of order 2 below the leapfrog, and the error of its finest step as a floor."""
     line = rows[rows.integrator == "leapfrog"].sort_values("step")
     spent = line[cost].to_numpy()
-    ax.plot(spent, line.error.iloc[0] * spent[0] / spent / 3.0, **_ORDER_ONE)
+    ax.plot(spent, line.error.iloc[0] * (spent[0] / spent) ** 2 / 3.0, **_ORDER_TWO)
     ax.axhspan(0.0, line.error.iloc[0], **_FLOOR)
 
 
@@ -284,7 +284,7 @@ def _draw_twins(picture: Figure, rows: DataFrame) -> None:
 def _draw_legend(picture: Figure, finest: float) -> None:
     """What holds for all panels, above them."""
     handles: list[Artist] = [Line2D([], [], label=name, **look) for name, look in _METHODS.values()]
-    handles.append(Line2D([], [], label="order 1", **_ORDER_ONE))
+    handles.append(Line2D([], [], label="order 2", **_ORDER_TWO))
     for name, (method, step) in _ringed().items():
         label = f"{name}: {_METHODS[method][0].split(',')[0]}, {_NANO * step:g} ns"
         handles.append(Line2D([], [], label=label, **_RING, **_RINGS[name]))
