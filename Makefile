@@ -1,7 +1,8 @@
 # make          set up .venv, then run the whole study with the paper's parameters
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
-# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes
+# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
+#               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make docs     bring the pages in docs up to date with the study
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
@@ -16,7 +17,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench docs setup lock clean
+.PHONY: all quick test bench bench-release docs setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -32,9 +33,9 @@ test: setup
 	$(BIN)/pytest
 
 # Peers that cannot be installed are rows of the table that say so.
-bench: setup
+bench bench-release: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks $(if $(filter bench-release,$@),--release)
 
 docs: setup
 	$(BIN)/snakemake accuracy claims

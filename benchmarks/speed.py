@@ -1,19 +1,22 @@
 """How fast: the rows of results/tables/benchmark.parquet, printed as one table.
 
 kernel       ns per block and step where all blocks move: both integrators, the same leapfrog in C,
-             LAMMPS, Runge-Kutta as one would first write it, and SciPy's DOP853
+             LAMMPS, Runge-Kutta as one would first write it, and SciPy's DOP853; and the share of
+             the core's peak that those reach whose operations are counted
 realisation  CPU seconds of whole runs, from zero and with the prelude
 scaling      the leapfrog over the size of the surface, and over the share of blocks that move
-peak         floating-point operations per second, against the most that one core can do
+peak         what that is a share of: the multiply-adds of one core, and the operations counted
 study        where the CPU time of the whole study goes, and what the pipeline adds to it
 
-No part uses threads. Peers that are not there, or fail, make rows that say so.
+No part uses threads. Peers that are not there, or fail, make rows that say so. What history.csv
+keeps of a release is printed at the end.
 
 Call with `python -m benchmarks` from the repository, or `make bench`.
 """
 
 import platform
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from importlib import metadata
@@ -26,24 +29,36 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from benchmarks import study_cost
+from benchmarks import history, study_cost
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.peers.c_loop import CLoop, Peak
 from benchmarks.peers.lammps_lattice import LammpsLattice
 from benchmarks.peers.missing import Missing
 from benchmarks.peers.scipy_lattice import RTOL, ScipyLattice
-from benchmarks.timing import SCHEMA, Array, Row, interleaved, missing, printed, row
-from springblock import Material, compute_prelude, draw_friction, simulate
+from benchmarks.timing import (
+    BLOCK_STEP,
+    SCHEMA,
+    WITH_PRELUDE,
+    Array,
+    Row,
+    interleaved,
+    missing,
+    printed,
+    row,
+)
+from springblock import Realisation, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
-from springblock.defaults import STEP
+from springblock.accuracy.conventions import PAPER_STEP
+from springblock.commands.options import one_sentence
+from springblock.defaults import SAMPLE_INTERVAL
 from springblock.scene import Scene
+from springblock.setup import PAPER
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.sources import code_version
 from springblock.tables import rows_to_table, write
 
 N = 120
-PAPER = Material()
 REPETITIONS = 15
 FEW = 3  #: repetitions of whole realisations, which take seconds
 #: Steps before anything is timed, with all code compiled and all memory in use.
@@ -68,18 +83,31 @@ SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
 SHARES = (0.0, 0.25, 0.5, 0.75)
 
-#: Floating-point operations per block and step of the leapfrog, counted in peers/loop.c. A fused
-#: multiply-add is two, a division or a root one. The solver's energy balance comes on top.
+#: Floating-point operations per block and step that the methods ask for, counted in peers/loop.c
+#: and, beyond its forces, in solver/rk4.py. A fused multiply-add is two, a division or a root one.
+#: What the solver does on top, its energy balance above all, does not count.
+SPRINGS = 2 * (2 + 5 + 13 + 3) + 2 * (2 + 6 + 13 + 4)  #: ends, q, polynomial, two components
+GATHER = 2 * (9 + 3)  #: eight springs and the slider, two components
 OPERATIONS = {
-    "springs": 2 * (2 + 5 + 13 + 3) + 2 * (2 + 6 + 13 + 4),  # ends, q, polynomial, two components
-    "gather": 2 * (9 + 3),  # eight springs and the slider, two components
-    "friction": 4 + 3 + 3 + 4 + 1 + 3 + 2,  # trial, |w|², turned, held, stops, left, new velocity
-    "drift": 4,  # new displacement, and its sum
+    "leapfrog": {
+        "springs": SPRINGS,
+        "gather": GATHER,
+        "friction": 4 + 3 + 3 + 4 + 1 + 3 + 2,  # trial, |w|², turned, held, stops, left, velocity
+        "drift": 4,  # new displacement, and its sum
+    },
+    "rk4": {
+        "springs": 4 * SPRINGS,
+        "gather": 4 * GATHER,
+        "stages": 4 * (8 + 2 * 4 + 2 * 4),  # acceleration, sums over stages, the next stage
+        "friction": 6 + 3,  # direction, turned
+        "drift": 2 + 4,  # new velocity, new displacement and its sum
+    },
 }
+COUNTS = {name: sum(counted.values()) for name, counted in OPERATIONS.items()}
 
 STEPS = 300  #: of a kernel in one repetition, some 50 ms
 ROUNDS = 10_000_000  #: of multiply-adds
-BLOCK_STEP = "ns per block and step"
+MULTIPLY_ADDS = "multiply-adds"
 BLOCK_EVALUATION = "ns per block and evaluation"
 
 
@@ -103,7 +131,7 @@ class Solver:
         if still is not None:
             mu_static = np.where(still, NEVER, mu_static)
             velocity = np.where(still, 0.0, velocity)
-        how = (PAPER, (1.0, 0.0), self.method, STEP)
+        how = (PAPER, (1.0, 0.0), self.method, PAPER_STEP)
         self.state, self.constants = prepare(contact, mu_static, mu_dynamic, *how)
         for component, start in zip(self.velocity, velocity, strict=True):
             component[:] = start
@@ -137,14 +165,14 @@ class PlainRungeKutta:
 
     def advance(self, steps: int) -> None:
         """Take so many steps."""
-        plain_rk4.solve(*self.surface, steps * STEP, STEP, steps * STEP)
+        plain_rk4.solve(*self.surface, steps * PAPER_STEP, PAPER_STEP, steps * PAPER_STEP)
 
 
 def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
     """Contact, coefficients and velocities (2, N, N), in l per step, of a surface in motion."""
     noise = np.random.default_rng(n).standard_normal((2, n, n))
     mu_static, mu_dynamic = draw_friction(n, seed=0)
-    velocity = SPEED * STEP / PAPER.spacing * noise
+    velocity = SPEED * PAPER_STEP / PAPER.spacing * noise
     return np.ones((n, n), bool), THRESHOLDS * mu_static, THRESHOLDS * mu_dynamic, velocity
 
 
@@ -152,7 +180,7 @@ def c_loop_in_motion(n: int) -> CLoop:
     """The same in C; raises Missing."""
     c_loop.require()
     contact, mu_static, mu_dynamic, velocity = in_motion(n)
-    loop = CLoop(contact, mu_static, mu_dynamic, STEP)
+    loop = CLoop(contact, mu_static, mu_dynamic, PAPER_STEP)
     loop.velocity[:] = velocity
     loop.advance(WARM_UP)
     return loop
@@ -161,7 +189,7 @@ def c_loop_in_motion(n: int) -> CLoop:
 def lammps_in_motion(n: int) -> LammpsLattice:
     """The frictionless lattice in LAMMPS, from strained springs; raises Missing."""
     lammps_lattice.require()
-    lattice = LammpsLattice(in_motion(n)[3], STEP)
+    lattice = LammpsLattice(in_motion(n)[3], PAPER_STEP)
     lattice.advance(WARM_UP)
     return lattice
 
@@ -181,18 +209,23 @@ class Contender:
     steps: int  #: per repetition
     evaluations: int  #: of the force, per step
     note: str
+    operations: int = 0  #: per block and step; 0 where nobody has counted them
 
 
 #: What DOP853 does in a step is counted while it runs.
 CONTENDERS = {
-    "leapfrog": Contender(partial(Solver, "leapfrog"), STEPS, 1, ""),
+    "leapfrog": Contender(partial(Solver, "leapfrog"), STEPS, 1, "", COUNTS["leapfrog"]),
     "C loop": Contender(
-        c_loop_in_motion, STEPS, 1, "leapfrog without energy balance and watch over strains"
+        c_loop_in_motion,
+        STEPS,
+        1,
+        "leapfrog without energy balance and watch over strains",
+        COUNTS["leapfrog"],
     ),
     "LAMMPS": Contender(
         lammps_in_motion, STEPS // 5, 1, "bonds, tethers, velocity Verlet; no friction"
     ),
-    "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, 4, ""),
+    "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, 4, "", COUNTS["rk4"]),
     "plain rk4": Contender(PlainRungeKutta, STEPS // 30, 5, "numba, as one would first write it"),
     "DOP853": Contender(
         scipy_in_motion, 1, 12, f"SciPy with NumPy, rtol {RTOL:g}; no friction; per 1e-8 s"
@@ -210,8 +243,18 @@ def kernel() -> Iterator[Row]:
         except Missing as why:
             absent[name] = why
     before = made["DOP853"].progress
-    runs = {name: partial(peer.advance, CONTENDERS[name].steps) for name, peer in made.items()}
-    cost = {name: 1e9 * each / N**2 for name, each in interleaved(runs, REPETITIONS).items()}
+    runs: Runs = {
+        name: partial(peer.advance, CONTENDERS[name].steps) for name, peer in made.items()
+    }
+    multiply_adds = None
+    with suppress(Missing):
+        multiply_adds = Peak(ROUNDS)
+        runs[MULTIPLY_ADDS] = multiply_adds.run
+    seconds = interleaved(runs, REPETITIONS)
+    operation: Array | float = np.nan  # at the core's peak, ns
+    if multiply_adds:
+        operation = 1e9 * seconds.pop(MULTIPLY_ADDS) / multiply_adds.operations
+    cost = {name: 1e9 * each / N**2 for name, each in seconds.items()}
     leapfrog = cost["leapfrog"] / CONTENDERS["leapfrog"].steps
     for name, contender in CONTENDERS.items():
         if name in absent:
@@ -223,7 +266,8 @@ def kernel() -> Iterator[Row]:
             steps, evaluations = (made[name].progress - before) / REPETITIONS
         here = partial(row, "kernel", name, scene="flat", n_blocks=N, reference=leapfrog)
         note = "; ".join(filter(None, [contender.note, getattr(made[name], "moving", "")]))
-        yield here(BLOCK_STEP, cost[name] / steps, note=note)
+        at_peak = contender.operations * operation if contender.operations else None
+        yield here(BLOCK_STEP, cost[name] / steps, note=note, at_peak=at_peak)
         if evaluations > steps:
             yield here(BLOCK_EVALUATION, cost[name] / evaluations)
 
@@ -236,10 +280,10 @@ def realisation() -> Iterator[Row]:
         run = partial(simulate, contact, *mu)
         runs: Runs = {
             "from zero": run,
-            "with the prelude": partial(run, prelude=prelude),
+            WITH_PRELUDE: partial(run, prelude=prelude),
             "prelude, once for all seeds": partial(compute_prelude, contact),
         }
-        yield from against_c(name, N, runs, run(prelude=prelude).steps)
+        yield from against_c(name, N, runs, run(prelude=prelude))
     yield from plain_realisation()
 
 
@@ -249,22 +293,24 @@ def plain_realisation() -> Iterator[Row]:
     solve = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
     solved = solve()
     fine = simulate(contact, *mu, step=FINE_STEP).static_friction
-    plain = partial(plain_rk4.solve, contact, *mu, float(solved.time[-1]), STEP, 2e-7)
+    plain = partial(
+        plain_rk4.solve, contact, *mu, float(solved.time[-1]), PAPER_STEP, SAMPLE_INTERVAL
+    )
     plain_friction = plain().static_friction
-    runs: Runs = {"with the prelude": solve, "plain rk4, from zero": plain}
-    yield from against_c("flat", PLAIN_N, runs, solved.steps)
+    runs: Runs = {WITH_PRELUDE: solve, "plain rk4, from zero": plain}
+    yield from against_c("flat", PLAIN_N, runs, solved)
     note = f"against a step of {FINE_STEP:g} s; one seed"
     for name, friction in (
-        ("with the prelude", solved.static_friction),
+        (WITH_PRELUDE, solved.static_friction),
         ("plain rk4, from zero", plain_friction),
     ):
         error = f"{name}: error of static friction"
         yield row("realisation", error, "1", friction / fine - 1.0, "flat", PLAIN_N, note=note)
 
 
-def against_c(scene: str, n: int, runs: Runs, steps: int) -> Iterator[Row]:
-    """Rows of these runs; the ratio is to `steps` steps from zero of the C loop."""
-    bound = None
+def against_c(scene: str, n: int, runs: Runs, run: Realisation) -> Iterator[Row]:
+    """Rows of these runs; the ratio is to the C loop from zero, as long, at the paper's step."""
+    bound, steps = None, round(run.time[-1] / PAPER_STEP)
     try:
         loop = c_loop_in_motion(n)
     except Missing:
@@ -273,7 +319,7 @@ def against_c(scene: str, n: int, runs: Runs, steps: int) -> Iterator[Row]:
         seconds = interleaved({**runs, "C": partial(loop.advance, STEPS)}, FEW)
         bound = seconds.pop("C") / STEPS * steps
     for name, each in seconds.items():
-        note = f"{steps} steps from zero"
+        note = f"{run.steps} steps from zero; of C {steps}"
         yield row("realisation", name, "s", each, scene, n, bound, note)
 
 
@@ -300,26 +346,17 @@ def scaling() -> Iterator[Row]:
 
 
 def peak() -> Iterator[Row]:
-    """Operations per second of the kernels, and of nothing but multiply-adds."""
-    count = sum(OPERATIONS.values())
-    listed = ", ".join(f"{name} {number}" for name, number in OPERATIONS.items())
-    yield row("peak", "operations per block and step", "1", count, note=listed)
+    """The most operations that one core does in a second, and those that the methods ask for."""
+    for name, counted in OPERATIONS.items():
+        listed = ", ".join(f"{what} {number}" for what, number in counted.items())
+        yield row("peak", f"{name}: operations per block and step", "1", COUNTS[name], note=listed)
     try:
-        multiply_add, loop = Peak(), c_loop_in_motion(N)
+        multiply_adds = Peak(ROUNDS)
     except Missing as why:
-        yield missing("peak", "multiply-adds", "Gflop/s", why)
+        yield missing("peak", MULTIPLY_ADDS, "Gflop/s", why)
         return
-    operations = {"multiply-adds": multiply_add.run(ROUNDS)}
-    operations |= dict.fromkeys(("leapfrog", "C loop"), float(count * STEPS * N**2))
-    runs: Runs = {
-        "multiply-adds": partial(multiply_add.run, ROUNDS),
-        "leapfrog": partial(Solver("leapfrog", N).advance, STEPS),
-        "C loop": partial(loop.advance, STEPS),
-    }
-    seconds = interleaved(runs, REPETITIONS)
-    rate = {name: 1e-9 * operations[name] / each for name, each in seconds.items()}
-    for name, each in rate.items():
-        yield row("peak", name, "Gflop/s", each, reference=rate["multiply-adds"])
+    seconds = interleaved({MULTIPLY_ADDS: multiply_adds.run}, REPETITIONS)[MULTIPLY_ADDS]
+    yield row("peak", MULTIPLY_ADDS, "Gflop/s", 1e-9 * multiply_adds.operations / seconds)
 
 
 PARTS: dict[str, Callable[[], Iterator[Row]]] = {
@@ -339,8 +376,10 @@ def machine() -> dict[str, str]:
         for line in (cpu.read_text().splitlines() if cpu.exists() else [])
         if line.startswith("model name")
     ]
+    has = llvmlite.binding.get_host_cpu_features()
     return {
-        "cpu": models[0] if models else platform.processor(),
+        "cpu": models[0] if models else platform.processor() or platform.machine(),
+        "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
         "python": platform.python_version(),
         **{name: metadata.version(name) for name in ("numba", "numpy", "scipy")},
         "llvm": ".".join(map(str, llvmlite.binding.llvm_version_info)),
@@ -366,10 +405,27 @@ def machine() -> dict[str, str]:
     show_default=True,
     help="Parquet file.",
 )
-def main(parts: tuple[str, ...], output: Path) -> None:
+@click.option("--release", is_flag=True, help="Add a line to benchmarks/history.csv.")
+def main(parts: tuple[str, ...], output: Path, release: bool) -> None:
     """Measure how fast the solver and the study are."""
+    here = machine()
+    whole = set(history.PARTS) <= set(parts)
+    if release:
+        if not whole:
+            raise click.UsageError(
+                f"--part is {', '.join(parts)}, and --release needs {' and '.join(history.PARTS)}"
+            )
+        with one_sentence():
+            history.refuse_second(history.release(here))
     rows = [each for part in tqdm(parts) for each in PARTS[part]()]
-    write(rows_to_table(rows, SCHEMA), output, machine())
+    write(rows_to_table(rows, SCHEMA), output, here)
     click.echo(printed(rows))
     click.echo(f"\nratio: {SCHEMA.field('ratio').metadata[b'meaning'].decode()}")
-    click.echo(", ".join(f"{name} {what}" for name, what in machine().items()))
+    click.echo(f"of peak: {SCHEMA.field('of_peak').metadata[b'meaning'].decode()}")
+    click.echo(", ".join(f"{name} {what}" for name, what in here.items()))
+    if whole:
+        line = {**history.release(here), **history.measured(rows, N)}
+        click.echo(f"\n{'added to' if release else 'as a line of'} benchmarks/history.csv:")
+        click.echo(history.text(line), nl=False)
+        if release:
+            history.append(line)

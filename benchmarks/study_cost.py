@@ -10,13 +10,15 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from benchmarks.peers.missing import Missing
 from benchmarks.timing import Row, interleaved, missing, row
 from springblock import draw_friction, simulate
 from springblock.commands.simulate import batch_row
+from springblock.defaults import SAMPLE_INTERVAL
+from springblock.figures import declarations
 from springblock.scene import Scene
 from springblock.tables import BATCH, rows_to_table, write
 
@@ -24,7 +26,6 @@ ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "results"
 N = 120
 REPETITIONS = 3
-SAMPLE_INTERVAL = 2e-7
 BATCH_SIZE = 10  #: realisations in a file
 
 
@@ -61,13 +62,18 @@ def _number(text: str) -> float:
         return 0.0
 
 
+@cache
+def _figures() -> frozenset[str]:
+    return frozenset(declarations())
+
+
 def _rule(path: Path) -> str:
     """Kind of job that left this file."""
     if path.stem.startswith("seeds="):
         return "simulate"
     if path.stem.startswith("compile-"):
         return "compile"
-    if path.stem.startswith("figure_"):
+    if path.stem in _figures():
         return "figures"
     tables = ("precision_table", "stability_table")
     if path.parent.name == "accuracy" or path.stem in tables:

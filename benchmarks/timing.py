@@ -33,12 +33,22 @@ SCHEMA = pa.schema(
             pa.float64(),
             "1",
             "kernel: to a step of the leapfrog; realisation: to all steps by the C loop; scaling: "
-            "to N = 120, all moving; peak: to multiply-adds; study: to the whole; NaN without one",
+            "to N = 120, all moving; study: to the whole; NaN without one",
+        ),
+        column(
+            "of_peak",
+            pa.float64(),
+            "1",
+            "share of the core's measured multiply-add peak; NaN where operations are not counted",
         ),
         column("repetitions", pa.int32(), "1", "measurements behind the value; 0 if missing"),
         column("note", pa.string(), "1", "what to know of it; why it is missing"),
     ]
 )
+
+#: Names that history.csv finds its rows by.
+BLOCK_STEP = "ns per block and step"
+WITH_PRELUDE = "with the prelude"
 
 Array = NDArray[np.float64]
 Row = dict[str, Any]
@@ -70,11 +80,16 @@ def row(
     n_blocks: int = 0,
     reference: ArrayLike | None = None,
     note: str = "",
+    at_peak: ArrayLike | None = None,
 ) -> Row:
-    """One row from the values of all repetitions, and those of the reference in the same ones."""
+    """One row from the values of all repetitions, and what they are compared with in the same ones.
+
+    `at_peak` is what the values would be if the core did nothing but multiply-adds.
+    """
     each = np.atleast_1d(values)
     low, middle, high = np.quantile(each, [0.25, 0.5, 0.75])
     ratio = np.nan if reference is None else float(np.median(each / np.asarray(reference)))
+    of_peak = np.nan if at_peak is None else float(np.median(np.asarray(at_peak) / each))
     return {
         "part": part,
         "name": name,
@@ -85,6 +100,7 @@ def row(
         "low": float(low),
         "high": float(high),
         "ratio": ratio,
+        "of_peak": of_peak,
         "repetitions": each.size,
         "note": note,
     }
@@ -100,7 +116,9 @@ def missing(
 
 def printed(rows: Sequence[Row]) -> str:
     """The rows as one table of text."""
-    lines = [("part", "what", "scene", "N", "value", "quartiles", "unit", "ratio", "note")]
+    lines = [
+        ("part", "what", "scene", "N", "value", "quartiles", "unit", "of peak", "ratio", "note")
+    ]
     for each in rows:
         value, low, high = (f"{each[key]:#.3g}".rstrip(".") for key in ("value", "low", "high"))
         lines.append(
@@ -112,6 +130,7 @@ def printed(rows: Sequence[Row]) -> str:
                 value if each["repetitions"] else "missing",
                 f"{low} - {high}" if each["repetitions"] > 1 else "",
                 each["unit"],
+                "" if np.isnan(each["of_peak"]) else f"{100.0 * each['of_peak']:.0f} %",
                 "" if np.isnan(each["ratio"]) else f"{each['ratio']:.2f}",
                 each["note"],
             )
