@@ -5,6 +5,10 @@ import pytest
 
 from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
 from springblock.accuracy.surfaces import drawn
+from springblock.prelude import HOLDING
+from springblock.setup import STEP
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import prepare
 from springblock.solver.springs import band_rows
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -18,6 +22,12 @@ def prelude():
 def answer(run):
     fields = (run.time, run.force, run.detachments, run.switches, run.t_det, run.displacement)
     return [field.tobytes() for field in fields], run.energy, run.steps
+
+
+def skipped(prelude, *scene):
+    """Sample intervals that a run does not have to do."""
+    state, _ = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
+    return prelude.start(state, latest=np.inf)[0]
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -67,6 +77,29 @@ def test_no_more_is_skipped_than_the_first_snapshot_allows(prelude):
     skipping = simulate(*scene, duration=1.2e-4, snapshot_times=times, prelude=prelude)
     plain = simulate(*scene, duration=1.2e-4, snapshot_times=times)
     assert skipping.snapshots.tobytes() == plain.snapshots.tobytes()
+
+
+@pytest.mark.parametrize("n_blocks", [12, 24, 48])
+def test_a_prelude_keeps_six_states_of_any_surface_and_of_them_what_moves(n_blocks, tmp_path):
+    contact = Pattern.pillars(n_blocks, 4, 2).contact
+    fast = Material(slider_velocity=5e-3)  # soon over
+    prelude = compute_prelude(contact, fast, sample_interval=2e-8)
+    assert len(prelude.samples) == len(HOLDING) == 6
+    assert (np.diff(prelude.samples) > 0).all()
+    bound = np.count_nonzero(contact)
+    numbers = 6 * (4 * (n_blocks**2 - bound) + bound)
+    assert prelude.fields.nbytes + prelude.peak.nbytes == 8 * numbers
+    prelude.save(tmp_path / "prelude.npz")
+    few = prelude.force.nbytes + n_blocks**2 + 4096  # the samples, the pattern as text, headers
+    assert (tmp_path / "prelude.npz").stat().st_size < 8 * numbers + few
+
+
+def test_each_state_serves_as_many_seeds_as_it_is_kept_for(prelude):
+    seeds = 400
+    start = [skipped(prelude, *drawn(PILLARS, seed)) for seed in range(seeds)]
+    for samples, share in zip(prelude.samples, HOLDING, strict=True):
+        scatter = np.sqrt(share * (1.0 - share) / seeds)
+        assert np.mean(np.array(start) >= samples) > share - 4.0 * scatter
 
 
 def test_a_prelude_survives_its_file(prelude, tmp_path):

@@ -2,12 +2,13 @@
 
 Until the first block detaches, the motion depends on the pattern and the direction, not on the
 friction coefficients. A prelude runs the scene with blocks that never let go, and keeps a few
-states, each with every block's running maximum of |F_mot|. A realisation may start from the
-latest state whose maxima all stay under its own thresholds: it is then, to the last bit, where
-it would have come from zero.
+states: how the blocks without contact move, and the running maximum of |F_mot| on those in
+contact, which rest. A realisation may start from the latest state whose maxima all stay under
+its own thresholds: it is then, to the last bit, where it would have come from zero.
 """
 
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,16 +21,16 @@ from springblock.direction import heading
 from springblock.files import whole_file
 from springblock.material import Material
 from springblock.setup import PAPER, Setup
-from springblock.solver.lattice import Samples, State, prepare
+from springblock.solver.lattice import Samples, State, prepare, unpadded
 
 Array = NDArray[np.float64]
 
-#: Sample intervals between two stored states.
+#: Sample intervals between two looks at the state.
 _BETWEEN = 10
-#: States are kept while the expected number of blocks that should have detached lies between
-#: these: hardly any seed needs an earlier one, or can use a later one. Where there are few blocks,
-#: until nine in ten should have.
-EXPECTED = (1e-4, 10.0)
+#: For each of these shares of all seeds, the latest state is kept that so many may start from.
+#: The number of blocks that should have detached grows about exponentially with time: six states
+#: at about these shares then leave the least to be done again, and hardly a seed begins at zero.
+HOLDING = (0.998, 0.96, 0.85, 0.65, 0.4, 0.2)
 #: A threshold must exceed the running maximum by this much, against differences in rounding.
 _SLACK = 1e-12
 #: A threshold that is never reached, and can be squared.
@@ -38,22 +39,23 @@ _NEVER = 1e150
 
 @dataclass(frozen=True, eq=False)
 class Prelude:
-    """Stored states of one scene; k of them, in the kernels' units.
+    """Stored states of one scene; k of them, one per share in `HOLDING` at most.
 
-    Valid for the conditions it was computed under, and refused under any other.
+    In the kernels' units, blocks row by row. Valid for the conditions it was computed under, and
+    refused under any other.
     """
 
     conditions: str  #: what the motion depends on, see `conditions`
     samples: NDArray[np.int64]  #: (k,) sample intervals gone by
-    fields: Array  #: (k, 4, lattice) displacement and velocity
-    peak: Array  #: (k, lattice) running maximum of |F_mot|²
+    fields: Array  #: (k, 4, blocks without contact) displacement and velocity
+    peak: Array  #: (k, blocks in contact) running maximum of |F_mot|²
     ledger: Array  #: (k, 3)
     force: Array  #: (2, samples of the last state) components of ΣF_s
 
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
         with whole_file(path) as partial, partial.open("wb") as file:
-            np.savez(file, allow_pickle=False, **vars(self))
+            np.savez(file, **vars(self))
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
@@ -67,15 +69,17 @@ class Prelude:
         No further than `latest` sample intervals. Returns the sample intervals gone by and their
         samples; none if no stored state will do.
         """
-        blocks = state.blocks
-        threshold = np.maximum(blocks.static, blocks.dynamic) ** 2
-        bound = blocks.static > 0.0
-        holds = (self.peak[:, bound] * (1.0 + _SLACK) <= threshold[bound]).all(axis=1)
+        blocks, n = state.blocks, len(state.in_contact)
+        bound = unpadded(blocks.static, n) > 0.0
+        threshold = unpadded(np.maximum(blocks.static, blocks.dynamic), n)[bound] ** 2
+        holds = (self.peak * (1.0 + _SLACK) <= threshold).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:
             return 0, Samples.empty(0)
         last = int(fit[-1])
-        blocks.ux[:], blocks.uy[:], blocks.wx[:], blocks.wy[:] = self.fields[last]
+        for field, stored in zip(blocks[:4], self.fields[last], strict=True):
+            unpadded(field, n)[~bound] = stored
+            field.reshape(n, -1)[:, n + 1] = unpadded(field, n)[:, -1]  # see `close_edge`
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
@@ -110,38 +114,38 @@ def compute_prelude(
     state, constants = prepare(
         mask, ones, nothing, material, towards, setup.method, step, keep_peak=True
     )
-    advance, every, blocks = setup.method.advance, setup.every, state.blocks
-    load = blocks.static.copy()
-    blocks.static[load > 0.0] = _NEVER
-    kept = [(0, state.copy())]
-    record = [Samples.empty(0)]
-    expected, enough = 0.0, min(EXPECTED[1], 0.9 * np.count_nonzero(mask))
-    while expected < enough:
+    advance, every, blocks, peak = setup.method.advance, setup.every, state.blocks, state.peak
+    assert peak is not None
+    bound, load = blocks.static > 0.0, float(blocks.static.max())
+    blocks.static[bound] = _NEVER
+    kept: dict[int, tuple[int, Array, Array, Array]] = {}
+    record, holding = [Samples.empty(0)], 1.0
+    while holding >= HOLDING[-1]:
         done, taken = (len(record) - 1) * _BETWEEN, Samples.empty(_BETWEEN)
+        fields = np.array([unpadded(field, len(mask))[~mask] for field in blocks[:4]])
+        # takes the place of an earlier state that as many of the shares may start from
+        passed = sum(holding < share for share in HOLDING)
+        kept[passed] = done, fields, peak[bound], state.ledger.copy()
         _, broken, _ = advance(state, constants, done * every, _BETWEEN * every, every, taken)
         if broken >= 0:  # a spring fails before blocks let go: realisations will find out
             break
         record.append(taken)
-        expected = _expected_detachments(state, load, material)
-        if expected < EXPECTED[0]:
-            kept.clear()
-        kept.append((done + _BETWEEN, state.copy()))
+        holding = _share_that_holds(np.sqrt(peak[bound]) / load, material)
+    samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
+    force = np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1)
     return Prelude(
         conditions=conditions(mask, setup, towards),
-        samples=np.array([samples for samples, _ in kept]),
-        fields=np.array([(b.ux, b.uy, b.wx, b.wy) for b in (s.blocks for _, s in kept)]),
-        peak=np.array([s.peak for _, s in kept]),
-        ledger=np.array([s.ledger for _, s in kept]),
-        force=np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1),
+        samples=samples,
+        fields=moving,
+        peak=peaks,
+        ledger=ledgers,
+        force=force[:, : samples[-1]],
     )
 
 
-def _expected_detachments(state: State, load: Array, material: Material) -> float:
-    """Blocks whose threshold, drawn at random, lies below their running maximum: the mean."""
-    from scipy.special import ndtr  # loading it takes a third of a second; only a prelude needs it
+def _share_that_holds(needed: Array, material: Material) -> float:
+    """Probability that all draws of mu_static exceed what is `needed` to hold each block."""
+    from scipy.special import log_ndtr  # loading it takes a third of a second, for a prelude only
 
-    bound = load > 0.0
-    assert state.peak is not None
-    needed = np.sqrt(state.peak[bound]) / load[bound]
     spread = max(material.mu_static_std, 1e-9)
-    return float(ndtr((needed - material.mu_static) / spread).sum())
+    return math.exp(log_ndtr((material.mu_static - needed) / spread).sum())

@@ -43,6 +43,7 @@ rule compile:
         "All integrators are compiled"
 
 
+# Preludes are not temp(): made again for more seeds, they would make finished batches run again.
 rule prelude_scene:
     input:
         f"{RESULTS}/compiled/{config['integrator']}",
