@@ -56,7 +56,7 @@ CREEP_SPEED = 1e-2  #: scaled; beyond, v/|v| is not stiff
 #: unseen.
 STOP_SPEED = 1e-8
 
-_ACCURACY = 1e-10  #: relative tolerance of each step; the absolute one is a tenth of it, scaled
+ACCURACY = 1e-10  #: relative tolerance of each step; the absolute one is a tenth of it, scaled
 _MAX_STEP = 1.0  #: scaled; the period of the fastest lattice mode is 2 pi / sqrt(7) = 2.4
 _SAMPLES = 8  #: points per step at which events are looked for
 _RESTART_STEP = 1e-6  #: scaled; the error control multiplies it by up to 10 a step
@@ -380,7 +380,7 @@ class _Recorder:
 
 
 def _advance(
-    system: _System, y: Array, left: float, recorder: _Recorder
+    system: _System, y: Array, left: float, accuracy: float, recorder: _Recorder
 ) -> tuple[float, Array, Flags]:
     """Integrate to the next event, or for the time left.
 
@@ -391,8 +391,8 @@ def _advance(
         0.0,
         y,
         left,
-        rtol=_ACCURACY,
-        atol=0.1 * _ACCURACY,
+        rtol=accuracy,
+        atol=0.1 * accuracy,
         max_step=_MAX_STEP,
         first_step=min(_RESTART_STEP, left),
     )
@@ -416,6 +416,7 @@ def solve(
     material: Material = Material(),  # noqa: B008  (frozen)
     duration: float = 1.3e-4,
     sample_interval: float = 2e-7,
+    accuracy: float = ACCURACY,
 ) -> Reference:
     """Solve the model for one surface, from rest at t = 0, pulled along x.
 
@@ -425,6 +426,8 @@ def solve(
     mu_static, mu_dynamic : (N, N) float
         Friction coefficients; not read outside the contact.
     duration, sample_interval : s
+    accuracy : 1
+        Relative tolerance of each step; the default or less, see `STOP_SPEED`.
     """
     units = _Units.of(material)
     system = _System(contact, mu_static, mu_dynamic, material)
@@ -434,7 +437,7 @@ def solve(
     t_det = np.full(system.n, np.nan)
     y = system.initial()
     while (left := duration / units.time - system.offset) > 0.0:
-        elapsed, y, due = _advance(system, y, left, recorder)
+        elapsed, y, due = _advance(system, y, left, accuracy, recorder)
         system.offset = system.offset + elapsed if due.any() else duration / units.time
         detaching = system.switch(y, due)
         t_det[detaching & np.isnan(t_det)] = system.offset * units.time

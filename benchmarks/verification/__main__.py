@@ -1,0 +1,57 @@
+"""Compare a code with the references, or write these and the first entries."""
+
+import math
+from pathlib import Path
+
+import click
+
+from benchmarks.verification import entries as own
+from benchmarks.verification import references
+from benchmarks.verification.metrics import NAMES, errors, uncertainties
+from benchmarks.verification.problems import PROBLEMS
+from benchmarks.verification.tables import read_answer, read_reference
+from springblock.commands.options import INPUT, one_sentence
+from springblock.files import whole_file
+
+_NAME = click.Choice(list(PROBLEMS))
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+def main() -> None:
+    """Verification problems for spring-block friction."""
+
+
+@main.command()
+@click.argument("problem", type=_NAME)
+@click.argument("t_det", type=INPUT, metavar="TABLE")
+@click.option("--force", type=INPUT, help="Table of the force: columns time, force.")
+def compare(problem: str, t_det: Path, force: Path | None) -> None:
+    """Say what TABLE, with the columns y, x and t_det, is off by."""
+    with one_sentence():
+        chosen = PROBLEMS[problem]
+        answer, reference = read_answer(chosen, t_det, force), read_reference(chosen)
+    off_by, uncertain = errors(chosen, answer, reference), uncertainties(chosen, reference)
+    for name, error, uncertainty in zip(NAMES, off_by, uncertain, strict=True):
+        known = "no force table" if math.isnan(error) else f"{error:.3g} ± {uncertainty:.2g}"
+        click.echo(f"{name:<54} {known}")
+
+
+@main.command()
+@click.argument("problems", type=_NAME, nargs=-1)
+def reference(problems: tuple[str, ...]) -> None:
+    """Write surface and reference of PROBLEMS, of all by default, in some minutes."""
+    for name in problems or PROBLEMS:
+        references.write_surface(PROBLEMS[name])
+        references.write_reference(PROBLEMS[name])
+        click.echo(f"{name} is written")
+
+
+@main.command()
+def entries() -> None:
+    """Write ENTRIES.md: what our own integrators are off by."""
+    with whole_file(Path(__file__).with_name("ENTRIES.md")) as partial:
+        partial.write_text(own.page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""The published references: the event-located solution, checked by itself and by the leapfrog."""
+
+import numpy as np
+
+from benchmarks.verification.entries import solved_by
+from benchmarks.verification.metrics import Metrics, cells, errors, static_friction, t_max
+from benchmarks.verification.problems import Problem
+from benchmarks.verification.tables import (
+    FORCE,
+    SCALARS,
+    SURFACE,
+    T_DET,
+    Answer,
+    read_reference,
+    read_surface,
+    write_table,
+)
+from springblock.accuracy import reference
+from springblock.accuracy.conventions import HORIZON_NUDGE
+from springblock.accuracy.surfaces import Surface, drawn
+from springblock.setup import SAMPLE_INTERVAL
+
+PUBLISHED, COARSE = 1e-11, 1e-10  #: relative tolerances of the event-located solution
+STEPS = (1e-9, 5e-10)  #: of the leapfrog that checks it, s
+TWINS = 5  #: runs with nudged thresholds
+PARTED = 1e-3  #: share of t_max; detachments further apart are those of parted runs
+
+
+def write_surface(problem: Problem) -> None:
+    """Write contact and coefficients with all their digits."""
+    contact, *coefficients = drawn(problem.pattern, problem.seed)
+    rows = (
+        (f"{y}", f"{x}", f"{touches:d}", *(f"{mu[y, x]:.17g}" for mu in coefficients))
+        for (y, x), touches in np.ndenumerate(contact)
+    )
+    write_table(problem.folder / "surface.csv", SURFACE, rows)
+
+
+def write_reference(problem: Problem) -> None:
+    """Compute and write the reference with its uncertainty, and how well the checks agree."""
+    surface = read_surface(problem)
+    published = _located(problem, surface, PUBLISHED)
+    checks = {f"event-located {COARSE:g}": _located(problem, surface, COARSE)}
+    checks |= {f"leapfrog {h:g} s": solved_by("leapfrog", h, problem, surface)[0] for h in STEPS}
+    _write_answer(problem, surface, published, list(checks.values()))
+    read = read_reference(problem)
+    rows = ((name, *cells(errors(problem, check, read))) for name, check in checks.items())
+    write_table(problem.folder / "agreement.csv", ("check", *Metrics._fields), rows)
+
+
+def _located(problem: Problem, surface: Surface, accuracy: float) -> Answer:
+    run = reference.solve(
+        *surface, duration=problem.duration, sample_interval=SAMPLE_INTERVAL, accuracy=accuracy
+    )
+    return Answer(run.t_det, run.force)
+
+
+def _write_answer(
+    problem: Problem, surface: Surface, published: Answer, checks: list[Answer]
+) -> None:
+    """Write what is published; its uncertainty is the largest disagreement with a check."""
+    t_det, force = published.t_det, published.force
+    t_det_by = np.max([np.abs(check.t_det - t_det) for check in checks], axis=0)
+    force_by = np.max([np.abs(check.force - force) for check in checks], axis=0)
+    blocks = [
+        (f"{y}", f"{x}", f"{t_det[y, x]:.12g}", f"{t_det_by[y, x]:.2e}")
+        for y, x in np.argwhere(surface[0])
+    ]
+    curve = [
+        (f"{time:.10g}", f"{value:.12g}", f"{by:.2e}")
+        for time, value, by in zip(problem.time, force, force_by, strict=True)
+    ]
+    scalars = [("horizon", f"{_horizon(problem, surface):.10g}", "", "s")]
+    for quantity, unit in ((t_max, "s"), (static_friction, "1")):
+        value, *others = (quantity(problem, answer.force) for answer in (published, *checks))
+        by = max(abs(other - value) for other in others)
+        scalars.append((quantity.__name__, f"{value:.12g}", f"{by:.2e}", unit))
+    write_table(problem.folder / "t_det.csv", (*T_DET, "uncertainty"), blocks)
+    write_table(problem.folder / "force.csv", (*FORCE, "uncertainty"), curve)
+    write_table(problem.folder / "scalars.csv", SCALARS, scalars)
+
+
+def _horizon(problem: Problem, surface: Surface) -> float:
+    """Time in s at which runs with thresholds nudged by a little part; the end where none does."""
+    contact, mu_static, mu_dynamic = surface
+    rng = np.random.default_rng(problem.seed)
+    runs = [
+        solved_by("leapfrog", STEPS[0], problem, (contact, mu_static * change, mu_dynamic))[0]
+        for change in (1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape))))
+    ]
+    one, *others = (np.nan_to_num(run.t_det, nan=problem.duration) for run in runs)
+    limit = PARTED * t_max(problem, runs[0].force)
+    ends = [np.minimum(one, other)[np.abs(other - one) > limit] for other in others]
+    return float(np.concatenate([*ends, [problem.duration]]).min())
