@@ -92,14 +92,15 @@ OPERATIONS = {
     "leapfrog": {
         "springs": SPRINGS,
         "gather": GATHER,
-        "friction": 4 + 3 + 3 + 4 + 1 + 3 + 2,  # trial, |w|², turned, held, stops, left, velocity
+        # trial, |w|², turned, held, stops, mean velocity, friction over its length, velocity
+        "friction": 4 + 3 + 3 + 4 + 1 + 2 + 5 + 4,
         "drift": 4,  # new displacement, and its sum
     },
     "rk4": {
         "springs": 4 * SPRINGS,
         "gather": 4 * GATHER,
         "stages": 4 * (8 + 2 * 4 + 2 * 4),  # acceleration, sums over stages, the next stage
-        "friction": 6 + 3,  # direction, turned
+        "friction": 6 + 19 + 3,  # direction, that in the middle of the step, turned
         "drift": 2 + 4,  # new velocity, new displacement and its sum
     },
 }

@@ -76,15 +76,18 @@ static __attribute__((noinline)) void move(
         double vx = wx[x], vy = wy[x];
         double trial_x = a * vx + fx, trial_y = a * vy + fy;
         double speed2 = trial_x * trial_x + trial_y * trial_y;
-        double left = 1.0 - mu_d_load[x] / sqrt(speed2);
         double along = trial_x * vx + trial_y * vy;
+        double mean_x = along > 0.0 ? trial_x + vx : trial_x;
+        double mean_y = along > 0.0 ? trial_y + vy : trial_y;
+        double taken = mu_d_load[x] / sqrt(mean_x * mean_x + mean_y * mean_y);
         int held = (along <= 0.0) & (fx * fx + fy * fy <= mu_s_load[x] * mu_s_load[x]);
-        left = (speed2 > mu_d_load[x] * mu_d_load[x]) & !held ? left : 0.0;
-        double new_x = left * trial_x, new_y = left * trial_y;
+        int slides = (speed2 > mu_d_load[x] * mu_d_load[x]) & !held;
+        double new_x = slides ? trial_x - taken * mean_x : 0.0;
+        double new_y = slides ? trial_y - taken * mean_y : 0.0;
         wx[x] = new_x, wy[x] = new_y;
         ux[x] += new_x, uy[x] += new_y;
         double first = t_det[x];
-        t_det[x] = (left > 0.0) & (mu_s_load[x] > 0.0) & (first > now) ? now : first;
+        t_det[x] = slides & (mu_s_load[x] > 0.0) & (first > now) ? now : first;
     }
 }
 

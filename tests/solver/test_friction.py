@@ -12,8 +12,8 @@ STATIC, DYNAMIC = 1.0, 0.6
 @njit(error_model="numpy")  # as in the integrators: dividing by zero is no error there
 def after(w, v, f, static=STATIC, dynamic=DYNAMIC):
     """Velocity that friction leaves of the trial velocity w, after v and under F_mot = f."""
-    left, _, _, _ = coulomb(w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)
-    return left * w[0], left * w[1]
+    new_x, new_y, _, _ = coulomb(w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)
+    return new_x, new_y
 
 
 def released(force, static=STATIC, dynamic=DYNAMIC):

@@ -12,9 +12,8 @@ from numba import njit
 
 @njit(inline="always")
 def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
-    """Return the share of the trial velocity w that friction leaves, and whether the block slides.
+    """Return the velocity that friction leaves, whether the block slides, and w·v.
 
-    The share is 0 for a block at rest; w·v and w² are returned as well, for the balance of energy.
     w is the velocity after a step under all forces but friction, v the one before, and f the
     velocity that F_mot alone would add; `static` and `dynamic` are what mu_s F_n and mu_d F_n
     would take away. Two cases end in rest:
@@ -23,11 +22,18 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     - w points back from v, or v is zero: the block is at rest at an instant of this step, and
       static friction holds it if F_mot is within mu_s F_n.
 
+    Otherwise friction opposes the mean velocity of the step, of which v + w has the direction:
+    along w alone, a block that turns aside would feel it a half step early. A block that turns
+    back and is not held has no mean to speak of; friction opposes w.
+
     A block at rest therefore needs more than both coefficients to move: one with
     mu_s < mu_d lets go at mu_d, once, without a flicker.
     """
-    speed2, along = wx * wx + wy * wy, wx * vx + wy * vy
+    along = wx * vx + wy * vy
     held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)
-    left = 1.0 - dynamic / math.sqrt(speed2)
-    slides = (left > 0.0) & (not held)  # False for the NaN of a block without load at rest
-    return (left if slides else 0.0), slides, along, speed2
+    mean_x, mean_y = (wx + vx, wy + vy) if along > 0.0 else (wx, wy)
+    taken = dynamic / math.sqrt(mean_x * mean_x + mean_y * mean_y)
+    # False for the NaN of a block without load at rest
+    slides = (wx * wx + wy * wy > dynamic * dynamic) & (taken >= 0.0) & (not held)
+    new_x, new_y = wx - taken * mean_x, wy - taken * mean_y
+    return (new_x if slides else 0.0), (new_y if slides else 0.0), slides, along

@@ -119,10 +119,9 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
             trial_x, trial_y = a * vx + fx, a * vy + fy
-            left, slides, along, speed2 = coulomb(
+            new_x, new_y, slides, along = coulomb(
                 trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b]
             )
-            new_x, new_y = left * trial_x, left * trial_y
             there_x, there_y = ux[b] + new_x, uy[b] + new_y
             wx[b] = new_x
             wy[b] = new_y
@@ -135,9 +134,9 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
             # Friction's work: the momentum that it takes, times the mean of the velocities around.
-            kept = left * speed2
-            heat = add(heat, (1.0 - left) * (along + kept))
-            squares = add(squares, left * kept)
+            taken_x, taken_y = trial_x - new_x, trial_y - new_y
+            heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
+            squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE], rows.switching[row], rows.released[row] = slide, switch, release
         rows.x[row], rows.y[row] = sum_x, sum_y
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
@@ -208,9 +207,13 @@ def _look_around(blocks, released, row, x, constants, slider):
             if np.isnan(now[0, j + 1, i + 1]) or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
                 continue
             fx, fy = force_in(now, j + 1, i + 1, constants.springs, slider)
-            trial = 1.0 + blocks.dynamic[b] / math.hypot(blocks.wx[b], blocks.wy[b])
-            released.before[0, j, i] -= (trial * blocks.wx[b] - fx) / a
-            released.before[1, j, i] -= (trial * blocks.wy[b] - fy) / a
+            wx, wy = blocks.wx[b], blocks.wy[b]
+            # Friction has opposed the mean velocity, whose line this is, and whose side that of w.
+            mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
+            rubbed = blocks.dynamic[b] / math.hypot(mean_x, mean_y)
+            rubbed = math.copysign(rubbed, mean_x * wx + mean_y * wy)
+            released.before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
+            released.before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
 
 
 @njit(**JIT)

@@ -77,10 +77,16 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 @njit(inline="always")
 def _friction_direction(fx, fy, wx, wy, static, dynamic):
-    """Unit vector that friction opposes in this step; zero for a block that stays at rest."""
+    """Unit vector that friction opposes in this step; zero for a block that stays at rest.
+
+    That of a moving block is its direction in the middle of the step, unless it turns back before.
+    """
     speed = math.sqrt(wx * wx + wy * wy)
     if speed > 0.0:
-        return wx / speed, wy / speed
+        ex, ey = wx / speed, wy / speed
+        mx, my = wx + 0.5 * (fx - dynamic * ex), wy + 0.5 * (fy - dynamic * ey)
+        middle = math.sqrt(mx * mx + my * my)
+        return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
     # With mu_s < mu_d the block needs more than mu_d F_n to move at all.
     if force > static and force > dynamic:
