@@ -100,7 +100,7 @@ OPERATIONS = {
         "springs": 4 * SPRINGS,
         "gather": 4 * GATHER,
         "stages": 4 * (8 + 2 * 4 + 2 * 4),  # acceleration, sums over stages, the next stage
-        "friction": 6 + 19 + 3,  # direction, that in the middle of the step, turned
+        "friction": 6 + 21 + 3,  # direction, that in the middle of the step, turned
         "drift": 2 + 4,  # new velocity, new displacement and its sum
     },
 }

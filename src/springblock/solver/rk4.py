@@ -2,8 +2,8 @@
 
 Taken literally, with friction opposite to the velocity of each *stage*, the method does not
 converge: the stage velocities of a slow block alternate in sign, and it creeps instead of coming
-to rest. Here friction keeps through all four stages the direction that it has at the start of
-the step: against the velocity of a moving block, against F_mot of one that has just let go. A
+to rest. Here friction keeps one direction through all four stages: against the velocity that a
+moving block has in the middle of the step, against F_mot of one that has just let go. A
 block whose velocity has turned back at the end of the step stops there; a block at rest stays
 through all stages. Without friction the method is of fourth order. Releases are placed within their
 steps, which makes it second order across them; stops fall on step boundaries.
@@ -76,7 +76,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 @njit(inline="always")
-def _friction_direction(fx, fy, wx, wy, static, dynamic):
+def _friction_direction(fx, fy, wx, wy, static, dynamic, damping):
     """Unit vector that friction opposes in this step; zero for a block that stays at rest.
 
     That of a moving block is its direction in the middle of the step, unless it turns back before.
@@ -84,7 +84,8 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
     speed = math.sqrt(wx * wx + wy * wy)
     if speed > 0.0:
         ex, ey = wx / speed, wy / speed
-        mx, my = wx + 0.5 * (fx - dynamic * ex), wy + 0.5 * (fy - dynamic * ey)
+        half = 0.5 / (1.0 + damping) ** 2  # of a step; less where damping is stiff
+        mx, my = wx + half * (fx - dynamic * ex), wy + half * (fy - dynamic * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
@@ -95,7 +96,7 @@ def _friction_direction(fx, fy, wx, wy, static, dynamic):
 
 
 @njit(**JIT)
-def _set_out(blocks, stage, released, count, band, s, now):
+def _set_out(blocks, stage, released, count, band, s, damping, now):
     """Choose friction's direction in a band, and let go; returns how many have let go so far.
 
     The stage's velocity is that of the step's start; all sums over stages are zero. A block that
@@ -110,7 +111,7 @@ def _set_out(blocks, stage, released, count, band, s, now):
             if static[b] == 0.0:
                 continue
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b])
+            ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b], damping)
             if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - dynamic[b]
@@ -264,7 +265,7 @@ def advance(state, constants, first, steps, every, samples):
                     return k - first, np.int64(row), np.int64(column) - 1
                 if node == 0.0:
                     keep_peaks(state.peak, band, s)
-                    count = _set_out(blocks, stage, released, count, band, s, k)
+                    count = _set_out(blocks, stage, released, count, band, s, constants.damping, k)
                 squares += _take_stage(blocks, stage, weight, reach, band, s, constants.damping)
         if count > 0:
             _place_releases(blocks, stage, released, count, constants, k)
