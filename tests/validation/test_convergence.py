@@ -7,7 +7,7 @@ from springblock import Material, simulate
 from springblock.accuracy.reference import solve
 from springblock.accuracy.surfaces import flat
 
-STEPS = [2e-8, 1e-8, 5e-9]  #: s
+STEPS = [2e-8, 1e-8, 5e-9, 2.5e-9]  #: s
 #: Six by six blocks that let go one after another within 1 µs. The slider is ten times as fast
 #: as the paper's, which shortens the wait before and changes little else: it still moves a
 #: hundred times slower than a block that slips.
@@ -32,12 +32,12 @@ def test_the_reference_lets_every_block_go_and_keeps_its_energy(reference):
     assert abs(reference.relative_residual) < 1e-9  # of steps accurate to 1e-10
 
 
-def halves(errors):
-    """Whether a quarter of the step leaves at most half of the error: first order, with scatter.
+def of_second_order(errors):
+    """Whether an eighth of the step leaves a twentieth of the error: a 64th, with scatter.
 
-    Where in its step each block lets go and stops is chance.
+    Where in its step each block stops is chance. First order would leave an eighth.
     """
-    return errors[-1] < errors[0] / 2
+    return errors[-1] < errors[0] / 20
 
 
 def test_static_friction_converges(reference, runs):
@@ -46,26 +46,26 @@ def test_static_friction_converges(reference, runs):
     rise = material.k_s * material.slider_velocity / material.block_load
     errors = [abs(run.static_friction - reference.static_friction) for run in runs]
     assert all(error < rise * h for error, h in zip(errors, STEPS, strict=True))
-    assert halves(errors)
+    assert of_second_order(errors)
 
 
 def test_detachment_times_converge(reference, runs):
-    """A release falls on a step boundary, and so did those that led to it: RMS within two steps."""
+    """Releases are placed within their steps: RMS within half a step, and soon far within."""
     errors = [np.sqrt(np.mean((run.t_det - reference.t_det) ** 2)) for run in runs]
-    assert all(error < 2 * h for error, h in zip(errors, STEPS, strict=True))
-    assert halves(errors)
+    assert all(error < h / 2 for error, h in zip(errors, STEPS, strict=True))
+    assert of_second_order(errors)
 
 
 def test_force_curves_converge(reference, runs):
-    """Shifted by h, a slip at the frequency omega is wrong by a share omega h of its drop."""
+    """A slip at the frequency omega is wrong by a share (omega h)² of its drop, at most."""
     errors = [np.linalg.norm(run.force - reference.force) for run in runs]
     errors = np.divide(errors, np.linalg.norm(reference.force))
-    assert (errors < SCENE["material"].omega_min * np.array(STEPS)).all()
-    assert halves(errors)
+    assert (errors < (SCENE["material"].omega_min * np.array(STEPS)) ** 2).all()
+    assert of_second_order(errors)
 
 
 def test_blocks_let_go_in_the_order_of_the_reference(reference, runs):
-    """But for pairs closer than two steps."""
+    """But for pairs closer than a fifth of a step."""
     order = np.argsort(reference.t_det, axis=None)
     for run, h in zip(runs, STEPS, strict=True):
-        assert np.diff(run.t_det.ravel()[order]).min() > -2 * h
+        assert np.diff(run.t_det.ravel()[order]).min() > -0.2 * h

@@ -223,8 +223,8 @@ def _place_releases(blocks, rows, released, count, constants, k):
     At step k they are θ² a/2 on their way, and then move with (1/2 + θ) a. The energy that a
     leapfrog conserves, a mean over neighbouring steps, lies a²/8 below the true one after such a
     start; it is the true one that friction takes in the end, and is credited with here. Near the
-    stability limit an eighth of a² is much: towards it the start moves back by up to a/8, where
-    nothing is missing.
+    stability limit an eighth of a² is much: towards it the block moves back by up to a/8 and its
+    release to the middle of the step, where nothing is missing.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
     slider, block = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
