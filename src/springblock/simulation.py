@@ -15,7 +15,7 @@ from springblock.material import Material
 from springblock.prelude import Prelude, conditions
 from springblock.realisation import Realisation, first_minimum
 from springblock.setup import PAPER, Setup
-from springblock.solver.lattice import Constants, Samples, State, prepare, unpadded
+from springblock.solver.lattice import SQUARES, WORK, Constants, Samples, State, prepare, unpadded
 
 Array = NDArray[np.float64]
 
@@ -235,14 +235,14 @@ class _Motion:
         displacement = self.displacement()
         last_pull = material.k_s * np.sum(slider[:, None, None] - displacement, axis=(1, 2))
         # trapezoidal rule: the loop has counted the last force in full
-        work_in = joule * ledger[0] - 0.5 * float(last_pull @ slide) * material.spacing
+        work_in = joule * ledger[WORK] - 0.5 * float(last_pull @ slide) * material.spacing
         return Energy(
             work_in=float(work_in),
             elastic=elastic_energy(displacement, slider, material),
             kinetic=0.5 * material.mass * float(np.sum(velocity**2)),
             friction=joule * heat,
             viscous=float(material.gamma * material.mass * material.spacing**2 / self.setup.step)
-            * float(ledger[2]),
+            * float(ledger[SQUARES]),
         )
 
 

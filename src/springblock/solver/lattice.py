@@ -28,6 +28,10 @@ from springblock.solver.springs import (
 Array = NDArray[np.float64]
 
 
+#: Places in the ledger: the slider's work, friction's heat, and velocities squared for damping's.
+WORK, RUBBED, SQUARES = range(3)
+
+
 class Blocks(NamedTuple):
     """What is known of each block; every array has N rows of `pitch` numbers."""
 
@@ -46,7 +50,7 @@ class State(NamedTuple):
     blocks: Blocks
     scratch: Array  #: springs and forces of a band of rows, see `springs`
     work: tuple[Array, ...]  #: lattice-sized fields of the integrator's own
-    ledger: Array  #: slider's work, friction's and damping's heat, each summed over steps
+    ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
     in_contact: NDArray[np.bool_]  #: (N,) rows that hold any block in contact
 
@@ -224,9 +228,9 @@ def book(ledger, samples, constants, totals, switches, k, first, every):
     blocks, k_s = constants.n * constants.n, constants.springs.k_s
     force_x = k_s * (blocks * constants.slider_x * (k + 1) - totals.x)
     force_y = k_s * (blocks * constants.slider_y * (k + 1) - totals.y)
-    ledger[0] += force_x * constants.slider_x + force_y * constants.slider_y
-    ledger[1] += totals.heat
-    ledger[2] += totals.squares
+    ledger[WORK] += force_x * constants.slider_x + force_y * constants.slider_y
+    ledger[RUBBED] += totals.heat
+    ledger[SQUARES] += totals.squares
     if (k + 1) % every != 0:
         return switches
     sample = (k - first) // every

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from springblock.solver.compilation import JIT, add
 from springblock.solver.friction import coulomb
 from springblock.solver.lattice import (
+    RUBBED,
     Array,
     Constants,
     Samples,
@@ -63,7 +64,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
     ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
     velocity = np.stack([blocks.wx + ahead.blocks.wx, blocks.wy + ahead.blocks.wy]) / 2.0
-    return velocity, float(state.ledger[1] + ahead.ledger[1]) / 2.0
+    return velocity, float(state.ledger[RUBBED] + ahead.ledger[RUBBED]) / 2.0
 
 
 class Rows(NamedTuple):
@@ -89,17 +90,17 @@ def _rows(in_contact, n):
     awake[n] = False
     sliding[0] = sliding[n + 1] = 0
     return Rows(
-        in_contact,
-        awake,
-        np.zeros(n, np.int64),
-        sliding,
-        np.zeros(n, np.int64),
-        np.zeros(n, np.int64),
-        np.ones(n, np.bool_),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
+        in_contact=in_contact,
+        awake=awake,
+        wake=np.zeros(n, np.int64),
+        sliding=sliding,
+        switching=np.zeros(n, np.int64),
+        released=np.zeros(n, np.int64),
+        waiting=np.ones(n, np.bool_),
+        x=np.zeros(n),
+        y=np.zeros(n),
+        heat=np.zeros(n),
+        squares=np.zeros(n),
     )
 
 

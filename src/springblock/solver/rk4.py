@@ -17,6 +17,7 @@ from numba import njit
 
 from springblock.solver.compilation import JIT, add
 from springblock.solver.lattice import (
+    RUBBED,
     Array,
     Constants,
     State,
@@ -72,7 +73,7 @@ def force_time(step: float, gamma: float) -> float:
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and friction's heat until then."""
-    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[1])
+    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[RUBBED])
 
 
 @njit(inline="always")
