@@ -148,8 +148,20 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     if not table.num_rows:
         raise ValueError(f"there is nothing to write to {path}")
     described = table.replace_schema_metadata(dict(metadata))
+    # curves and fields: their numbers hardly repeat, but their leading bytes do
+    split = [
+        f"{field.name}.list.element"
+        for field in table.schema
+        if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
+    ]
     with whole_file(path) as partial:
-        pq.write_table(described, partial, compression="zstd")
+        pq.write_table(
+            described,
+            partial,
+            compression="zstd",
+            use_dictionary=not split,
+            use_byte_stream_split=split,
+        )
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
