@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from springblock.accuracy.residuals import ENERGY_TOLERANCE
+
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -15,7 +17,7 @@ def test_the_example_runs():
     for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
         exec(example, names)
     assert 0.5 < names["run"].static_friction < 1.0
-    assert abs(names["run"].energy.relative_residual) < 1e-4
+    assert abs(names["run"].energy.relative_residual) < ENERGY_TOLERANCE
 
 
 def test_commands_that_plan_or_explain_run():

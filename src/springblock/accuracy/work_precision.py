@@ -163,9 +163,7 @@ def single_rows(scene: str) -> Iterator[Row]:
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in SEEDS]
     for integrator in (*INTEGRATORS, PLAIN):
-        solve_with(
-            integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL
-        )  # compiled first
+        solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
             errors = [
