@@ -44,18 +44,18 @@ _PANELS: dict[str, tuple[str, dict[str, tuple[str, float, float]]]] = {
     "stiffness": (
         r"$K_s/K_\mathrm{int}$",
         {
-            "first detachment": ("first detachment", 0.05, 2e-7),
-            "displacement": ("path of a column", 0.40, 2e-15),
+            "first detachment": ("first detachment", 0.30, 3e-15),
+            "displacement": ("path of a column", 0.30, 1e-7),
         },
     ),
     "strain": (
         r"strain $F_n/(K_s\,l)$",
         {"displacement": ("path of a column", 0.42, 1e-11)},
     ),
-    "damping": (r"damping $\gamma/\omega$", {"spring force": ("force in the slip", 0.05, 2e-7)}),
+    "damping": (r"damping $\gamma/\omega$", {"spring force": ("force in the slip", 0.05, 1e-11)}),
     "speed": (
         r"speed $v\,K_s/(F_n\,\omega)$",
-        {"spring force": ("force after the slip", 0.05, 2e-7)},
+        {"spring force": ("force after the slip", 0.05, 1e-11)},
     ),
 }
 _SMALLEST = 1e-16  #: relative error
