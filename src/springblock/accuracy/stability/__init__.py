@@ -3,8 +3,9 @@
 Every case says what it expects, in a word, and measures what comes out. Most compare a number with
 its closed form; how far it may be off follows from the order of the scheme, or from rounding:
 
-- A release falls on the first step boundary beyond t = mu_s F_n/(K_s v), and a stop on the boundary
-  of the step that holds it. What depends on them may be wrong by what changes in one step.
+- A release is placed within its step: exactly where the force rises evenly, as it does before the
+  first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
+  damping that is stiff within a step, may be wrong by what changes in one step.
 - While a block slides one way, or has no friction, both schemes are linear at small strains, and
   their own solution is known exactly (`schemes.path`). What is left is the strain, and rounding.
 

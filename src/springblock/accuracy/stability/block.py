@@ -38,7 +38,7 @@ def damped(gamma: float) -> Array:
 def force_while_slipping(integrator: str, gamma: float) -> Outcome:
     """x = F - mu_d - gamma v swings or creeps back from mu_s with the slope v.
 
-    A release late by up to h, and leapfrog's half a step early, shift it by h at most.
+    Where damping is stiff within a step, the release shifts it by h at most.
     Runge-Kutta must resolve the damping; leapfrog integrates it exactly and needs not.
     """
     speed, mu_static, mu_dynamic = 0.01, 1.0, 0.6
@@ -63,9 +63,8 @@ def force_after_slip(
     """What the spring is left with, at any speed: 2 mu_d - mu_s without damping.
 
     Then, seen from the slider, the block leaves and arrives with -v, and the slip lasts
-    2 (π - atan((mu_s - mu_d)/v)). With damping, the block is at rest when x' is v again. Its
-    start and its stop fall on step boundaries, each worth 2 v h, and the stop misses the turning
-    point by (mu_s - mu_d) h².
+    2 (π - atan((mu_s - mu_d)/v)). With damping, the block is at rest when x' is v again. The
+    stop is worth 4 v h at most, and misses the turning point by (mu_s - mu_d) h².
     """
     drop, far = mu_static - mu_dynamic, mu_dynamic + gamma * speed
     material = pulled_at(speed, with_damping(gamma))
@@ -86,7 +85,7 @@ def force_after_slip(
 def greatest_force(integrator: str, mu_static: float, mu_dynamic: float) -> Outcome:
     """With mu_s <= mu_d there is no drop: the block leaves at mu_d with v (1 - cos t).
 
-    The force swings up by v; the block, late by h at most, starts with v h too much.
+    The force swings up by v, and is sampled in steps of h.
     """
     speed = 0.1
     material = pulled_at(speed, UNDAMPED)

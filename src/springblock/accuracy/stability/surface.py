@@ -51,12 +51,11 @@ def free_column(integrator: str, material: Material) -> Outcome:
 
 
 def first_detachment(integrator: str, material: Material, n: int = 8) -> Outcome:
-    """On a flat surface the weakest block lets go first, at its own threshold and in that step."""
+    """On a flat surface the weakest block lets go first, at its own threshold."""
     pull, surface = Pull.at(0.2, integrator, material), flat(n, SEED, material)
     run = pull.simulate(surface)
     threshold = np.maximum(*surface[1:]).min()
-    tolerance = pull.step / release(material, threshold)
-    return pull.judge(run, run.t_first / release(material, 1.0), threshold, tolerance)
+    return pull.judge(run, run.t_first / release(material, 1.0), threshold, ROUNDING)
 
 
 def mean_detachment(integrator: str, ratio: float) -> Outcome:
