@@ -93,3 +93,16 @@ def test_friction_opposes_motion_and_never_exceeds_its_law(rng):
     assert (np.sum(taken * w, axis=1) >= 0.0).all()
     turned = np.sum(w * v, axis=1) <= 0.0
     assert (turned | (np.hypot(*w.T) <= DYNAMIC))[~sliding].all()
+
+
+def test_friction_opposes_the_mean_velocity_of_a_block_that_slides_on(rng):
+    """A block that turns aside feels it neither half a step early nor half a step late."""
+    motions = rng.normal(scale=[[1.0], [1.0], [2.0]], size=(1000, 3, 2))
+    w, v, _ = motions.transpose(1, 0, 2)
+    kept = np.array([after(*motion) for motion in motions])
+    on = kept.any(axis=1) & (np.sum(w * v, axis=1) > 0.0)
+    assert on.sum() > 100
+    taken, mean = (w - kept)[on], 0.5 * (v + kept)[on]
+    across = taken[:, 0] * mean[:, 1] - taken[:, 1] * mean[:, 0]
+    np.testing.assert_allclose(across, 0.0, atol=1e-13)
+    assert (np.sum(taken * mean, axis=1) > 0.0).all()
