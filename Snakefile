@@ -15,21 +15,18 @@ include: "workflow/rules/correlation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/beyond.smk"
 
 
 rule all:
     default_target: True
     input:
-        rules.aggregate.output,
+        rules.aggregate.input,
         CORRELATIONS,
         rules.claims.output,
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[
-                name
-                for name, figure in FIGURES.items()
-                if config["accuracy"] or figure.category != "Accuracy"
-            ],
+            figure=[name for name, figure in FIGURES.items() if figure.category in CATEGORIES],
             suffix=["pdf", "png"],
         ),
         rules.accuracy.output if config["accuracy"] else [],

@@ -17,9 +17,9 @@ from benchmarks.peers.missing import Missing
 from benchmarks.timing import Row, interleaved, missing, row
 from springblock import draw_friction, simulate
 from springblock.commands.simulate import batch_row
-from springblock.defaults import SAMPLE_INTERVAL
 from springblock.figures import declarations
 from springblock.scene import Scene
+from springblock.setup import Setup
 from springblock.tables import BATCH, rows_to_table, write
 
 ROOT = Path(__file__).parents[1]
@@ -160,7 +160,7 @@ def _batch() -> list[dict[str, object]]:
     scene = Scene(N)
     contact = scene.pattern.contact
     run = simulate(contact, *draw_friction(N, seed=0), duration=2e-6)
-    return [batch_row(scene, seed, run, SAMPLE_INTERVAL) for seed in range(BATCH_SIZE)]
+    return [batch_row(scene, Setup(), seed, run) for seed in range(BATCH_SIZE)]
 
 
 def _write(path: Path, batch: list[dict[str, object]]) -> None:

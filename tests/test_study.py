@@ -46,8 +46,24 @@ def test_a_group_is_a_grid_over_its_lists():
     groups = ensembles(PAPER)
     assert [e.scene.n_p for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["n_p"]
     assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
-    assert [e.scene.direction for e in groups["grooves"]] == ["x", "y"]
+    assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
     assert groups["flat"][0] == Ensemble(Scene(120), range(20), 3e-4)
+
+
+def test_a_group_may_be_a_list_of_grids():
+    grids = [{"n_p": [n_p], "n_s": [10 - n_p], "direction": ["x"], "seeds": 1} for n_p in (4, 6)]
+    members = ensembles(changed("beyond", "ten", to=grids))["ten"]
+    assert [(e.scene.n_p, e.scene.n_s) for e in members] == [(4, 6), (6, 4)]
+
+
+def test_a_constant_may_be_an_axis_of_a_grid():
+    """The study's own value makes the scene that other groups have."""
+    axes = {"slider_velocity": [5e-4, 1e-3], "gamma": [0, 5000]}
+    grid = {"n_blocks": [9], "material": axes, "step": [1e-8, 2e-8], "direction": ["x"], "seeds": 1}
+    scenes = [e.scene for e in ensembles(changed("scenes", "fast", to=grid))["fast"]]
+    assert len(set(scenes)) == 8
+    assert Scene(9) in scenes
+    assert Scene(9, varied={"slider_velocity": 1e-3, "gamma": 0, "step": 1e-8}) in scenes
 
 
 def test_gaps_may_follow_the_pillars():
@@ -55,6 +71,12 @@ def test_gaps_may_follow_the_pillars():
     assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]
     doubled = changed("scenes", "pillars", "n_s", to=["2n_p"])
     assert [e.scene.n_s for e in ensembles(doubled)["pillars"]] == [4, 6, 12, 20, 40, 60, 120]
+
+
+@pytest.mark.parametrize(("given", "gaps"), [("n_p/3", [1, 3, 10]), ("3n_p", [9, 30, 90])])
+def test_gaps_may_be_multiples_and_parts_of_a_pillar(given, gaps):
+    grid = {"n_p": [3, 10, 30], "n_s": [given], "direction": ["x"], "seeds": 1}
+    assert [e.scene.n_s for e in ensembles(changed("scenes", "far", to=grid))["far"]] == gaps
 
 
 def test_each_size_of_pillars_may_have_its_own_number_of_seeds():
@@ -71,6 +93,14 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
     assert {(e.scene.n_p, len(e.seeds)) for e in shared} == {(6, 500), (20, 60)}
     whole, decimal = ({"direction": [angle], "seeds": 1} for angle in (15, 15.0))
     assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
+
+
+def test_a_scene_of_the_study_is_not_changed_by_what_goes_beyond_it():
+    small = {"n_p": [10], "n_s": [10], "direction": ["x"], "seeds": 3}
+    large = small | {"n_p": [20, 10], "seeds": 500}
+    groups = ensembles(PAPER | {"scenes": {"few": small}, "beyond": {"many": large}})
+    assert [len(e.seeds) for e in groups["many"]] == [500, 3]
+    assert groups["many"][1] == groups["few"][0]
 
 
 def test_a_group_may_be_left_out():
@@ -92,14 +122,15 @@ def test_a_larger_ensemble_keeps_the_whole_batches_of_a_smaller_one():
 
 
 def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
-    scenes = [e.scene for group in ensembles(PAPER).values() for e in group]
+    scenes = {e.scene for group in ensembles(PAPER).values() for e in group}
     assert {scene.level for scene in scenes} == {0, 1, 2, 3}
     assert len({scene.folder for scene in scenes}) == len(scenes)
     for scene in scenes:
-        options = dict(zip(*[iter(scene.arguments.split())] * 2, strict=True))
-        named = {key[2:].replace("-", "_"): value for key, value in options.items()}
-        direction = named.pop("direction")
-        assert Scene(direction=direction, **{k: int(v) for k, v in named.items()}) == scene
+        pairs = list(zip(*[iter(scene.arguments.split())] * 2, strict=True))
+        named = {key[2:].replace("-", "_"): value for key, value in pairs if key != "--vary"}
+        varied = dict(value.split("=") for key, value in pairs if key == "--vary")
+        texts = {key: named.pop(key) for key in ("direction", "along_3") if key in named}
+        assert Scene(**texts, **{k: int(v) for k, v in named.items()}, varied=varied) == scene
 
 
 def test_any_change_changes_the_digest():
@@ -128,7 +159,19 @@ def test_any_change_changes_the_digest():
         ),
         (("scenes", "grooves", "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
         (("scenes", "spacing", "n_p2"), [2], "scenes.spacing: n_p2 = 2 needs n_s2"),
-        (("scenes", "third_level", "n_p3"), [9], "scenes.third_level: pawls of 9 .* do not fill"),
+        (("scenes", "third_level", 0, "n_p3"), [9], "third_level: pawls of 9 .* do not fill"),
+        (("scenes", "third_level", 0, "np"), [9], "third_level.0 has the unknown key 'np'"),
+        (("scenes", "third_level", 1, "along_3"), "z", "third_level.1.along_3 is not valid: 'z'"),
+        (("scenes", "loading"), [], "scenes.loading is not valid"),
+        (("scenes", "loading", 0, "material", "speed"), [1.0], "material has the unknown key"),
+        (("scenes", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
+        (("scenes", "loading", 0, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
+        (("beyond", "flat"), {"direction": ["x"], "seeds": 1}, "beyond.flat: scenes has a group"),
+        (
+            ("beyond", "more"),
+            {"n_p": [7], "n_s": [7], "direction": ["x"], "seeds": 3},
+            "beyond.more: the period",
+        ),
         (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
         (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
         (("scenes", "size_flat", "n_blocks"), [120], "n_blocks=120.* is given two durations"),

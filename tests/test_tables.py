@@ -7,6 +7,7 @@ from springblock import draw_friction, simulate
 from springblock.commands.simulate import batch_row
 from springblock.files import whole_file
 from springblock.scene import Scene
+from springblock.setup import Setup
 from springblock.tables import (
     BATCH,
     SUMMARY,
@@ -26,7 +27,7 @@ def run():
 
 def test_a_stored_realisation_reads_back_to_the_bit(run, tmp_path):
     file = tmp_path / "a.parquet"
-    write(rows_to_table([batch_row(SCENE, 3, run, 2e-7)], BATCH), file, {})
+    write(rows_to_table([batch_row(SCENE, Setup(), 3, run)], BATCH), file, {})
     (record,) = read_records([file])
     assert (record.scene, record.seed) == (SCENE, 3)
     for name in ("force", "detachments", "switches", "t_det"):
@@ -68,6 +69,6 @@ def test_same_seed_same_bytes(tmp_path):
     contents = []
     for name in ("a", "b"):
         run = simulate(SCENE.pattern.contact, *draw_friction(6, 3), duration=2e-6)
-        write(rows_to_table([batch_row(SCENE, 3, run, 2e-7)], BATCH), tmp_path / name, {})
+        write(rows_to_table([batch_row(SCENE, Setup(), 3, run)], BATCH), tmp_path / name, {})
         contents.append((tmp_path / name).read_bytes())
     assert contents[0] == contents[1]

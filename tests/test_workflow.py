@@ -36,6 +36,7 @@ TINY = {
         "again": {"n_p": [6], "n_s": [6], "direction": ["x"], "seeds": 1},
         "grooves": {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1], "seeds": 1},
     },
+    "beyond": dict.fromkeys(PAPER["beyond"]),
     "figures": {
         "figure_4": {"n_p": 3, "n_s": 3},
         "figure_5": {"n_p": 3},

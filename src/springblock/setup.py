@@ -1,6 +1,8 @@
 """How a surface is computed: the layer, the integrator and its times."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +39,18 @@ class Setup:
         check_positive("step", self.step)
         self._check_stability()
         _ = self.every
+
+    def vary(self, constants: Mapping[str, Any]) -> "Setup":
+        """Return a setup with other constants of the material, another integrator or step."""
+        own = {key: constants[key] for key in ("integrator", "step") if key in constants}
+        material = {name: value for name, value in constants.items() if name not in own}
+        return replace(self, material=replace(self.material, **material), **own)
+
+    @property
+    def constants(self) -> dict[str, Any]:
+        """Constants of the material, integrator, step and sample interval, by name."""
+        own = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {**dict(own.pop("material").items()), **own}
 
     @property
     def method(self) -> Integrator:

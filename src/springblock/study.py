@@ -1,14 +1,15 @@
 """The study's configuration: checked, and expanded into scenes and batches of seeds."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import chain, product
+from itertools import product
 from typing import Any
 
 import jsonschema
 
 from springblock.material import Material
-from springblock.scene import LENGTHS, Scene
+from springblock.scene import LENGTHS, Scene, Varied
 from springblock.setup import Setup
 
 Configuration = Mapping[str, Any]
@@ -53,10 +54,8 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     setup = Setup(Material(**configuration["material"]), **times)
     for group, members in ensembles(configuration).items():
         for ensemble in members:
-            try:
-                _check_ensemble(ensemble, group, setup.sample_interval)
-            except ValueError as reason:
-                raise ValueError(f"scenes.{group}: {reason}") from reason
+            with _named(configuration, group):
+                _check_ensemble(ensemble, group, setup)
     for figure in ("figure_5", "figure_7"):
         shown = configuration["figures"][figure]["n_p"]
         if shown not in configuration["scenes"]["pillars"]["n_p"]:
@@ -65,9 +64,20 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
             )
 
 
-def _check_ensemble(ensemble: Ensemble, group: str, sample_interval: float) -> None:
-    scene = ensemble.scene
+@contextmanager
+def _named(configuration: Configuration, group: str) -> Iterator[None]:
+    """Put the key of a group of scenes before what is wrong with it."""
+    part = "scenes" if group in configuration["scenes"] else "beyond"
+    try:
+        yield
+    except ValueError as reason:
+        raise ValueError(f"{part}.{group}: {reason}") from reason
+
+
+def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
+    scene, sample_interval = ensemble.scene, setup.sample_interval
     _ = scene.pattern
+    setup.vary(dict(scene.varied))
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
     if ensemble.duration is not None and ensemble.duration < sample_interval:
@@ -94,9 +104,10 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 
 
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
-    """Expand each group of scenes into its grid, by the group's name.
+    """Expand each group of scenes into its grids, by the group's name; those beyond the paper last.
 
-    A scene that several of them hold is one ensemble, with the largest number of seeds.
+    A scene that several of them hold is one ensemble, with the largest number of seeds; but what
+    goes beyond the study takes a scene of the study as it is.
 
     Raises
     ------
@@ -105,32 +116,65 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """
     groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
-    for group, grid in configuration["scenes"].items():
-        try:
-            groups[group] = list(_expand(configuration, grid)) if grid else []
-        except ValueError as reason:
-            raise ValueError(f"scenes.{group}: {reason}") from reason
-    for ensemble in chain(*groups.values()):
-        scene = ensemble.scene
-        known = largest.setdefault(scene, ensemble)
-        if known.duration != ensemble.duration:
-            raise ValueError(f"scenes: {scene.folder} is given two durations")
-        largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
+    for part in ("scenes", "beyond"):
+        study = frozenset(largest)
+        for group, grids in configuration[part].items():
+            if group in groups:
+                raise ValueError(f"{part}.{group}: scenes has a group of this name")
+            with _named(configuration, group):
+                parts = grids if isinstance(grids, list) else [grids or {}]
+                groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
+            for ensemble in groups[group]:
+                _keep_largest(largest, ensemble, study)
     return {
         group: list(dict.fromkeys(largest[ensemble.scene] for ensemble in members))
         for group, members in groups.items()
     }
 
 
+def _keep_largest(
+    largest: dict[Scene, Ensemble], ensemble: Ensemble, untouched: Container[Scene]
+) -> None:
+    scene = ensemble.scene
+    if scene in untouched:
+        return
+    known = largest.setdefault(scene, ensemble)
+    if known.duration != ensemble.duration:
+        raise ValueError(f"scenes: {scene.folder} is given two durations")
+    largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
+
+
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
+    if not grid:
+        return
     first = configuration["first_seed"]
     sizes = grid.get("n_blocks", [configuration["n_blocks"]])
     n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
     counts = grid["seeds"] if isinstance(grid["seeds"], list) else [grid["seeds"]] * len(n_p)
     if len(counts) != len(n_p):
         raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
-    pillars = zip(n_p, counts, strict=True)
-    for n, (size, count), given, *rest in product(sizes, pillars, n_s, *deeper, grid["direction"]):
-        gap = {"n_p/2": size // 2, "n_p": size, "2n_p": 2 * size}.get(given, given)
-        scene = Scene(n, size, gap, *rest)
+    pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
+    ways = product(sizes, pillars, n_s, product(*deeper), grid["direction"], varied)
+    for n, (size, count), given, rest, direction, constants in ways:
+        lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
+        how = {"direction": direction, "along_3": grid.get("along_3", ""), "varied": constants}
+        scene = Scene(n, **lengths, **how)
         yield Ensemble(scene, range(first, first + count), grid.get("duration"))
+
+
+def _gap(given: int | str, n_p: int) -> int:
+    """Read n_s, which may be given as a multiple or a part of n_p: "2n_p", "n_p/3"."""
+    if not isinstance(given, str):
+        return given
+    times, parts = given.split("n_p")
+    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
+
+
+def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
+    """Each combination of the constants that a grid lists, without those that the study has."""
+    study = {**configuration["material"], **configuration}
+    lists = {key: grid[key] for key in ("integrator", "step") if key in grid}
+    lists |= grid.get("material", {})
+    for values in product(*lists.values()):
+        constants = dict(zip(lists, values, strict=True))
+        yield tuple((key, value) for key, value in constants.items() if value != study[key])

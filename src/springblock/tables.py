@@ -25,15 +25,37 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
 #: What tells one scene from another, as `Scene` names it.
 SCENE = pa.schema(
     [
-        column("level", pa.int8(), "1", "levels: 0 flat, 1 pillars, 2 strips, 3 strips cut across"),
-        column("n_p", pa.int32(), "blocks", "side of a pillar; 0 on a flat surface"),
-        column("n_s", pa.int32(), "blocks", "distance between pillars; 0 on a flat surface"),
+        column("level", pa.int8(), "1", "levels of the pattern; 0 on a flat surface"),
+        column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
+        column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
         column("n_s2", pa.int32(), "blocks", "width of a groove along x; 0 without grooves"),
-        column("n_p3", pa.int32(), "blocks", "length of a pawl; 0 where nothing cuts it"),
-        column("n_s3", pa.int32(), "blocks", "width of a groove along y; 0 where there is none"),
+        column("n_p3", pa.int32(), "blocks", "size of what cuts leave of a pawl; 0 without"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove between these; 0 without"),
+        column("along_3", pa.string(), "x or y", "axis that these grooves run along; '' without"),
+        column("varied", pa.string(), "name=value", "constants other than the study's own"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
         column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+    ]
+)
+
+#: How a realisation was computed: `Setup.constants`.
+SETUP = pa.schema(
+    [
+        column("youngs_modulus", pa.float64(), "Pa", "E"),
+        column("density", pa.float64(), "kg/m³", "rho"),
+        column("pressure", pa.float64(), "Pa", "P, over the whole nominal area"),
+        column("slider_velocity", pa.float64(), "m/s", "v"),
+        column("spacing", pa.float64(), "m", "l, distance between blocks"),
+        column("thickness", pa.float64(), "m", "l_z, of the layer"),
+        column("gamma", pa.float64(), "1/s", "damping frequency"),
+        column("mu_static", pa.float64(), "1", "mean of the static coefficients"),
+        column("mu_static_std", pa.float64(), "1", "their standard deviation"),
+        column("mu_dynamic", pa.float64(), "1", "mean of the dynamic coefficients"),
+        column("mu_dynamic_std", pa.float64(), "1", "their standard deviation"),
+        column("integrator", pa.string(), "1", "leapfrog or rk4"),
+        column("step", pa.float64(), "s", "integration step h"),
+        column("sample_interval", pa.float64(), "s", "time between two samples"),
     ]
 )
 
@@ -41,6 +63,7 @@ SCENE = pa.schema(
 SUMMARY = pa.schema(
     [
         *SCENE,
+        *SETUP,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
         column(
@@ -112,7 +135,6 @@ CORRELATION_LENGTH = pa.schema(
 BATCH = pa.schema(
     [
         *SUMMARY,
-        column("sample_interval", pa.float64(), "s", "time between two samples"),
         column("force", pa.list_(pa.float64()), "N", "|ΣF_s|, one per sample from t = 0"),
         column(
             "detachments",

@@ -9,6 +9,7 @@ from springblock.claims.page import page
 from springblock.claims.rule import Claim, Evidence, Finding, verdict
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
+from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import SUMMARY, rows_to_table, write
 
@@ -104,7 +105,7 @@ def test_the_page_says_the_rule_the_numbers_and_what_is_missing():
 
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.commands.claims.read_records", lambda batches: [])
-    row = dict.fromkeys(SUMMARY.names, 0) | {"direction": "x", "n_blocks": 12}
+    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | {"integrator": "leapfrog"}
     table, claims, text = (tmp_path / name for name in ("table", "claims.parquet", "claims.md"))
     write(rows_to_table([row | {"t_avg": 1.0}], SUMMARY), table, {})
     options = {"realisations": table, "configuration": "0", "output": claims, "page": text}

@@ -85,7 +85,7 @@ rule accuracy:
     input:
         rules.precision_table.output,
         rules.stability_table.output,
-        rules.aggregate.output,
+        rules.aggregate.input,
     output:
         f"{RESULTS}/accuracy.md",
     log:

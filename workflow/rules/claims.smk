@@ -9,7 +9,7 @@ if config["accuracy"]:
 rule claims:
     input:
         *CLAIM_TABLES.values(),
-        table=rules.aggregate.output,
+        table=rules.aggregate.input,
         batches=batches(
             ensemble
             for group in ("flat", "pillars", "grooves", "third_level")

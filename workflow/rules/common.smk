@@ -1,6 +1,7 @@
 import os
 import re
 import sys
+from itertools import chain
 from pathlib import Path
 from shlex import quote
 
@@ -25,29 +26,33 @@ CORRELATIONS = expand(
 )
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
+#: Groups of the study and of what goes beyond the paper, by the folder of their tables.
+PARTS = {"": config["scenes"], "beyond/": config["beyond"]}
 #: The ensemble in each folder of realisations.
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
 #: Scenes by group.
 SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
+#: Those that the study draws by itself.
+CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
 
 # Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
-def batches(ensembles):
+def batches(members):
     """Files that hold the realisations of these ensembles, each once."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
-        for ensemble in dict.fromkeys(ensembles)
+        for ensemble in dict.fromkeys(members)
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
 
 
-def realisations(*groups):
-    """Files that hold the realisations of these groups of scenes."""
-    return batches(ensemble for group in groups for ensemble in ENSEMBLES[group])
+def ensembles(part):
+    """Ensembles of a part of the study, each once."""
+    return list(dict.fromkeys(chain.from_iterable(ENSEMBLES[group] for group in PARTS[part])))
 
 
 def scene(wildcards):
@@ -65,9 +70,9 @@ def memory(wildcards):
     return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
 
 
-def correlations(table, ensembles):
-    """Files that hold a table of correlations for each of these ensembles that has sides."""
-    scenes = [ensemble.scene for ensemble in ensembles if ensemble.scene.sides]
+def correlations(table, part):
+    """Files that hold a table of correlations for each ensemble of a part that has sides."""
+    scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
     return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
 
 

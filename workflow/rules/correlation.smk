@@ -22,7 +22,7 @@ rule correlation_scene:
 
 rule correlation:
     input:
-        [correlations(table, ENSEMBLE.values()) for table in ("correlation", "correlation_length")],
+        [correlations(table, "") for table in ("correlation", "correlation_length")],
     localrule: True
     message:
         "Detachment times are correlated wherever pillars have sides"
@@ -30,13 +30,13 @@ rule correlation:
 
 rule correlations_table:
     input:
-        lambda wildcards: correlations(wildcards.table, ENSEMBLE.values()),
+        lambda wildcards: correlations(wildcards.table, wildcards.part),
     output:
-        f"{RESULTS}/tables/{{table}}.parquet",
+        f"{RESULTS}/tables/{{part}}{{table}}.parquet",
     log:
-        f"{RESULTS}/logs/{{table}}.log",
+        f"{RESULTS}/logs/{{part}}{{table}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{table}}.tsv"
+        f"{RESULTS}/benchmarks/{{part}}{{table}}.tsv"
     wildcard_constraints:
         table="correlation|correlation_length",
     resources:
@@ -46,7 +46,7 @@ rule correlations_table:
         code=sources.digest("springblock.commands.correlation"),
         configuration=sources.configuration_digest(config),
     message:
-        "Collecting correlations in one table: {wildcards.table}"
+        "Collecting correlations in one table: {wildcards.part}{wildcards.table}"
     shell:
         "springblock collect {input:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"

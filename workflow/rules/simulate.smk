@@ -13,6 +13,7 @@ HOW = " ".join(
 
 wildcard_constraints:
     scene="|".join(map(re.escape, ENSEMBLE)),
+    part="|".join(map(re.escape, PARTS)),
 
 
 rule compile_integrator:
@@ -68,7 +69,10 @@ rule prelude_scene:
 
 rule prelude:
     input:
-        expand(rules.prelude_scene.output, scene=ENSEMBLE),
+        expand(
+            rules.prelude_scene.output,
+            scene=[ensemble.scene.folder for ensemble in ensembles("")],
+        ),
     localrule: True
     message:
         "All scenes are loaded up to their first detachment"
@@ -104,21 +108,21 @@ rule simulate_batch:
 
 rule simulate:
     input:
-        realisations(*ENSEMBLES),
+        batches(ensembles("")),
     localrule: True
     message:
         "All realisations are simulated"
 
 
-rule aggregate:
+rule aggregate_part:
     input:
-        rules.simulate.input,
+        lambda wildcards: batches(ensembles(wildcards.part)),
     output:
-        f"{RESULTS}/tables/realisations.parquet",
+        f"{RESULTS}/tables/{{part}}realisations.parquet",
     log:
-        f"{RESULTS}/logs/aggregate.log",
+        f"{RESULTS}/logs/{{part}}aggregate.log",
     benchmark:
-        f"{RESULTS}/benchmarks/aggregate.tsv"
+        f"{RESULTS}/benchmarks/{{part}}aggregate.tsv"
     resources:
         mem_mb=600,
         runtime=5,
@@ -126,7 +130,15 @@ rule aggregate:
         code=sources.digest("springblock.commands.aggregate"),
         configuration=sources.configuration_digest(config),
     message:
-        "Collecting all realisations in one table"
+        "Collecting realisations in one table: {wildcards.part}realisations"
     shell:
         "springblock aggregate {input:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
+
+
+rule aggregate:
+    input:
+        f"{RESULTS}/tables/realisations.parquet",
+    localrule: True
+    message:
+        "All realisations are in one table"

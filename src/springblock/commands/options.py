@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import fields
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import click
 
 from springblock.direction import normalised
-from springblock.scene import LENGTHS, Scene
+from springblock.scene import Scene, Varied, in_order
 
 OUTPUT = click.Path(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
@@ -22,6 +23,14 @@ def _direction(context: click.Context, parameter: click.Parameter, value: str) -
         raise click.BadParameter(str(error)) from None
 
 
+def _varied(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> Varied:
+    """Read name=value pairs."""
+    try:
+        return in_order(dict(value.partition("=")[::2] for value in values))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
 _SCENE = [
     click.option("--n-blocks", type=int, required=True, help="N, blocks along one side."),
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
@@ -29,9 +38,19 @@ _SCENE = [
     click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
     click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
     click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
-    click.option("--n-s3", type=int, default=0, help="Width of the grooves along y, blocks."),
+    click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
+    click.option(
+        "--along-3", type=click.Choice("xy"), help="Axis that these grooves run along; y if unsaid."
+    ),
     click.option(
         "--direction", default="x", callback=_direction, show_default=True, help="x, y or degrees."
+    ),
+    click.option(
+        "--vary",
+        "varied",
+        multiple=True,
+        callback=_varied,
+        help="A constant of its own: step=1e-8.",
     ),
 ]
 
@@ -40,10 +59,10 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options of a scene; the command gets them as `scene`."""
 
     @wraps(command)
-    def with_scene(*, n_blocks: int, direction: str, **options: Any) -> Any:
-        lengths = {key: options.pop(key) for key in LENGTHS}
+    def with_scene(**options: Any) -> Any:
+        given = {field.name: options.pop(field.name) for field in fields(Scene)}
         with one_sentence():
-            scene = Scene(n_blocks, direction=direction, **lengths)
+            scene = Scene(**given | {"along_3": given["along_3"] or ""})
         return command(scene=scene, **options)
 
     return with_options(_SCENE, with_scene)

@@ -65,19 +65,20 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options of a scene and of how to compute it, which the command gets as `setup`."""
 
     @wraps(command)
-    def with_setup(**options: Any) -> Any:
+    def with_setup(*, scene: Scene, **options: Any) -> Any:
         given = {field.name: options.pop(field.name) for field in fields(Setup)}
         with one_sentence():
-            setup = Setup(**given)
-        return command(setup=setup, **options)
+            setup = Setup(**given).vary(dict(scene.varied))
+        return command(scene=scene, setup=setup, **options)
 
     return scene_options(with_options(_SETUP, with_setup))
 
 
-def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float) -> dict[str, Any]:
+def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[str, Any]:
     """One row of a batch."""
     return {
         **scene.row,
+        **setup.constants,
         "seed": seed,
         "static_friction": run.static_friction,
         "dynamic_friction": run.dynamic_friction,
@@ -86,7 +87,6 @@ def batch_row(scene: Scene, seed: int, run: Realisation, sample_interval: float)
         "t_first": run.t_first,
         "energy_error": run.energy.relative_residual,
         "steps": run.steps,
-        "sample_interval": sample_interval,
         "force": run.force,
         "detachments": run.detachments,
         "switches": run.switches,
@@ -139,7 +139,7 @@ def simulate_batch(
                 )
             except SimulationError as error:
                 raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
-            rows.append(batch_row(scene, seed, run, setup.sample_interval))
+            rows.append(batch_row(scene, setup, seed, run))
         configuration = {**asdict(setup), "duration": duration}
         write(rows_to_table(rows, BATCH), output, _metadata(configuration))
 

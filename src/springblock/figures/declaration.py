@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from springblock.scene import Scene
 
-Category = Literal["Figures", "Supplement", "Accuracy"]
+Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
