@@ -192,7 +192,9 @@ def jobs_of_the_workflow():
                 path = path.replace("{{comparison}}-{{scene}}", "paired-flat")
                 path = path.replace("{{", "{").replace("}}", "}")
                 for figure in declarations() if "{figure}" in path else [""]:
-                    yield text.split(":")[0].strip(), path.format(figure=figure, **wildcards)
+                    for part in ("", "beyond/"):
+                        named = path.format(figure=figure, part=part, **wildcards)
+                        yield text.split(":")[0].strip(), named
 
 
 def test_every_job_of_the_workflow_counts_for_its_step():
@@ -200,6 +202,7 @@ def test_every_job_of_the_workflow_counts_for_its_step():
         "compile_integrator": "compile",
         "prelude_scene": "prelude",
         "simulate_batch": "simulate",
+        "aggregate_part": "aggregate",
         "correlation_scene": "correlation",
         "correlations_table": "correlation",
         "compare_scene": "accuracy",
