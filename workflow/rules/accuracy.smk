@@ -17,6 +17,8 @@ rule compare_scene:
     wildcard_constraints:
         comparison="[a-z]+",
         scene="[a-z]+",
+    # The longest jobs begin first, lest one of them ends alone.
+    priority: 1
     resources:
         mem_mb=600,
         runtime=20,
