@@ -142,10 +142,10 @@ def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Force and detachments of k realisations, as long as the shortest of them."""
+    """Force and detachments of k realisations."""
 
     time: Array  #: (n,) s
-    friction: Array  #: (k, n) force over P l² N²
+    friction: Array  #: (k, n) force over P l² N², NaN after the end of a run
     detachments: Array  #: (k, n) first detachments since the sample before, % of all of the run
 
     def binned(self, width: float) -> tuple[Array, Array]:
@@ -165,6 +165,39 @@ def common_curve(runs: Sequence[Run]) -> Curve:
     time, forces = cut(runs, [friction(run) for run in runs])
     _, shares = cut(runs, [percent(run, run.detachments) for run in runs])
     return Curve(time, forces, shares)
+
+
+def whole_curve(runs: Sequence[Run]) -> Curve:
+    """Force and detachments of an ensemble up to the end of its longest run.
+
+    After its end a run has no force, but it has first detachments: none, since `percent` counts
+    shares of those that the run has seen, which are all there are once everything slides.
+    """
+    cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
+    time = max((run.time for run in runs), key=len)
+    missing = [(0, len(time) - len(run.time)) for run in runs]
+    forces = [
+        np.pad(friction(run), gap, constant_values=np.nan)
+        for run, gap in zip(runs, missing, strict=True)
+    ]
+    shares = [
+        np.pad(percent(run, run.detachments), gap) for run, gap in zip(runs, missing, strict=True)
+    ]
+    return Curve(time, np.stack(forces), np.stack(shares))
+
+
+def mean_of_rest(values: Array) -> Interval:
+    """Mean and interval over those of k runs, (k, n), that go on; (n,). NaN follows their ends.
+
+    NaN, too, where fewer than half of the runs go on: what is left are the slowest.
+    """
+    goes_on = np.isfinite(values)
+    left = goes_on.sum(axis=0)
+    result = np.full((3, values.shape[1]), np.nan)
+    for number in np.unique(left[2 * left >= len(values)]):
+        here = left == number
+        result[:, here] = mean_interval(values[goes_on[:, here].all(axis=1)][:, here])
+    return Interval(*result)
 
 
 def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
