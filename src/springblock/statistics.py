@@ -246,6 +246,18 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 
+def lesser_peak(curve: Array) -> float:
+    """How far the second most prominent load peak of a force curve, (n,), stands out.
+
+    Its prominence over the largest force, 0 where one peak alone reaches `_LOAD_PEAK` of it.
+    """
+    from scipy.signal import find_peaks  # as above
+
+    highest = curve.max()
+    found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)[1]["prominences"]
+    return float(np.sort(found)[-2] / highest) if len(found) > 1 else 0.0
+
+
 def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:
     """Count the load peaks of the mean of k force curves, (k, n), with a bootstrap interval."""
     k = len(curves)

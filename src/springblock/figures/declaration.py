@@ -153,6 +153,11 @@ def first_of_each(keys: Sequence[str], scenes: Iterable[Scene]) -> list[Scene]:
     return list(first.values())
 
 
+def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
+    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
+    return [*flat, *pillars, *one_pattern(grooves)]
+
+
 def one_pattern(*groups: Scenes) -> list[Scene]:
     """Return the scenes of all groups with the pattern of the last group's first one."""
     last = groups[-1][0]

@@ -3,37 +3,71 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from springblock.figures.declaration import Declaration, Realisations, one_pattern
-from springblock.figures.ensembles import Runs, draw_no_lag, draw_series, two_panels
-from springblock.figures.style import BLUE, journal
+from springblock.figures.declaration import INTERVALS, Declaration, Realisations, one_pattern
+from springblock.figures.ensembles import (
+    FRICTION,
+    LAG,
+    Runs,
+    direction_color,
+    draw_no_lag,
+    draw_point,
+    highest_and_lag,
+    stacked_panels,
+)
+from springblock.figures.style import GREY, journal
+from springblock.run import friction
+from springblock.statistics import lesser_peak, mean_interval
 
 FIGURE = Declaration(
     title="Sliding at an angle to grooves",
     category="Supplement",
-    caption="""a) Static friction and b) t_max - t_avg over the angle between the sliding direction
-    and the grooves, 0 and 90 degrees in the paper. Means over realisations with 95 % bootstrap
-    intervals.""",
+    caption=f"""a) Static friction, b) t_max - t_avg and c) prominence of the lesser load peak over
+    the angle between the sliding direction and the grooves, 0 and 90 degrees in the paper. The
+    prominence is how far the second most prominent load peak of a run stands out of the force
+    around it, over the largest force; 0 where there is one peak alone. Small dots: single runs;
+    large ones: means with {INTERVALS}.""",
     source=Realisations(groups=("grooves", "angles"), keys=("direction",), pick=one_pattern),
 )
 
 _AXES = {"x": 0.0, "y": 90.0}  #: degrees from the grooves, which run along x
 
 
+_LESSER = "lesser peak (% of force)"
+_SPREAD = 2.0  #: degrees over which single runs are spread
+
+
 @journal
 def draw(ensembles: Mapping[str, Runs]) -> Figure:
-    """Draw a) static friction and b) t_max - t_avg over the angle between sliding and grooves.
+    """Draw what changes with the angle between sliding and grooves.
 
+    That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     `ensembles` holds runs by sliding direction: "x", "y" or degrees from x.
     """
-    picture, panels = two_panels("angle between sliding and grooves (°)")
-    angles = {float(_AXES.get(name, name)): runs for name, runs in ensembles.items()}
-    draw_series(panels, list(angles.items()), BLUE, marker="o")
+    xlabel = "angle between sliding and grooves (°)"
+    picture, panels = stacked_panels(xlabel, (FRICTION, LAG, _LESSER))
+    angles = {float(_AXES.get(name, name)): name for name in ensembles}
+    for angle, name in sorted(angles.items()):
+        _draw_angle(panels, angle, ensembles[name], direction_color(name))
     draw_no_lag(panels[1])
+    panels[2].set_ylim(0.0, None)
     for ax in panels:
+        means = [bar.lines[0].get_xydata()[0] for bar in ax.containers]
+        ax.plot(*np.transpose(means), color=GREY, linewidth=0.6, zorder=1.5)
         ax.set_xticks(sorted(angles))
-        ax.margins(x=0.06, y=0.14)
+        ax.margins(x=0.06)
     return picture
+
+
+def _draw_angle(panels: Sequence[Axes], angle: float, runs: Runs, color: str) -> None:
+    """Single runs side by side, and their mean."""
+    lesser = np.array([100.0 * lesser_peak(friction(run)) for run in runs])
+    places = angle + _SPREAD * np.linspace(-1.0, 1.0, len(runs))
+    for ax, values in zip(panels, (*highest_and_lag(runs), lesser), strict=True):
+        ax.plot(places, values, ".", color=color, markersize=2.2, alpha=0.45, markeredgewidth=0.0)
+        draw_point(ax, angle, mean_interval(values), color, marker="o", zorder=3)
