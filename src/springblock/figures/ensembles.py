@@ -42,16 +42,16 @@ ENDS = """Each run ends by itself, after the first minimum behind its force maxi
 
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
 _GROOVED: dict[str, tuple[str, Look]] = {
-    "x": ("along grooves", {"color": BLUE, "marker": "*"}),
+    "x": ("along grooves", {"color": BLUE, "marker": "*", "markersize": 4.5}),
     "y": ("across grooves", {"color": VERMILION, "marker": "h"}),
 }
 _MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 10: "s", 20: "D", 30: "P", 60: "X"}  #: by n_p
 _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
-_REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: where some runs have ended
+REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force where some runs have ended
 
 # Panels above each other in one column, mm.
 _LEFT, _WIDTH, _HEIGHT = 16.0, 71.0, 38.0
-_BELOW, _BETWEEN, _ABOVE = 11.0, 4.0, 6.0
+_BELOW, _BETWEEN, _ABOVE = 11.0, 5.0, 6.0
 
 
 def draw_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any) -> Array:
@@ -59,7 +59,7 @@ def draw_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any) -> A
     force = mean_of_rest(curve.friction)
     time, whole = MICRO * curve.time, _length_of_all(curve)
     ax.plot(time[:whole], force.mean[:whole], color=color, label=label, markevery=[], **look)
-    ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **_REST)
+    ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **REST)
     ax.fill_between(time, force.low, force.high, color=color, alpha=_BAND, linewidth=0.0)
     return force.mean
 

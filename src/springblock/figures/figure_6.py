@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from springblock.figures import style
 from springblock.figures.declaration import INTERVALS, Declaration, Realisations
@@ -16,6 +17,7 @@ from springblock.figures.ensembles import (
     FORCE,
     FRICTION,
     LAG,
+    REST,
     Runs,
     draw_detachments,
     draw_force,
@@ -42,7 +44,7 @@ FIGURE = Declaration(
 )
 
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins
-_LEFT, _RIGHT = (17.0, 91.0), (128.0, 58.0)  #: left edge and width of the panels, mm
+_LEFT, _RIGHT = (17.0, 105.0), (141.0, 46.0)  #: left edge and width of the panels, mm
 _UPPER, _LOWER = (54.0, 43.0), (11.0, 37.0)  #: lower edge and height
 
 Ensembles = Mapping[int, Runs]  #: by n_p, 0 for the flat surface
@@ -86,9 +88,13 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: Ensembles) -> None:
             time = float(np.mean(times))
             height = np.interp(time, curve.time, mean)
             force.plot(MICRO * time, height, **look, markerfacecolor=face, zorder=3)
-    for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$")):
-        force.plot([], [], "o", color=GREY, markerfacecolor=face, label=name)
-    force.legend(loc="lower right", ncols=2)
+    force.add_artist(force.legend(loc="lower right", ncols=2))
+    signs = [
+        Line2D([], [], color=GREY, marker="o", linestyle="none", markerfacecolor=face, label=name)
+        for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$"))
+    ]
+    signs.append(Line2D([], [], color=GREY, **REST, label="fewer runs"))
+    force.legend(handles=signs, loc="upper left", handlelength=1.2)
     force.set(ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
     force.tick_params(labelbottom=False)
     blocks.set_yscale("log")

@@ -34,14 +34,14 @@ FIGURE = Declaration(
     caption=f"""Friction force over the normal force, at the left, and share of first detachments in
     each bin, at the right, on pillars with grooves, for each sliding direction; a row for each
     width of pawls and grooves, n_p2/n_s2. Thin lines: single runs; thick ones: means with
-    {INTERVALS}. The panels begin where the force has reached half its maximum; before, it grows
+    {INTERVALS}. The panels begin where the force has reached 60 % of its maximum; before, it grows
     with time. {ENDS} Triangles are load peaks of the mean as long as all runs go on: those that
     stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
     Figure 9 of the paper, which does not give its sizes.""",
     source=Realisations(groups=("grooves",), keys=("n_p2", "n_s2", "direction")),
 )
 
-_SHOWN = 0.5  #: share of the maximum from which the force is shown
+_SHOWN = 0.6  #: share of the maximum from which the force is shown
 _FORCE, _BLOCKS = (15.0, 95.0), (130.0, 57.0)  #: left edge and width of the panels, mm
 _BELOW, _HEIGHT, _BETWEEN, _ABOVE = 11.0, 33.0, 5.0, 6.0
 
@@ -58,10 +58,10 @@ def draw(ensembles: Mapping[tuple[int, int, str], Runs]) -> Figure:
     picture = style.figure(style.DOUBLE, _BELOW + len(rows) * step - _BETWEEN + _ABOVE)
     for i, row in enumerate(rows):
         bottom = _BELOW + (len(rows) - 1 - i) * step
-        panels = [style.axes(picture, x, bottom, w, _HEIGHT) for x, w in (_FORCE, _BLOCKS)]
+        force, blocks = (style.axes(picture, x, bottom, w, _HEIGHT) for x, w in (_FORCE, _BLOCKS))
         shown = {key[2]: curve for key, curve in curves.items() if key[:2] == row}
-        _draw_row(*panels, row, shown)
-        for ax, letter in zip(panels, ascii_lowercase[2 * i :], strict=False):
+        _draw_row(force, blocks, row, shown)
+        for ax, letter in zip((force, blocks), ascii_lowercase[2 * i :], strict=False):
             ax.tick_params(labelbottom=row == rows[-1])
             style.panel_letter(ax, letter, left=11.0, above=1.0)
     _share_axes(picture, list(curves.values()))

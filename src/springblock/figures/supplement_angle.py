@@ -3,7 +3,7 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,7 +21,7 @@ from springblock.figures.ensembles import (
     stacked_panels,
 )
 from springblock.figures.style import GREY, journal
-from springblock.run import friction
+from springblock.run import Array, friction
 from springblock.statistics import lesser_peak, mean_interval
 
 FIGURE = Declaration(
@@ -38,7 +38,6 @@ FIGURE = Declaration(
 _AXES = {"x": 0.0, "y": 90.0}  #: degrees from the grooves, which run along x
 
 
-_LESSER = "lesser peak (% of force)"
 _SPREAD = 2.0  #: degrees over which single runs are spread
 
 
@@ -49,25 +48,31 @@ def draw(ensembles: Mapping[str, Runs]) -> Figure:
     That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     `ensembles` holds runs by sliding direction: "x", "y" or degrees from x.
     """
-    xlabel = "angle between sliding and grooves (°)"
-    picture, panels = stacked_panels(xlabel, (FRICTION, LAG, _LESSER))
-    angles = {float(_AXES.get(name, name)): name for name in ensembles}
-    for angle, name in sorted(angles.items()):
-        _draw_angle(panels, angle, ensembles[name], direction_color(name))
+    labels = (FRICTION, LAG, "lesser peak (% of force)")
+    picture, panels = stacked_panels("angle between sliding and grooves (°)", labels)
+    angles = {name: float(_AXES.get(name, name)) for name in ensembles}
+    names = sorted(angles, key=lambda name: angles[name])
+    samples = zip(*(_quantities(ensembles[name]) for name in names), strict=True)
+    for ax, values in zip(panels, samples, strict=True):
+        places = [angles[name] for name in names]
+        ax.plot(places, [sample.mean() for sample in values], color=GREY, linewidth=0.6)
+        for name, sample in zip(names, values, strict=True):
+            _draw_sample(ax, angles[name], sample, direction_color(name))
+        ax.set_xticks(places)
+        ax.margins(x=0.06)
     draw_no_lag(panels[1])
     panels[2].set_ylim(0.0, None)
-    for ax in panels:
-        means = [bar.lines[0].get_xydata()[0] for bar in ax.containers]
-        ax.plot(*np.transpose(means), color=GREY, linewidth=0.6, zorder=1.5)
-        ax.set_xticks(sorted(angles))
-        ax.margins(x=0.06)
     return picture
 
 
-def _draw_angle(panels: Sequence[Axes], angle: float, runs: Runs, color: str) -> None:
-    """Single runs side by side, and their mean."""
+def _quantities(runs: Runs) -> tuple[Array, Array, Array]:
+    """Static friction, t_max - t_avg in µs, and prominence of the lesser peak in %, (k,) each."""
     lesser = np.array([100.0 * lesser_peak(friction(run)) for run in runs])
-    places = angle + _SPREAD * np.linspace(-1.0, 1.0, len(runs))
-    for ax, values in zip(panels, (*highest_and_lag(runs), lesser), strict=True):
-        ax.plot(places, values, ".", color=color, markersize=2.2, alpha=0.45, markeredgewidth=0.0)
-        draw_point(ax, angle, mean_interval(values), color, marker="o", zorder=3)
+    return *highest_and_lag(runs), lesser
+
+
+def _draw_sample(ax: Axes, angle: float, sample: Array, color: str) -> None:
+    """Single runs side by side, and their mean."""
+    places = angle + _SPREAD * np.linspace(-1.0, 1.0, len(sample))
+    ax.plot(places, sample, ".", color=color, markersize=2.8, alpha=0.5, markeredgewidth=0.0)
+    draw_point(ax, angle, mean_interval(sample), color, marker="o", zorder=3)

@@ -27,24 +27,27 @@ from springblock.figures.style import GREEN, PURPLE, journal
 from springblock.scene import Scene
 from springblock.statistics import Curve, whole_curve
 
-_BOTTOMS, _PANEL = (53.0, 11.0), (16.0, 71.0, 38.0)  #: left edge, width and height, mm
+_BOTTOMS, _PANEL = (55.0, 11.0), (16.0, 71.0, 38.0)  #: left edge, width and height, mm
 
 
 def _with_and_without(grooves: Scenes, third_level: Scenes) -> list[Scene]:
     """The first pattern of three levels along x and y, and the same without its third level."""
     first = third_level[0]
-    cut = [s for s in third_level if replace(s, direction=first.direction) == first]
-    whole = {replace(scene, n_p3=0, n_s3=0) for scene in cut}
-    return [s for s in (*grooves, *cut) if s.direction in ("x", "y") and s in {*whole, *cut}]
+
+    def is_like_it(scene: Scene) -> bool:
+        return replace(first, direction=scene.direction, n_p3=scene.n_p3, n_s3=scene.n_s3) == scene
+
+    scenes = [scene for scene in (*grooves, *third_level) if scene.direction in ("x", "y")]
+    return list(filter(is_like_it, scenes))
 
 
 FIGURE = Declaration(
     title="A third level",
     category="Supplement",
-    caption=f"""Friction force over the normal force towards the end of a run, on patterns of two and
-    of three levels, sliding a) along and b) across the grooves. Means with
-    {INTERVALS}; triangles are load peaks of the mean, as in figure 9. {ENDS} The paper expects that
-    its effects remain on further levels.""",
+    caption=f"""Friction force over the normal force towards the end of a run, on patterns of two
+    and of three levels, sliding a) along and b) across the grooves. Means with {INTERVALS};
+    triangles are load peaks of the mean, as in figure 9. {ENDS} The paper expects that its effects
+    remain on further levels.""",
     source=Realisations(
         groups=("grooves", "third_level"), keys=("direction", "level"), pick=_with_and_without
     ),
@@ -59,7 +62,7 @@ def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
     """
     curves = {key: whole_curve(runs) for key, runs in sorted(ensembles.items())}
     span = enlarged_span(list(curves.values()))
-    picture = style.figure(style.COLUMN, 97.0)
+    picture = style.figure(style.COLUMN, 99.0)
     left, width, height = _PANEL
     for direction, bottom, letter in zip(("x", "y"), _BOTTOMS, "ab", strict=True):
         ax = style.axes(picture, left, bottom, width, height)
@@ -84,4 +87,4 @@ def _draw_direction(
     ax.set(xlim=span, ylabel=FORCE)
     if curves:
         fit_forces(ax, list(curves.values()), span)
-        ax.legend(loc="lower center")
+        ax.legend(loc="lower left")

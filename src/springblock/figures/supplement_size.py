@@ -7,7 +7,13 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
-from springblock.figures.declaration import INTERVALS, Declaration, Realisations, Scenes, one_pattern
+from springblock.figures.declaration import (
+    INTERVALS,
+    Declaration,
+    Realisations,
+    Scenes,
+    one_pattern,
+)
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,

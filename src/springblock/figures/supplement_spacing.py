@@ -30,9 +30,8 @@ def _sizes_varied(pillars: Scenes, spacing: Scenes) -> list[Scene]:
 FIGURE = Declaration(
     title="Distance between pillars",
     category="Supplement",
-    caption=f"""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s, which
-    the paper leaves open; a line for each size of the pillars. Means with
-    {INTERVALS}.""",
+    caption=f"""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s,
+    which the paper leaves open; a line for each size of the pillars. Means with {INTERVALS}.""",
     source=Realisations(groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=_sizes_varied),
 )
 
