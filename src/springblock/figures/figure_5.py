@@ -46,8 +46,8 @@ _PARTS = {
 def draw(runs: "Sequence[Record]") -> Figure:
     """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
 
-    Means over all pillars and `runs`, which share one scene; bars are 95 % intervals. An arrow shows
-    the sliding direction if it is "x" or "y".
+    Means over all pillars and `runs`, which share one scene; bars are 95 % intervals. An arrow
+    shows the sliding direction if it is "x" or "y".
     """
     scene = runs[0].scene
     times = pillar_map(runs, scene.pattern)
