@@ -67,7 +67,7 @@ def draw(ensembles: Ensembles) -> Figure:
     draw_no_lag(lag)
     friction.set_ylabel(FRICTION)
     friction.tick_params(labelbottom=False)
-    lag.set(xlabel="size of the pillars $n_p$", ylabel=LAG)
+    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=LAG)
     for ax, letter in zip((force, blocks, friction, lag), "abcd", strict=True):
         style.panel_letter(ax, letter, left=12.0, above=1.5)
     return picture
@@ -88,13 +88,13 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: Ensembles) -> None:
             time = float(np.mean(times))
             height = np.interp(time, curve.time, mean)
             force.plot(MICRO * time, height, **look, markerfacecolor=face, zorder=3)
+    force.plot([], [], color=GREY, **REST, label="fewer runs")
     force.add_artist(force.legend(loc="lower right", ncols=2))
     signs = [
         Line2D([], [], color=GREY, marker="o", linestyle="none", markerfacecolor=face, label=name)
         for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$"))
     ]
-    signs.append(Line2D([], [], color=GREY, **REST, label="fewer runs"))
-    force.legend(handles=signs, loc="upper left", handlelength=1.2)
+    force.legend(handles=signs, loc="upper left")
     force.set(ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
     force.tick_params(labelbottom=False)
     blocks.set_yscale("log")

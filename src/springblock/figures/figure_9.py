@@ -43,7 +43,7 @@ FIGURE = Declaration(
 
 _SHOWN = 0.6  #: share of the maximum from which the force is shown
 _FORCE, _BLOCKS = (15.0, 95.0), (130.0, 57.0)  #: left edge and width of the panels, mm
-_BELOW, _HEIGHT, _BETWEEN, _ABOVE = 11.0, 33.0, 5.0, 6.0
+_BELOW, _HEIGHT, _BETWEEN, _ABOVE = 11.0, 31.0, 5.0, 6.0
 
 
 @journal
@@ -88,6 +88,6 @@ def _share_axes(picture: Figure, curves: list[Curve]) -> None:
     span = enlarged_span(curves, _SHOWN)
     for force, blocks in zip(picture.axes[::2], picture.axes[1::2], strict=True):
         fit_forces(force, curves, span)
-        blocks.set_ylim(0.0, max(ax.dataLim.y1 for ax in picture.axes[1::2]))
+        blocks.set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in picture.axes[1::2]))
         for ax in (force, blocks):
             ax.set_xlim(span)

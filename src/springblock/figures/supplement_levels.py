@@ -87,4 +87,4 @@ def _draw_direction(
     ax.set(xlim=span, ylabel=FORCE)
     if curves:
         fit_forces(ax, list(curves.values()), span)
-        ax.legend(loc="lower left")
+        ax.legend(loc="lower left", bbox_to_anchor=(0.14, 0.0))

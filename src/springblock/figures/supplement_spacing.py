@@ -42,7 +42,7 @@ def draw(ensembles: Mapping[tuple[int, int], Runs]) -> Figure:
 
     `ensembles` holds runs by (n_p, n_s).
     """
-    picture, panels = stacked_panels("distance between the pillars $n_s$")
+    picture, panels = stacked_panels("distance between the pillars $n_s$ (blocks)")
     for n_p in sorted({n_p for n_p, _ in ensembles}):
         line = [(n_s, runs) for (size, n_s), runs in ensembles.items() if size == n_p]
         draw_series(panels, line, **pillar_look(n_p), label=pillar_name(n_p))
