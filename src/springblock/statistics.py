@@ -175,15 +175,14 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
     """
     cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
-    missing = [(0, len(time) - len(run.time)) for run in runs]
-    forces = [
-        np.pad(friction(run), gap, constant_values=np.nan)
-        for run, gap in zip(runs, missing, strict=True)
-    ]
-    shares = [
-        np.pad(percent(run, run.detachments), gap) for run, gap in zip(runs, missing, strict=True)
-    ]
-    return Curve(time, np.stack(forces), np.stack(shares))
+
+    def continued(curves: Iterable[Array], value: float) -> Array:
+        gaps = [(0, len(time) - len(run.time)) for run in runs]
+        pairs = zip(curves, gaps, strict=True)
+        return np.stack([np.pad(curve, gap, constant_values=value) for curve, gap in pairs])
+
+    forces = continued((friction(run) for run in runs), np.nan)
+    return Curve(time, forces, continued((percent(run, run.detachments) for run in runs), 0.0))
 
 
 def mean_of_rest(values: Array) -> Interval:

@@ -30,8 +30,8 @@ FIGURE = Declaration(
     caption=f"""a) Static friction, b) t_max - t_avg and c) prominence of the lesser load peak over
     the angle between the sliding direction and the grooves, 0 and 90 degrees in the paper. The
     prominence is how far the second most prominent load peak of a run stands out of the force
-    around it, over the largest force; 0 where there is one peak alone. Small dots: single runs;
-    large ones: means with {INTERVALS}.""",
+    around it, over the largest force, small waves included; 0 where there is one peak alone. Small
+    dots: single runs; large ones: means with {INTERVALS}.""",
     source=Realisations(groups=("grooves", "angles"), keys=("direction",), pick=one_pattern),
 )
 
