@@ -41,9 +41,9 @@ ENDS = """Each run ends by itself, after the first minimum behind its force maxi
     runs throughout."""
 
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
-_GROOVED: dict[str, tuple[str, Look]] = {
-    "x": ("along grooves", {"color": BLUE, "marker": "*", "markersize": 4.5}),
-    "y": ("across grooves", {"color": VERMILION, "marker": "h"}),
+_STRIPS: dict[str, Look] = {
+    "x": {"marker": "*", "markersize": 4.5},
+    "y": {"marker": "h"},
 }
 _MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 10: "s", 20: "D", 30: "P", 60: "X"}  #: by n_p
 _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
@@ -105,10 +105,10 @@ def draw_point(ax: Axes, x: float, interval: Interval, color: Any, **look: Any) 
     )
 
 
-def sliding(direction: str) -> str:
+def name_direction(direction: str) -> str:
     """Name a sliding direction on grooves that run along x."""
-    named = {"x": "sliding along grooves", "y": "sliding across grooves"}
-    return named.get(direction, f"sliding at {direction}° to grooves")
+    named = {"x": "along grooves", "y": "across grooves"}
+    return named.get(direction, f"at {direction}° to grooves")
 
 
 def direction_color(direction: str) -> str:
@@ -230,8 +230,8 @@ def surface_look(key: Key) -> tuple[str, Look]:
     """Name, colour and marker of a surface."""
     n_p, n_p2, direction = key
     if n_p2:
-        askew = (f"{direction}° to grooves", {"color": GREEN, "marker": "d"})
-        return _GROOVED.get(direction, askew)
+        look = {"color": direction_color(direction), **_STRIPS.get(direction, {"marker": "d"})}
+        return name_direction(direction), look
     return pillar_name(n_p), pillar_look(n_p)
 
 

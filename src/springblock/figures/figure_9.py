@@ -22,8 +22,8 @@ from springblock.figures.ensembles import (
     enlarged_span,
     fit_forces,
     mark_load_peaks,
+    name_direction,
     peaks_in_words,
-    sliding,
 )
 from springblock.figures.style import journal
 from springblock.statistics import Curve, whole_curve
@@ -34,16 +34,16 @@ FIGURE = Declaration(
     caption=f"""Friction force over the normal force, at the left, and share of first detachments in
     each bin, at the right, on pillars with grooves, for each sliding direction; a row for each
     width of pawls and grooves, n_p2/n_s2. Thin lines: single runs; thick ones: means with
-    {INTERVALS}. The panels begin where the force has reached 60 % of its maximum; before, it grows
+    {INTERVALS}. The panels begin where a force has reached 80 % of its maximum; before, it grows
     with time. {ENDS} Triangles are load peaks of the mean as long as all runs go on: those that
     stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
     Figure 9 of the paper, which does not give its sizes.""",
     source=Realisations(groups=("grooves",), keys=("n_p2", "n_s2", "direction")),
 )
 
-_SHOWN = 0.6  #: share of the maximum from which the force is shown
+_SHOWN = 0.8  #: share of the maximum from which the force is shown
 _FORCE, _BLOCKS = (15.0, 95.0), (130.0, 57.0)  #: left edge and width of the panels, mm
-_BELOW, _HEIGHT, _BETWEEN, _ABOVE = 11.0, 31.0, 5.0, 6.0
+_BELOW, _HEIGHT, _BETWEEN, _ABOVE = 11.0, 31.0, 6.5, 6.0
 
 
 @journal
@@ -75,12 +75,13 @@ def _draw_row(force: Axes, blocks: Axes, row: tuple[int, int], curves: Mapping[s
     for direction, curve in curves.items():
         color = direction_color(direction)
         draw_runs(force, curve, color)
-        draw_force(force, curve, color, f"{sliding(direction)}: {peaks_in_words(curve)}")
+        draw_force(force, curve, color, f"{name_direction(direction)}: {peaks_in_words(curve)}")
         mark_load_peaks(force, curve, color)
         draw_detachments(blocks, curve, color)
     force.set_ylabel(FORCE)
+    force.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
     name = f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}"
-    force.legend(loc="lower center", title=name)
+    force.text(0.02, 0.94, name, transform=force.transAxes, va="top")
 
 
 def _share_axes(picture: Figure, curves: list[Curve]) -> None:

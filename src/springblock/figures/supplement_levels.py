@@ -20,8 +20,8 @@ from springblock.figures.ensembles import (
     enlarged_span,
     fit_forces,
     mark_load_peaks,
+    name_direction,
     peaks_in_words,
-    sliding,
 )
 from springblock.figures.style import GREEN, PURPLE, journal
 from springblock.scene import Scene
@@ -68,7 +68,7 @@ def draw(ensembles: Mapping[tuple[str, int], Runs]) -> Figure:
         ax = style.axes(picture, left, bottom, width, height)
         shown = {level: curve for (name, level), curve in curves.items() if name == direction}
         _draw_direction(ax, direction, shown, span)
-        ax.set_title(sliding(direction), loc="right", pad=3.0)
+        ax.set_title(f"sliding {name_direction(direction)}", loc="right", pad=3.0)
         style.panel_letter(ax, letter, left=12.0, above=1.5)
     upper, lower = picture.axes
     upper.tick_params(labelbottom=False)
