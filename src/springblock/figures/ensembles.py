@@ -35,10 +35,10 @@ Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the m
 Look = dict[str, Any]  #: of a line or of markers
 
 #: What captions say of curves that `draw_force` and `draw_detachments` draw.
-ENDS = """Each run ends by itself, after the first minimum behind its force maximum. From where the
-    first has ended the force is dotted, the mean over those that go on, and it ends with half of
-    them; blocks detach for the first time in no run that has ended, so these shares are of all
-    runs throughout."""
+ENDS = """Runs end after a set time, or after the first minimum behind their force maximum. From
+    where the first has ended the force is dotted, the mean over those that go on, and it ends with
+    half of them; no block is left to detach for the first time in a run that has ended, so these
+    shares are of all runs throughout."""
 
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
 _STRIPS: dict[str, Look] = {
