@@ -7,24 +7,35 @@ the command line and the workflow learn all else from its declaration.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol
 
 from springblock.figures.caption import material_in_words, sample_in_words, surface_in_words
 from springblock.material import Material
 from springblock.scene import Scene
 
-if TYPE_CHECKING:  # it brings the solver
-    from springblock.study import Ensemble
-
 Category = Literal["Figures", "Supplement", "Accuracy"]
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
-Ensembles = Mapping[str, Sequence["Ensemble"]]  #: of a study by group
 
 #: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
 INTERVALS = "95 % bootstrap intervals over realisations"
 CORRELATION_INTERVALS = "95 % bootstrap intervals over realisations"
+
+
+class Ensemble(Protocol):
+    """What figures know of `study.Ensemble`, which would bring the solver into their digest."""
+
+    @property
+    def scene(self) -> Scene:
+        """What is simulated."""
+
+    @property
+    def seeds(self) -> range:
+        """Seeds of its realisations."""
+
+
+Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 
 class Need(NamedTuple):
