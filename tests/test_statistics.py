@@ -10,14 +10,17 @@ from springblock import Pattern
 from springblock.statistics import (
     common_curve,
     half_widths,
+    lesser_peak,
     load_peak_number,
     load_peaks,
     mean_interval,
+    mean_of_rest,
     pillar_map,
     pillar_ring,
     ratio_interval,
     repeatability,
     standard_error,
+    whole_curve,
 )
 
 
@@ -69,6 +72,36 @@ def test_curves_end_with_the_shortest_run():
     np.testing.assert_array_equal(curve.time, 0.5 * np.arange(12))
     np.testing.assert_allclose(curve.friction, np.arange(12) / np.array([[2.0], [4.0]]))
     assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+
+
+def test_a_whole_curve_ends_with_the_longest_run():
+    """A run that has ended has no force, and no block is left that could detach."""
+    runs = [run(21), run(12, normal_force=4.0)]
+    curve, common = whole_curve(runs), common_curve(runs)
+    np.testing.assert_array_equal(curve.time, runs[0].time)
+    np.testing.assert_array_equal(curve.friction[:, :12], common.friction)
+    assert np.isfinite(curve.friction[0]).all()
+    assert np.isnan(curve.friction[1, 12:]).all()
+    assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+    assert not curve.detachments[1, 12:].any()
+
+
+def test_a_mean_goes_on_over_the_runs_that_are_left(rng):
+    """As long as half of them are."""
+    values = rng.normal(size=(4, 5))
+    values[0, 2:] = values[1, 3:] = values[2, 4:] = np.nan
+    mean, low, high = mean_of_rest(values)
+    for part, whole in zip((mean, low, high), mean_interval(values[:, :2]), strict=True):
+        np.testing.assert_array_equal(part[:2], whole)
+    np.testing.assert_allclose(mean[2:4], [values[1:, 2].mean(), values[2:, 3].mean()])
+    assert ((low < mean) & (mean < high))[:4].all()
+    assert np.isnan([mean[4], low[4], high[4]]).all()
+
+
+def test_the_lesser_peak_is_measured_from_the_valley():
+    assert lesser_peak(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
+    assert lesser_peak(np.array([0.0, 10.0, 0.0])) == 0.0
+    assert lesser_peak(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
 
 
 def test_bins_hold_whole_samples_and_every_detachment_once():

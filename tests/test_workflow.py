@@ -112,6 +112,7 @@ def test_the_report_says_of_each_figure_what_it_declares(study, tmp_path):
     report = (tmp_path / "report.html").read_text()
     for name in FIGURES:
         assert f'"caption": "<p>{declarations()[name].caption[:60]}' in report
+    assert "N = 12, sliding direction x. Flat (seeds 0 to 2)." in report  # and what it draws from
 
 
 def test_the_table_holds_every_realisation_once(study):

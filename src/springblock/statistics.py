@@ -142,10 +142,10 @@ def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Force and detachments of k realisations, as long as the shortest of them."""
+    """Force and detachments of k realisations."""
 
     time: Array  #: (n,) s
-    friction: Array  #: (k, n) force over P l² N²
+    friction: Array  #: (k, n) force over P l² N², NaN after the end of a run
     detachments: Array  #: (k, n) first detachments since the sample before, % of all of the run
 
     def binned(self, width: float) -> tuple[Array, Array]:
@@ -165,6 +165,38 @@ def common_curve(runs: Sequence[Run]) -> Curve:
     time, forces = cut(runs, [friction(run) for run in runs])
     _, shares = cut(runs, [percent(run, run.detachments) for run in runs])
     return Curve(time, forces, shares)
+
+
+def whole_curve(runs: Sequence[Run]) -> Curve:
+    """Force and detachments of an ensemble up to the end of its longest run.
+
+    After its end a run has no force, but it has first detachments: none, since `percent` counts
+    shares of those that the run has seen, which are all there are once everything slides.
+    """
+    cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
+    time = max((run.time for run in runs), key=len)
+
+    def continued(curves: Iterable[Array], value: float) -> Array:
+        gaps = [(0, len(time) - len(run.time)) for run in runs]
+        pairs = zip(curves, gaps, strict=True)
+        return np.stack([np.pad(curve, gap, constant_values=value) for curve, gap in pairs])
+
+    forces = continued((friction(run) for run in runs), np.nan)
+    return Curve(time, forces, continued((percent(run, run.detachments) for run in runs), 0.0))
+
+
+def mean_of_rest(values: Array) -> Interval:
+    """Mean and interval over those of k runs, (k, n), that go on; (n,). NaN follows their ends.
+
+    NaN, too, where fewer than half of the runs go on: what is left are the slowest.
+    """
+    goes_on = np.isfinite(values)
+    left = goes_on.sum(axis=0)
+    result = np.full((3, values.shape[1]), np.nan)
+    for number in np.unique(left[2 * left >= len(values)]):
+        here = left == number
+        result[:, here] = mean_interval(values[goes_on[:, here].all(axis=1)][:, here])
+    return Interval(*result)
 
 
 def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
@@ -211,6 +243,18 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
 
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
+
+
+def lesser_peak(curve: Array) -> float:
+    """How far the second most prominent load peak of a force curve, (n,), stands out.
+
+    Its prominence over the largest force, 0 where one peak alone reaches `_LOAD_PEAK` of it.
+    """
+    from scipy.signal import find_peaks  # as above
+
+    highest = curve.max()
+    found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)[1]["prominences"]
+    return float(np.sort(found)[-2] / highest) if len(found) > 1 else 0.0
 
 
 def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:

@@ -1,5 +1,6 @@
 """What figures declare, what follows for a study, and the command that draws by it."""
 
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -16,7 +17,7 @@ from snakemake.utils import update_config
 
 import springblock
 from figures.test_ensembles import NORMAL_FORCE, SIZE, record
-from springblock import figures, study
+from springblock import Material, figures, study
 from springblock.cli import main
 from springblock.commands.figure import ensembles
 from springblock.figures.declaration import Category, Need
@@ -88,12 +89,12 @@ GROUPS = {
         ("figure_2", [FLAT]),
         ("figure_5", [LARGE]),
         ("figure_6", [FLAT, SMALL, LARGE]),
-        ("figure_9", [ALONG, ACROSS]),
+        ("figure_9", [ALONG, ACROSS, OTHER]),
         ("supplement_spacing", [LARGE, WIDE, Scene(120, 20, 4)]),
         ("supplement_size", [FLAT, Scene(240), LARGE, Scene(240, 20, 20)]),
         ("supplement_angle", [OTHER, ASKEW]),
         ("supplement_levels", [ALONG, ACROSS, CUT]),
-        ("supplement_restick", [FLAT, UPWARDS, SMALL, LARGE, ALONG, ACROSS, OTHER]),
+        ("supplement_restick", [FLAT, UPWARDS, SMALL, LARGE, ALONG, ACROSS]),
     ],
 )
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
@@ -101,11 +102,91 @@ def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
     assert FIGURES[name].source.needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
 
 
+def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
+    """Grooved surfaces of other sizes, and with them the one that they are compared with."""
+    large = Scene(240, 58, 62, 10, 2)
+    source = FIGURES["supplement_size"].source
+    needs = source.needs(GROUPS | {"size_grooves": [large]}, {})
+    assert [need.scene for need in needs][-2:] == [OTHER, large]
+
+
+def test_levels_are_compared_on_the_pattern_that_has_both():
+    groups = GROUPS | {"grooves": [OTHER, ALONG, ACROSS]}
+    needs = FIGURES["supplement_levels"].source.needs(groups, {})
+    assert [need.scene for need in needs] == [ALONG, ACROSS, CUT]
+
+
 def test_figures_need_no_more_tables_than_they_show():
     assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
     tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
     assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
     assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
+
+
+def test_figure_8_holds_a_gap_between_two_pillars():
+    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
+    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 240 --n-p 58")
+    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")
+    assert (
+        FIGURES["figure_4"].source.options(120, {"n_p": 2, "n_s": 2}).startswith("--n-blocks 120")
+    )
+
+
+@pytest.mark.parametrize(("config", "groups"), [PAPER, QUICK])
+def test_captions_say_what_a_study_draws(config, groups):
+    """Whatever the grid holds: every figure of scenes names N, each length, seeds and material."""
+    known, material = study.ensembles(config), Material(**config["material"])
+    for name, declared in FIGURES.items():
+        if not declared.is_part_of(groups):
+            continue
+        lengths = config["figures"].get(name, {})
+        caption = declared.caption_in(known, lengths, material)
+        assert caption.startswith(declared.caption)
+        assert caption.endswith(".")
+        assert not set("{}") & set(caption)
+        for need in declared.source.needs(groups, lengths):
+            for key, length in need.scene.lengths.items() if need.scene else ():
+                assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
+            if need.scene:
+                assert f"N = {need.scene.n_blocks}" in caption or "N = 60, 120, 240" in caption
+                assert "Material of the paper." in caption
+
+
+def test_a_caption_follows_the_grid():
+    """Scenes with the same seeds stand together; what all share stands in front."""
+    ensembles = {
+        "flat": [study.Ensemble(FLAT, range(7, 8), None)],
+        "pillars": [study.Ensemble(scene, range(20), None) for scene in (LARGE, SMALL)],
+    }
+    source = FIGURES["figure_6"].source
+    assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
+        "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
+        "(seeds 0 to 19). Material of the paper, but pressure = 100000."
+    )
+    one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
+    assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."
+    ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
+    assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
+        "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
+        "(seeds 0 to 3). Material of the paper."
+    )
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png", "svg"])
+def test_a_picture_keeps_its_caption(suffix, tmp_path):
+    """The general one, or the one that the workflow fills, which the report shows, too."""
+    for caption, options in (
+        ("The model: a) the mesh", []),
+        ("Two levels.", ["--caption", "Two levels."]),
+    ):
+        output = tmp_path / f"figure.{suffix}"
+        arguments = ["figure", "figure_1", *options, "--output", str(output)]
+        assert CliRunner().invoke(main, arguments).exit_code == 0
+        content = output.read_bytes()
+        assert (
+            caption.encode() in content
+            or caption.replace("(", "\\(").replace(")", "\\)").encode() in content
+        )
 
 
 def batch(path: Path, run: Record) -> Path:

@@ -6,10 +6,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from springblock import Pattern
 from springblock.figures import figure_5, figure_6, figure_9
+from springblock.figures.ensembles import pillar_look
 from springblock.scene import Scene
 from springblock.tables import Record
 
@@ -53,7 +55,12 @@ def ensemble(*peaks: float, runs: int = 4) -> list[Record]:
 
 
 def along_and_across(runs: int = 4):
-    return {"x": ensemble(80e-6, 110e-6, runs=runs), "y": ensemble(100e-6, runs=runs)}
+    """Two configurations of grooves, one of which was slid along them alone."""
+    return {
+        (8, 2, "x"): ensemble(80e-6, 110e-6, runs=runs),
+        (8, 2, "y"): ensemble(100e-6, runs=runs),
+        (4, 2, "x"): ensemble(90e-6, runs=runs),
+    }
 
 
 def sizes(runs: int = 4):
@@ -125,9 +132,60 @@ def test_figure_6_shows_every_size_and_marks_both_times():
     assert shown[1][1] == pytest.approx(100.0 - 1e6 * np.mean([r.t_avg for r in ensemble(100e-6)]))
 
 
+def marked(ax) -> list[float]:
+    """Times of the triangles of a panel, µs."""
+    return [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
+
+
 def test_figure_9_marks_the_load_peaks_of_the_data():
-    names = list(lines(drawn("figure_9").axes[0]))
-    assert names == ["sliding along grooves: 2 load peaks", "sliding across grooves: 1 load peak"]
-    for ax in drawn("figure_9").axes[0], drawn("figure_9").axes[2]:
-        peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
-        assert peaks == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
+    """A row for each configuration, in order of their pawls."""
+    narrow, _, wide, _ = drawn("figure_9").axes
+    names = ["along grooves: 2 load peaks", "across grooves: 1 load peak"]
+    assert [text.get_text() for text in wide.get_legend().get_texts()] == names
+    assert marked(wide) == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
+    assert marked(narrow) == pytest.approx([90.0], abs=0.5)
+    assert ["8/2" in text.get_text() for text in wide.texts].count(True) == 1
+
+
+def test_figure_9_shows_every_single_run():
+    wide = drawn("figure_9").axes[2]
+    thin = [line.get_xydata() for line in wide.get_lines() if line.get_linewidth() == 0.3]
+    for runs, shown in ((ensemble(80e-6, 110e-6), thin[:4]), (ensemble(100e-6), thin[4:])):
+        for run, line in zip(runs, shown, strict=True):
+            ended = np.isnan(line[:, 1])
+            assert len(run.time) == np.count_nonzero(~ended)
+            np.testing.assert_allclose(line[~ended, 1], run.force / NORMAL_FORCE)
+
+
+def test_curves_go_on_past_the_shortest_run():
+    """Solid while all runs go on, dotted and over the rest of them as long as half are left."""
+    runs = ensemble(100e-6)  # they end after 700, 697, 694 and 691 samples
+    force, blocks = (drawn("figure_6").axes[i] for i in (0, 1))
+    solid = lines(force)["$n_p$ = 6"]
+    (dotted,) = (
+        line.get_xydata()
+        for line in force.get_lines()
+        if line.get_linestyle() == "--"
+        and len(line.get_xydata()) > 1
+        and np.array_equal(line.get_xydata()[0], solid[-1])
+    )
+    assert len(solid) == 691
+    shown = dotted[np.isfinite(dotted[:, 1])]
+    assert len(solid) + len(shown) - 1 == 697
+    rest = np.mean([run.force[691:697] / NORMAL_FORCE for run in runs[:2]], axis=0)
+    np.testing.assert_allclose(shown[-3:, 1], rest[-3:])
+    for steps, n_p in zip(blocks.patches, sizes(), strict=True):
+        shares = steps.get_data()
+        assert shares.edges[-1] == pytest.approx(138.0)  # whole bins of the longest run
+        late = np.mean(
+            [np.sum(r.t_det > 138e-6) / np.isfinite(r.t_det).sum() for r in sizes()[n_p]]
+        )
+        assert shares.values.sum() == pytest.approx(100.0 * (1.0 - late), abs=0.01)
+
+
+def test_pillars_look_the_same_wherever_they_are_drawn():
+    """Neighbouring sizes differ in their marker, and in lightness for those who see no colour."""
+    looks = [pillar_look(n_p) for n_p in (0, 2, 3, 4, 5, 6, 10, 20, 30, 60)]
+    assert len({look["marker"] for look in looks}) == len(looks)
+    grey = [np.dot(to_rgb(look["color"]), (0.299, 0.587, 0.114)) for look in looks]
+    assert (np.diff(grey) > 0.0).all()

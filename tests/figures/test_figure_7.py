@@ -99,6 +99,23 @@ def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
             np.testing.assert_allclose(line[:, 1], np.exp(-line[:, 0] / (1.1 * length)))
 
 
+def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
+    """Its A lies on the points: here they are exp(-r/3), which any other length tilts."""
+    curves, _ = drawn("figure_7").axes
+    dashed = [line.get_xydata() for line in curves.get_lines() if line.get_linestyle() == "--"]
+    shown = [line for line in dashed if len(line) > 25]
+    assert [(line[0, 0], line[-1, 0]) for line in shown] == [(1.0, 5.0)] * 2
+    tail, r = 1.1 * LENGTH["x"] + 1.0, np.arange(1, 6)
+    c, decay = np.exp(-r / LENGTH["x"]), np.exp(-r / tail)
+    best = (c @ decay) / (decay @ decay)
+    np.testing.assert_allclose(shown[0][:, 1], best * np.exp(-shown[0][:, 0] / tail))
+    smallest, _ = drawn("figure_7 of the smallest pillars").axes
+    lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
+    assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
+    names = [text.get_text() for text in curves.get_legend().get_texts()]
+    assert names[-2:] == [r"$\exp(-r/l_c)$", r"$A\,$$\exp(-r/l_c)$"]
+
+
 def test_the_inset_shows_the_lengths_along_x_with_their_intervals():
     _, inset = drawn("figure_7").axes
     fitted, tail = inset.containers

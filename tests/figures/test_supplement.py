@@ -34,7 +34,8 @@ def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
         return ensemble(friction, *(peaks or (110e-6,)), runs=runs)
 
     lengths = {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)}
-    sizes = {(0, 0, 60): some(0.8), (0, 0, 120): some(0.79), (20, 20, 80): some(0.7)}
+    sizes = {(0, 0, "x", 60): some(0.8), (0, 0, "x", 120): some(0.79)}
+    sizes |= {(20, 0, "x", 80): some(0.7), (58, 8, "y", 120): some(0.72)}
     levels = {
         ("x", 2): some(0.7, 80e-6, 110e-6),
         ("x", 3): some(0.7, 90e-6, 110e-6),
@@ -66,7 +67,8 @@ def drawn(name: str, runs: int = 6) -> Figure:
 def test_panels_carry_letters_and_axes_say_what_they_show(name):
     texts = [text.get_text() for text in drawn(name).findobj(Text)]
     letters = sorted(text for text in texts if text[1:] == ")")
-    assert letters == (["a)", "b)"] if len(drawn(name).axes) > 1 else [])
+    panels = len(drawn(name).axes)
+    assert letters == (["a)", "b)", "c)"][:panels] if panels > 1 else [])
     assert all(ax.get_ylabel() for ax in drawn(name).axes)
     assert drawn(name).axes[-1].get_xlabel()
 
@@ -85,7 +87,7 @@ def lines(ax: Axes) -> list[np.ndarray]:
     ],
 )
 def test_lines_go_through_the_means(name, line, expected):
-    friction, lag = drawn(name).axes
+    friction, lag = drawn(name).axes[:2]
     np.testing.assert_allclose(lines(friction)[line], expected)
     expected_lag = 1e6 * np.mean([run.t_max - run.t_avg for run in ensemble(0.8, 110e-6, runs=6)])
     np.testing.assert_allclose(lines(lag)[line][:, 1], expected_lag)
@@ -95,6 +97,19 @@ def test_each_level_has_its_load_peaks_marked():
     for ax, expected in zip(drawn("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
         peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
         assert peaks == pytest.approx(expected, abs=0.6)
+
+
+def test_the_lesser_peak_is_shown_run_by_run():
+    """Two hills alike, then one alone: what stands out is the valley, or nothing."""
+    *_, lesser = drawn("angle").axes
+    assert lesser.get_ylabel() == "lesser peak (% of force)"
+    dots = [line.get_xydata() for line in lesser.get_lines() if line.get_marker() == "."]
+    assert [len(runs) for runs in dots] == [6, 6, 6]
+    assert not np.concatenate(dots)[:, 1].any()
+    twin = supplement_angle.draw({"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)})
+    along, across = lines(twin.axes[2])[0]
+    assert along[1] > 80.0  # both hills rise from almost nothing
+    assert across[1] == 0.0
 
 
 def test_intervals_narrow_with_the_root_of_the_number():

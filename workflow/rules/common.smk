@@ -8,7 +8,7 @@ from shlex import quote
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import sources, study
+from springblock import Material, sources, study
 from springblock.figures import declarations
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
@@ -86,3 +86,9 @@ def needed(figure):
             yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:
             yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
+
+
+def caption(figure):
+    """What a figure shows, and what of this study it is drawn from."""
+    lengths = config["figures"].get(figure, {})
+    return FIGURES[figure].caption_in(ENSEMBLES, lengths, Material(**config["material"]))

@@ -26,9 +26,9 @@ for figure, declared in FIGURES.items():
             code=sources.digest("springblock.commands.figure", f"springblock.figures.{figure}"),
             figure=figure,
             options=declared.source.options(config["n_blocks"], config["figures"].get(figure, {})),
-            caption=declared.caption,
+            caption=caption(figure),
         message:
             f"Drawing {figure}: {declared.title}"
         shell:
             "springblock figure {params.figure} {params.options} {input:q} "
-            "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
+            "--caption {params.caption:q} --output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"

@@ -65,6 +65,7 @@ _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[
 _OUTPUTS = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
 )
+_CAPTION = click.option("--caption", help="Kept with the picture; by default the general one.")
 
 
 class _Figures(click.Group):
@@ -80,15 +81,15 @@ class _Figures(click.Group):
         declared = figures[cmd_name]
         takes, given = _SOURCES[type(declared.source)]
 
-        def write(outputs: Paths, **inputs: Any) -> None:
+        def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
             draw = import_module(f"springblock.figures.{cmd_name}").draw
             with one_sentence():
                 picture = draw(*given(declared.source, **inputs))
                 for output in outputs:
-                    save(picture, output)
+                    save(picture, output, caption or declared.caption)
 
         command = click.command(cmd_name, help=declared.caption, short_help=declared.title)
-        return command(with_options([*takes, _OUTPUTS], write))
+        return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
 
 
 @click.group("figure", cls=_Figures, subcommand_metavar="NAME [INPUTS]... --output FILE")

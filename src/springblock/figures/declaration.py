@@ -7,14 +7,35 @@ the command line and the workflow learn all else from its declaration.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol
 
+from springblock.figures.caption import material_in_words, sample_in_words, surface_in_words
+from springblock.material import Material
 from springblock.scene import Scene
 
 Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
+
+#: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
+INTERVALS = "95 % bootstrap intervals over realisations"
+CORRELATION_INTERVALS = "95 % bootstrap intervals over realisations"
+
+
+class Ensemble(Protocol):
+    """What figures know of `study.Ensemble`, which would bring the solver into their digest."""
+
+    @property
+    def scene(self) -> Scene:
+        """What is simulated."""
+
+    @property
+    def seeds(self) -> range:
+        """Seeds of its realisations."""
+
+
+Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 
 class Need(NamedTuple):
@@ -30,6 +51,7 @@ class Source:
     """What a figure is drawn from; this one needs nothing."""
 
     groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
+    also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
         """Return the tables that `draw` is given, in the order in which the command takes them."""
@@ -39,13 +61,33 @@ class Source:
         """Return what the command takes beside tables."""
         return ""
 
+    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        """Return what it is in a study, in whole sentences: surfaces, seeds and material."""
+        groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
+        known = {e.scene: e.seeds for members in ensembles.values() for e in members}
+        sample = {
+            need.scene: known[need.scene] if need.batches is None else known[need.scene][:1]
+            for need in self.needs(groups, lengths)
+            if need.scene
+        }
+        return f"{sample_in_words(sample)} {material_in_words(material)}" if sample else ""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Surface(Source):
-    """A pattern with the lengths that the configuration gives under the figure's name."""
+    """A pattern with the lengths that the configuration gives under the figure's name.
+
+    It is as large as the study's surfaces, or as it must be to hold so many `pillars` each way.
+    """
+
+    pillars: int = 1
 
     def options(self, n_blocks: int, lengths: Lengths) -> str:
-        return Scene(n_blocks, **lengths).arguments
+        needed = self.pillars * (lengths["n_p"] + lengths["n_s"])
+        return Scene(max(n_blocks, needed), **lengths).arguments
+
+    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        return f"Drawn with {surface_in_words(lengths)}."
 
 
 @dataclass(frozen=True)
@@ -68,10 +110,10 @@ class Realisations(Source):
 
     keys: tuple[str, ...] = ()
     pick: Callable[..., Iterable[Scene]] = chain  #: given the scenes of each group
-    batches: int | None = None  #: that are enough, from the first seed on; None for all
+    batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        picked = self.pick(*(groups[group] for group in self.groups))
+        picked = self.pick(*(groups.get(group, []) for group in self.groups + self.also))
         scenes = first_of_each(self.keys, having(lengths, picked))
         return [Need("realisations", scene, self.batches) for scene in scenes]
 
@@ -99,6 +141,10 @@ class Declaration:
     def __post_init__(self) -> None:
         object.__setattr__(self, "caption", " ".join(self.caption.split()))
 
+    def caption_in(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        """Return the caption, and after it what the figure is drawn from in a study."""
+        return f"{self.caption} {self.source.in_words(ensembles, lengths, material)}".strip()
+
     def is_part_of(self, groups: Groups) -> bool:
         """Whether a study has all groups of scenes that the figure is drawn from."""
         return all(groups.get(group) for group in self.source.groups)
@@ -116,6 +162,11 @@ def first_of_each(keys: Sequence[str], scenes: Iterable[Scene]) -> list[Scene]:
     for scene in scenes:
         first.setdefault(tuple(getattr(scene, key) for key in keys), scene)
     return list(first.values())
+
+
+def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
+    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
+    return [*flat, *pillars, *one_pattern(grooves)]
 
 
 def one_pattern(*groups: Scenes) -> list[Scene]:

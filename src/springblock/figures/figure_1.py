@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Source
-from springblock.figures.style import BLACK, BLUE, CONTACT, GREY, NO_CONTACT, VERMILION, journal
+from springblock.figures.style import BLACK, CONTACT, GREY, NO_CONTACT, journal
 from springblock.figures.surface import Axis, arrow, dimension
 from springblock.pattern import Pattern
 
@@ -46,8 +46,8 @@ _SLAB = 0.4  #: height of slider and substrate
 _DRAG = 0.25  #: how far the slider has run ahead of the blocks
 _SWING, _LEAD, _TURNS = 0.08, 0.23, 5  #: of a spring: half width, straight ends, turns per l
 
-_AXIAL: dict[str, Any] = {"colors": BLUE, "linewidths": 0.9}
-_DIAGONAL: dict[str, Any] = {"colors": VERMILION, "linewidths": 0.6}
+_AXIAL: dict[str, Any] = {"colors": BLACK, "linewidths": 0.9}
+_DIAGONAL: dict[str, Any] = {"colors": GREY, "linewidths": 0.6}
 _SHEAR: dict[str, Any] = {"colors": BLACK, "linewidths": 0.7}
 
 

@@ -13,7 +13,7 @@ from matplotlib.patheffects import Normal, Stroke
 
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Realisations
-from springblock.figures.style import BLACK, BLUE, MICRO, journal
+from springblock.figures.style import BLACK, GREY, MICRO, journal
 from springblock.figures.surface import arrow
 from springblock.run import Array, Run, friction, percent
 from springblock.statistics import cut
@@ -33,7 +33,7 @@ _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that are enlarged
 _COLUMNS = ((16.0, 82.0), (116.0, 71.0))  #: left edge and width of the panels, mm
 _ROWS = ((53.0, 37.0), (11.0, 37.0))  #: lower edge and height
 _CASED = [Stroke(linewidth=1.6, foreground="white"), Normal()]  #: visible on any ground
-_MEAN: dict[str, Any] = {"color": BLACK, "linewidth": 0.7, "linestyle": (0, (4, 2))}
+_MEAN: dict[str, Any] = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
 @journal
@@ -81,7 +81,7 @@ def _draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, fl
         name = f"{_BAND[0]:g}–{_BAND[1]:g} % of {len(others)} other runs"
         ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
         ax.plot(MICRO * time, forces.mean(axis=0), label="their mean", **_MEAN)
-    ax.plot(MICRO * run.time, friction(run), color=BLUE, label="one run")
+    ax.plot(MICRO * run.time, friction(run), color=BLACK, label="one run")
     shown = np.concatenate([_within(span, each) for each in (run, *others)])
     room = 0.08 * float(np.ptp(shown))
     ax.set_ylim(max(0.0, float(shown.min()) - room), float(shown.max()) + room)
@@ -99,7 +99,7 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     floor = 0.6 * float(percent(run, np.array([1]))[0])
     for counts, color, name in (
         (run.switches, "0.75", "rest to sliding"),
-        (run.detachments, BLUE, "of these, for the first time"),
+        (run.detachments, BLACK, "of these, for the first time"),
     ):
         share = percent(run, counts[1:])  # in the interval that ends at the sample
         edges = MICRO * run.time

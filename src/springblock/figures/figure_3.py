@@ -6,14 +6,14 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.colors import CenteredNorm, LinearSegmentedColormap
+from matplotlib.colors import CenteredNorm
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Realisations
-from springblock.figures.style import NO_CONTACT, journal
+from springblock.figures.style import BEFORE_AFTER, NO_CONTACT, journal
 from springblock.run import Array, Run
 
 FIGURE = Declaration(
@@ -25,11 +25,6 @@ FIGURE = Declaration(
     source=Realisations(groups=("flat",), batches=1),
 )
 
-#: Blue before t_max, red after it. The blue end is darker than the red one, so that in shades of
-#: grey, too, the precursors are the darkest spots.
-_BEFORE_AFTER = LinearSegmentedColormap.from_list(
-    "before_after", ["#08306B", "#2A6FB5", "#8DBBE0", "#FFFFFF", "#F6B69B", "#E0654F", "#C8322F"]
-).with_extremes(bad=NO_CONTACT)
 _ROBUST = (1.0, 99.0)  #: percentiles of the times that the colours cover
 
 
@@ -41,7 +36,7 @@ def draw(runs: Sequence[Run]) -> Figure:
     picture = style.figure(style.COLUMN, 99.0 if has_grey else 95.0)
     ax = style.axes(picture, 13.5, 24.0, 69.0, 69.0)
     norm = CenteredNorm(1.0, _half_range(times))
-    image = ax.imshow(times, cmap=_BEFORE_AFTER, norm=norm, origin="lower", interpolation="nearest")
+    image = ax.imshow(times, cmap=BEFORE_AFTER, norm=norm, origin="lower", interpolation="nearest")
     ax.set(xlabel="$x/l$", ylabel="$y/l$")
     if has_grey:
         grey = Patch(color=NO_CONTACT, label="not in contact")

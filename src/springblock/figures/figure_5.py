@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from springblock.figures import style
-from springblock.figures.declaration import Declaration, Realisations
+from springblock.figures.declaration import INTERVALS, Declaration, Realisations
 from springblock.figures.ensembles import BAR
-from springblock.figures.style import BLACK, BLUE, GREY, VERMILION, journal
+from springblock.figures.style import BEFORE_AFTER, BLACK, BLUE, GREY, VERMILION, journal
 from springblock.figures.surface import Axis, draw_sliding
 from springblock.run import Array
 from springblock.statistics import mean_interval, pillar_map, pillar_ring
@@ -25,10 +26,10 @@ if TYPE_CHECKING:
 FIGURE = Declaration(
     title="First detachment times on one pillar",
     category="Figures",
-    caption="""First detachment times t_det over t_max on one pillar, means over all pillars and
-    realisations: a) by place on the pillar, b) by part of each ring of blocks from the edge to the
-    middle, with 95 % bootstrap intervals over realisations. Figure 5 of the paper; b) is an
-    addition.""",
+    caption=f"""First detachment times t_det over t_max on one pillar, means over all pillars and
+    realisations: a) by place on the pillar, blue before the force maximum and red after it, on a
+    scale of its own for each; b) by part of each ring of blocks from the edge to the middle, with
+    {INTERVALS}. Figure 5 of the paper; b) is an addition.""",
     source=Realisations(groups=("pillars",)),
 )
 
@@ -45,8 +46,8 @@ _PARTS = {
 def draw(runs: "Sequence[Record]") -> Figure:
     """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
 
-    Means over all pillars and `runs`, which share one scene; bars are 95 % bootstrap intervals
-    over runs. An arrow shows the sliding direction if it is "x" or "y".
+    Means over all pillars and `runs`, which share one scene; bars are 95 % intervals. An arrow
+    shows the sliding direction if it is "x" or "y".
     """
     scene = runs[0].scene
     times = pillar_map(runs, scene.pattern)
@@ -61,7 +62,8 @@ def draw(runs: "Sequence[Record]") -> Figure:
 
 def _draw_map(picture: Figure, times: Array, direction: str) -> None:
     ax = style.axes(picture, 13.0, 11.0, 54.0, 54.0)
-    image = ax.imshow(times, cmap="viridis", origin="lower", interpolation="nearest")
+    norm = TwoSlopeNorm(1.0, min(times.min(), 0.999), max(times.max(), 1.001))
+    image = ax.imshow(times, BEFORE_AFTER, norm=norm, origin="lower", interpolation="nearest")
     ax.set(xlabel="$x_p/l$", ylabel="$y_p/l$")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_locator(MaxNLocator(6, integer=True, steps=[1, 2, 5, 10]))

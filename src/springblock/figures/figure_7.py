@@ -3,7 +3,7 @@
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from springblock.figures import style
-from springblock.figures.declaration import Correlations, Declaration
+from springblock.figures.declaration import CORRELATION_INTERVALS, Correlations, Declaration
 from springblock.figures.ensembles import BAR
 from springblock.figures.style import BLUE, GREY, VERMILION, journal
 
@@ -21,11 +21,12 @@ if TYPE_CHECKING:  # read by the command, and only then
 FIGURE = Declaration(
     title="Correlation of detachments on pillars",
     category="Figures",
-    caption="""Correlation of first detachment times along the sides of a pillar, from the middle of
-    the side, sliding along x: c_x on sides along x, c_y on sides along y. Lines: exp(-r/l_c),
-    dotted beyond the range of the fit. Inset: l_c of c_x over the size of the pillars; open: fits
-    of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are 95 % bootstrap
-    intervals over realisations. Figure 7 of the paper; the open points are an addition.""",
+    caption=f"""Correlation of first detachment times along the sides of a pillar, from the middle
+    of the side, sliding along x: c_x on sides along x, c_y on sides along y. Solid: exp(-r/l_c),
+    which is 1 at r = 0, dotted beyond the range of the fit; dashed: A exp(-r/l_c) with A free, over
+    that range, where it has three distances or more. Inset: l_c of c_x over the size of the
+    pillars; open: with A free. Means over all pillars and realisations; bands and bars are
+    {CORRELATION_INTERVALS}. Figure 7 of the paper; fits with A free are an addition.""",
     source=Correlations(groups=("pillars",)),
 )
 
@@ -33,6 +34,8 @@ FIGURE = Declaration(
 _SIDES = {"x": (BLUE, "D"), "y": (VERMILION, "s")}
 _BAND = 0.2  #: opacity of the intervals
 _EXPONENTIAL = r"$\exp(-r/l_c)$"
+_FREE = r"$A\,$" + _EXPONENTIAL
+_DASHED: dict[str, Any] = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 
 
 @journal
@@ -58,6 +61,7 @@ def draw(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
     for side, curve in correlation.groupby("side"):
         _draw_side(ax, str(side), curve, shown.loc[side])
     ax.plot([], [], color=GREY, label=_EXPONENTIAL)
+    ax.plot([], [], color=GREY, label=_FREE, **_DASHED)
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
     ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.set_ylim(None, 1.04)
@@ -85,6 +89,20 @@ def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
     last, end = length["r_last"], curve["r"].max()
     for r, line in ((np.linspace(0.0, last), "-"), (np.linspace(last, end), ":")):
         ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
+    if np.isfinite(length["tail"]):
+        r = np.linspace(1.0, last)
+        ax.plot(r, amplitude(curve, length) * np.exp(-r / length["tail"]), color=color, **_DASHED)
+
+
+def amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
+    """The A of A exp(-r/l_c) that goes with the length of the table: by least squares, linear.
+
+    Weights are those of the fit, 1/error²; errors are in proportion to the intervals.
+    """
+    fitted = curve[(curve["r"] >= 1) & (curve["r"] <= length["r_last"])]
+    decay = np.exp(-fitted["r"] / length["tail"])
+    weight = (fitted["ci_high"] - fitted["ci_low"]) ** -2.0
+    return float((weight * decay * fitted["correlation"]).sum() / (weight * decay**2).sum())
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
@@ -93,7 +111,7 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     look = {"color": color, "marker": marker, "linestyle": "none", **BAR}
     for (name, low, high), face, aside, label in (
         (("l_c", "ci_low", "ci_high"), color, 0.96, _EXPONENTIAL),
-        (("tail", "tail_low", "tail_high"), "white", 1.04, r"$A\,$" + _EXPONENTIAL),
+        (("tail", "tail_low", "tail_high"), "white", 1.04, _FREE),
     ):
         bars = (lengths[name] - lengths[low], lengths[high] - lengths[name])
         place = aside * lengths["n_p"]

@@ -9,6 +9,7 @@ from typing import Any
 
 from matplotlib import style
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -18,7 +19,9 @@ MM = 1.0 / 25.4  #: one millimetre in inches, matplotlib's unit
 MICRO = 1e6  #: µs per s
 COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's columns, mm
 
-# Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/).
+# Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
+# black is flat, blue goes along x, vermilion along y and green askew, whether it is a side or the
+# slider; purple is a third level. Pillars have the colours of `ensembles.pillar_look`.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
@@ -28,6 +31,12 @@ PURPLE = "#CC79A7"
 GREY = "#6E6E6E"  #: guides and secondary text
 CONTACT = "#93A8BA"  #: blocks that touch the substrate
 NO_CONTACT = "#E4E4E4"  #: blocks above a groove or a gap
+
+#: Blue before t_max, red after it. The blue end is darker than the red one, so that in shades of
+#: grey, too, the precursors are the darkest spots.
+BEFORE_AFTER = LinearSegmentedColormap.from_list(
+    "before_after", ["#08306B", "#2A6FB5", "#8DBBE0", "#FFFFFF", "#F6B69B", "#E0654F", "#C8322F"]
+).with_extremes(bad=NO_CONTACT)
 
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
@@ -102,12 +111,15 @@ def panel_letter(ax: Axes, letter: str, left: float = 0.0, above: float = 2.0) -
 
 
 @journal
-def save(picture: Figure, path: Path) -> None:
+def save(picture: Figure, path: Path, caption: str | None = None) -> None:
     """Write a figure as PDF, PNG (600 dpi) or SVG, as the suffix of `path` says.
 
-    The file appears complete or not at all, and its bytes depend on the picture alone.
+    The file appears complete or not at all, and its bytes depend on the picture and the caption
+    alone, which its metadata keep.
     """
     if path.suffix not in _METADATA:
         raise ValueError(f"figures are saved as {', '.join(_METADATA)}, not as {path.suffix!r}")
+    described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
+    metadata = _METADATA[path.suffix] | (described if caption else {})
     with whole_file(path) as partial:
-        picture.savefig(partial, format=path.suffix[1:], metadata=_METADATA[path.suffix])
+        picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

@@ -4,7 +4,6 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
 from collections.abc import Mapping
-from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -13,16 +12,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from springblock.figures.declaration import Declaration, Realisations
+from springblock.figures.declaration import Declaration, Realisations, main_surfaces
 from springblock.figures.ensembles import (
     Key,
     Runs,
     highest_and_lag,
     in_order,
     logarithmic,
-    name_surface,
-    size_colors,
-    two_panels,
+    stacked_panels,
+    surface_look,
 )
 from springblock.figures.style import GREY, journal
 from springblock.run import Array
@@ -32,10 +30,13 @@ FIGURE = Declaration(
     title="Number of realisations",
     category="Supplement",
     caption="""Half the 95 % interval of a) static friction and b) t_max - t_avg over the number k
-    of realisations, which the paper does not give. Markers: bootstrap intervals, mean over random
-    subsets of the ensembles; lines: 1.96 standard deviations of the whole ensemble over the root of
-    k. Bootstrap intervals of few realisations are too narrow.""",
-    source=Realisations(groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction")),
+    of realisations, which the paper does not give. Markers: mean over random subsets of the
+    ensembles; lines: 1.96 standard deviations of the whole ensemble over the root of k.""",
+    source=Realisations(
+        groups=("flat", "pillars", "grooves"),
+        keys=("n_p", "n_p2", "direction"),
+        pick=main_surfaces,
+    ),
 )
 
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)
@@ -49,13 +50,12 @@ def draw(ensembles: Mapping[Key, Runs]) -> Figure:
 
     `ensembles` holds runs by (n_p, n_p2, direction).
     """
-    picture, panels = two_panels("number of realisations", above=12.0)
-    colors = size_colors(n_p for n_p, n_p2, _ in ensembles if not n_p2)
-    for key, marker in zip(in_order(ensembles), cycle("os^vDP*X"), strict=False):
-        name, color = name_surface(key, colors)
+    picture, panels = stacked_panels("number of realisations", above=12.0)
+    for key in in_order(ensembles):
+        name, look = surface_look(key)
         highest, lag = highest_and_lag(ensembles[key])
         for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):
-            _draw_widths(ax, values, {"color": color, "marker": marker, "label": name})
+            _draw_widths(ax, values, look | {"label": name})
     names = ("static friction (10⁻³)", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
     for ax, name in zip(panels, names, strict=True):
         ax.set(yscale="log", ylabel=f"± of {name}")

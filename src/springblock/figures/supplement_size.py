@@ -7,50 +7,62 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
-from springblock.figures.declaration import Declaration, Realisations, Scenes, one_pattern
+from springblock.figures.declaration import (
+    INTERVALS,
+    Declaration,
+    Realisations,
+    Scenes,
+    one_pattern,
+)
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,
     draw_series,
+    in_order,
     logarithmic,
-    size_colors,
-    two_panels,
+    stacked_panels,
+    surface_look,
 )
 from springblock.figures.style import journal
 from springblock.scene import Scene
 
 
-def _two_patterns(*groups: Scenes) -> list[Scene]:
-    """Flat surfaces and one kind of pillars, each with those of other sizes."""
-    return one_pattern(*groups[:2]) + one_pattern(*groups[2:])
+def _one_of_each(*groups: Scenes) -> list[Scene]:
+    """One flat, one pillared and one grooved surface, each with those of other sizes, if any."""
+    found = []
+    for group, varied in zip(groups[::2], groups[1::2], strict=True):
+        directions = {scene.direction for scene in varied}
+        scenes = one_pattern(group, varied) if varied else []
+        found += [scene for scene in scenes if scene.direction in directions]
+    return found
 
 
 FIGURE = Declaration(
     title="Size of the surface",
     category="Supplement",
-    caption="""a) Static friction and b) t_max - t_avg over the side N of a flat and of a pillared
-    surface. Means over realisations with 95 % bootstrap intervals. Everything else is at N = 120,
-    as in the paper.""",
+    caption=f"""a) Static friction and b) t_max - t_avg over the side N of the surface: a flat one,
+    a pillared one, and a grooved one where the study varies its size. Means with {INTERVALS}.
+    Figures of the paper are at N = 120.""",
     source=Realisations(
         groups=("flat", "size_flat", "pillars", "size_pillars"),
-        keys=("n_p", "n_s", "n_blocks"),
-        pick=_two_patterns,
+        also=("grooves", "size_grooves"),
+        keys=("n_p", "n_p2", "direction", "n_blocks"),
+        pick=_one_of_each,
     ),
 )
 
 
 @journal
-def draw(ensembles: Mapping[tuple[int, int, int], Runs]) -> Figure:
+def draw(ensembles: Mapping[tuple[int, int, str, int], Runs]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over N, a line for each surface.
 
-    `ensembles` holds runs by (n_p, n_s, N), with zeros for flat surfaces.
+    `ensembles` holds runs by (n_p, n_p2, direction, N), with zeros for levels that are not there.
     """
-    picture, panels = two_panels("side of the surface $N$ (blocks)")
-    colors = size_colors(n_p for n_p, _, _ in ensembles)
-    for n_p, n_s in sorted({key[:2] for key in ensembles}):
-        line = [(n, runs) for (*lengths, n), runs in ensembles.items() if lengths == [n_p, n_s]]
-        name = f"$n_p$ = {n_p}, $n_s$ = {n_s}" if n_p else "flat"
-        draw_series(panels, line, colors[n_p], marker="o", label=name)
+    picture, panels = stacked_panels("side of the surface $N$ (blocks)")
+    for surface in in_order({key[:3] for key in ensembles}):
+        name, look = surface_look(surface)
+        line = [(key[3], runs) for key, runs in ensembles.items() if key[:3] == surface]
+        draw_series(panels, line, **look, label=name)
     draw_no_lag(panels[1])
     logarithmic(panels, [n for *_, n in ensembles])
     panels[0].legend(loc="best")

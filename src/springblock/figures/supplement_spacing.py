@@ -7,14 +7,15 @@ from collections.abc import Mapping
 
 from matplotlib.figure import Figure
 
-from springblock.figures.declaration import Declaration, Realisations, Scenes
+from springblock.figures.declaration import INTERVALS, Declaration, Realisations, Scenes
 from springblock.figures.ensembles import (
     Runs,
     draw_no_lag,
     draw_series,
     logarithmic,
-    size_colors,
-    two_panels,
+    pillar_look,
+    pillar_name,
+    stacked_panels,
 )
 from springblock.figures.style import journal
 from springblock.scene import Scene
@@ -29,9 +30,8 @@ def _sizes_varied(pillars: Scenes, spacing: Scenes) -> list[Scene]:
 FIGURE = Declaration(
     title="Distance between pillars",
     category="Supplement",
-    caption="""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s, which
-    the paper leaves open; a line for each size of the pillars. Means over realisations with 95 %
-    bootstrap intervals.""",
+    caption=f"""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s,
+    which the paper leaves open; a line for each size of the pillars. Means with {INTERVALS}.""",
     source=Realisations(groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=_sizes_varied),
 )
 
@@ -42,11 +42,10 @@ def draw(ensembles: Mapping[tuple[int, int], Runs]) -> Figure:
 
     `ensembles` holds runs by (n_p, n_s).
     """
-    picture, panels = two_panels("distance between the pillars $n_s$")
-    for n_p, color in size_colors(n_p for n_p, _ in ensembles).items():
+    picture, panels = stacked_panels("distance between the pillars $n_s$ (blocks)")
+    for n_p in sorted({n_p for n_p, _ in ensembles}):
         line = [(n_s, runs) for (size, n_s), runs in ensembles.items() if size == n_p]
-        if line:
-            draw_series(panels, line, color, marker="o", label=f"$n_p$ = {n_p}")
+        draw_series(panels, line, **pillar_look(n_p), label=pillar_name(n_p))
     draw_no_lag(panels[1])
     logarithmic(panels, [n_s for _, n_s in ensembles])
     panels[0].legend(loc="best", ncols=2)
