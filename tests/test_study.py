@@ -82,7 +82,7 @@ def test_gaps_may_be_multiples_and_parts_of_a_pillar(given, gaps):
 def test_each_size_of_pillars_may_have_its_own_number_of_seeds():
     groups = ensembles(PAPER)
     assert [len(e.seeds) for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["seeds"]
-    assert {len(e.seeds) for e in groups["spacing"]} == {PAPER["scenes"]["spacing"]["seeds"]}
+    assert {len(e.seeds) for e in groups["angles"]} == {PAPER["scenes"]["angles"]["seeds"]}
 
 
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
@@ -157,8 +157,8 @@ def test_any_change_changes_the_digest():
             list(range(7, 14)),
             r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7",
         ),
-        (("scenes", "grooves", "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
-        (("scenes", "spacing", "n_p2"), [2], "scenes.spacing: n_p2 = 2 needs n_s2"),
+        (("scenes", "grooves", 0, "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
+        (("scenes", "spacing", 0, "n_p2"), [2], "scenes.spacing: n_p2 = 2 needs n_s2"),
         (("scenes", "third_level", 0, "n_p3"), [9], "third_level: pawls of 9 .* do not fill"),
         (("scenes", "third_level", 0, "np"), [9], "third_level.0 has the unknown key 'np'"),
         (("scenes", "third_level", 1, "along_3"), "z", "third_level.1.along_3 is not valid: 'z'"),

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Mapping
 from springblock.material import Material
 from springblock.scene import LENGTHS, Scene
 
-_SURFACES = ("flat", "pillars", "grooved pillars", "pillars grooved twice")  #: by level
+#: By level, without pillars and with them.
+_SURFACES = (("flat", "grooves", "grooves"), ("", "pillars", "grooved pillars"))
 _NAMES = {"n_blocks": "N =", "direction": "sliding direction"}
 
 
@@ -26,18 +27,26 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
     """
     scenes = sorted(sample, key=lambda s: (s.level, *s.lengths.values(), s.n_blocks))
     shared = [name for name in _NAMES if len(_values(scenes, name)) == 1]
-    alike: dict[tuple[int, range], list[Scene]] = {}
+    alike: dict[tuple[str, str, range], list[Scene]] = {}
     for scene in scenes:
-        alike.setdefault((scene.level, sample[scene]), []).append(scene)
+        varied = scene.row["varied"]
+        alike.setdefault((_surface(scene), varied, sample[scene]), []).append(scene)
     kinds: dict[str, list[str]] = {}
-    for (level, seeds), some in alike.items():
-        parts = [surface_in_words(*(scene.lengths for scene in some))]
+    for (surface, varied, seeds), some in alike.items():
+        parts = [surface_in_words(*(scene.lengths for scene in some)), varied]
         parts += [_named(some, name) for name in _NAMES if name not in shared]
         text = f"{', '.join(filter(None, parts))} ({_seeds(seeds)})"
-        kinds.setdefault(_SURFACES[level], []).append(text.strip())
+        kinds.setdefault(surface, []).append(text.strip())
     sentences = [", ".join(_named(scenes, name) for name in shared)]
     sentences += [f"{surface} {'; '.join(texts)}" for surface, texts in kinds.items()]
     return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences if text)
+
+
+def _surface(scene: Scene) -> str:
+    """What kind of surface a scene has."""
+    if scene.n_p3:
+        return f"pillars grooved twice, the second time along {scene.along_3},"
+    return _SURFACES[scene.n_p > 0][scene.level]
 
 
 def material_in_words(material: Material) -> str:

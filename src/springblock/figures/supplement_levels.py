@@ -32,13 +32,10 @@ _BOTTOMS, _PANEL = (55.0, 11.0), (16.0, 71.0, 38.0)  #: left edge, width and hei
 
 def _with_and_without(grooves: Scenes, third_level: Scenes) -> list[Scene]:
     """The first pattern of three levels along x and y, and the same without its third level."""
-    first = third_level[0]
-
-    def is_like_it(scene: Scene) -> bool:
-        return replace(first, direction=scene.direction, n_p3=scene.n_p3, n_s3=scene.n_s3) == scene
-
-    scenes = [scene for scene in (*grooves, *third_level) if scene.direction in ("x", "y")]
-    return list(filter(is_like_it, scenes))
+    cut = third_level[0]
+    whole = replace(cut, n_p3=0, n_s3=0, along_3="")
+    wanted = {replace(pattern, direction=way) for pattern in (cut, whole) for way in ("x", "y")}
+    return [scene for scene in (*grooves, *third_level) if scene in wanted]
 
 
 FIGURE = Declaration(
