@@ -28,13 +28,13 @@ from springblock.solver.lattice import (
     keep_peaks,
 )
 from springblock.solver.release import force_in, room, share_of_step
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, SPARE, U, forces_on_band
+from springblock.solver.springs import EAST_X, FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
 
-#: Field of scratch for w·v of a band of rows.
-_ALONG = SPARE
+#: Field of scratch for w·v of a row, once its springs are not needed any more.
+_ALONG = EAST_X
 #: How much earlier than computed a row is woken, against rounding.
 _SLACK = 1e-9
 #: Share of F_mot by which a block's velocity may differ from what F_mot alone has left it.
@@ -76,7 +76,8 @@ class Rows(NamedTuple):
     awake: NDArray[np.bool_]  #: (N + 1,) whether it is looked at in this step
     wake: NDArray[np.int64]  #: (N,) step at which to wake it at the latest
     sliding: NDArray[np.bool_]  #: (N + 2,) whether any block slides, with a row beyond each edge
-    switching: NDArray[np.bool_]  #: (N,) whether any of them comes from rest, if for an instant
+    switching: NDArray[np.int64]  #: (N,) blocks that slide from rest, if for an instant
+    released: NDArray[np.int64]  #: (N,) those among them that were at rest before this step
     waiting: NDArray[np.bool_]  #: (N,) whether any block has yet to detach
     x: Array  #: (N,) sums as of `Totals`
     y: Array
@@ -95,7 +96,8 @@ def _rows(in_contact, n):
         awake=awake,
         wake=np.zeros(n, np.int64),
         sliding=sliding,
-        switching=np.zeros(n, np.bool_),
+        switching=np.zeros(n, np.int64),
+        released=np.zeros(n, np.int64),
         waiting=np.ones(n, np.bool_),
         x=np.zeros(n),
         y=np.zeros(n),
@@ -109,6 +111,21 @@ def _without_phantoms(ux, uy, i, band, sum_x, sum_y):
     """Sums over a row less those over its phantoms, which have not moved."""
     phantoms, x = float(band.width - band.n), i + band.n + ONE
     return sum_x - phantoms * ux[x], sum_y - phantoms * uy[x]
+
+
+@njit(**JIT)
+def _count_switches(blocks, s, i, n):
+    """Return how many blocks of a row slide that were at rest for an instant, and before the step.
+
+    For each, the loop has left w·v: negative for one that has turned back, zero after rest.
+    """
+    switches, released = np.int64(0), np.int64(0)
+    for x in range(ONE, n + ONE):
+        b, along = i + x, s[_ALONG + x]
+        slides = ((blocks.wx[b] != 0.0) | (blocks.wy[b] != 0.0)) & (blocks.static[b] > 0.0)
+        switches += np.int64(slides & (along <= 0.0))
+        released += np.int64(slides & (along == 0.0))
+    return switches, released
 
 
 @njit(**JIT)
@@ -135,7 +152,7 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             wy[b] = new_y
             ux[b] = there_x
             uy[b] = there_y
-            s[_ALONG + own + x] = along
+            s[_ALONG + x] = along
             slide = slide | slides
             switch = switch | (slides & (along <= 0.0) & (static[b] > 0.0))
             sum_x = add(sum_x, there_x)
@@ -144,7 +161,9 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             taken_x, taken_y = trial_x - new_x, trial_y - new_y
             heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
-        rows.sliding[row + ONE], rows.switching[row] = slide, switch
+        rows.sliding[row + ONE] = slide
+        more = _count_switches(blocks, s, i, band.n) if switch else (np.int64(0), np.int64(0))
+        rows.switching[row], rows.released[row] = more
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
@@ -176,19 +195,6 @@ def _move_free_rows(blocks, rows, band, s, a):
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
         rows.squares[row] = squares
-
-
-@njit(**JIT)
-def _count_switches(blocks, band, s, row):
-    """Return how many blocks of a row come from rest, if for an instant, and how many of a step."""
-    i, own = row * band.pitch, (row - band.start) * band.pitch
-    switches, from_rest = np.int64(0), np.int64(0)
-    for x in range(ONE, band.n + ONE):
-        b, along = i + x, s[_ALONG + own + x]
-        slides = ((blocks.wx[b] != 0.0) | (blocks.wy[b] != 0.0)) & (blocks.static[b] > 0.0)
-        switches += np.int64(slides & (along <= 0.0))
-        from_rest += np.int64(slides & (along == 0.0))
-    return switches, from_rest
 
 
 @njit(**JIT)
@@ -316,13 +322,11 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
     for row in range(band.start, band.stop):
         i = row * band.pitch
         if rows.in_contact[row] and rows.awake[row]:
-            if rows.switching[row]:
-                more, from_rest = _count_switches(blocks, band, s, row)
-                switches += more
-                if from_rest > 0:
-                    count = _find_released(blocks, released, count, band, s, row)
-                if rows.waiting[row]:
-                    rows.waiting[row] = _note_detachments(blocks, i, n, now)
+            switches += rows.switching[row]
+            if rows.released[row] > 0:
+                count = _find_released(blocks, released, count, band, s, row)
+            if rows.switching[row] > 0 and rows.waiting[row]:
+                rows.waiting[row] = _note_detachments(blocks, i, n, now)
             elif not rows.sliding[row + ONE] and rows.wake[row] <= now:
                 own = (row - band.start) * band.pitch
                 rows.wake[row] = now + _steps_at_rest(blocks.static, s, own, i, n, pull)

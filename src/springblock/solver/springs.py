@@ -49,13 +49,13 @@ LANES = 8
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: the first three are a band of rows each, the others one row. Their distance is a
+# Fields of scratch: the first two are a band of rows each, the others one row. Their distance is a
 # constant, so that the compiler can see that they do not overlap, and no power of two, so that
-# they do not compete for the same cache lines. Place 0 of a row stays zero: nothing lies west of it.
+# they do not compete for the same cache lines.
 _FIELD = MAX_BLOCKS + 72
-_FIELDS = tuple(U(k * _FIELD) for k in range(13))
-FORCE_X, FORCE_Y, SPARE = _FIELDS[:3]  # the last is the integrator's own
-EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS[3:]
+_FIELDS = tuple(U(k * _FIELD) for k in range(12))
+FORCE_X, FORCE_Y, EAST_X, EAST_Y, NORTH_X, NORTH_Y = _FIELDS[:6]
+NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS[6:]
 
 
 class Band(NamedTuple):
@@ -238,17 +238,18 @@ def _gather(ux, uy, row, band, s, k_s, slider):
     scene moves as a mirror image to the last bit.
     """
     i, own, (sx, sy) = row * band.pitch, (row - band.start) * band.pitch, slider
+    e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
     for x in range(ONE, band.width + ONE):
-        w = x - ONE
-        n_x, n_y = s[NORTH_X + x], s[NORTH_Y + x]
-        north_x = n_x + 0.5 * (s[NE_X + x] + s[NW_X + w])
-        north_y = n_y + 0.5 * (s[NE_Y + x] + s[NW_Y + w])
-        fx = (s[EAST_X + x] - s[EAST_X + w]) + (north_x - s[BELOW_X + x])
-        fy = (s[EAST_Y + x] - s[EAST_Y + w]) + (north_y - s[BELOW_Y + x])
+        # Of the column to the west: east, north-east, and the one that goes there from here.
+        w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
+        e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
+        ne_x, ne_y, nw_x, nw_y = s[NE_X + x], s[NE_Y + x], s[NW_X + x], s[NW_Y + x]
+        north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
+        fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
+        fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
         s[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
         s[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
-        s[BELOW_X + x] = n_x + 0.5 * (s[NW_X + x] + s[NE_X + w])
-        s[BELOW_Y + x] = n_y + 0.5 * (s[NW_Y + x] + s[NE_Y + w])
+        s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
 
 
 @njit(**JIT)
