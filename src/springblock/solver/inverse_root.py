@@ -11,14 +11,19 @@ from numba import njit, types
 from numba.extending import intrinsic
 from numpy.polynomial import chebyshev
 
-#: |h| of the first guess with this constant (Moroz et al., arXiv:1603.04483) is never larger.
+#: What half of the logarithm is taken from, and the most that |h| of the guess comes to.
 _MAGIC = 0x5FE6EB50C7B537A9
 _FIRST_H = 0.0692
 
 
+def _factor(h):
+    """Return (1 - h)^(-1/2)."""
+    return 1.0 / np.sqrt(1.0 - h)
+
+
 def _cubic() -> tuple[float, ...]:
-    """Coefficients of (1 - h)^(-1/2) as a cubic in h over what a first guess leaves."""
-    unit = chebyshev.chebinterpolate(lambda x: 1.0 / np.sqrt(1.0 - _FIRST_H * x), 3)
+    """Coefficients of that factor as a cubic in h over what a first guess leaves."""
+    unit = chebyshev.chebinterpolate(lambda x: _factor(_FIRST_H * x), 3)
     return tuple((chebyshev.cheb2poly(unit) / _FIRST_H ** np.arange(4)).tolist())
 
 
@@ -41,9 +46,9 @@ def _guess(typingctx, x):
 
 @njit(inline="always")
 def inverse_root(x):
-    """Return 1/√x within two units in the last place, for normal numbers x.
+    """Return 1/√x within 1.5 units in the last place, for normal numbers x.
 
-    Zero and subnormal numbers yield a large number below 1/√x.
+    Zero and subnormal numbers yield a large number below 1/√x, infinity 1/√x of the largest number.
     """
     x = _LARGEST if x > _LARGEST else x
     y = _guess(x)

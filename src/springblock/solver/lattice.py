@@ -1,8 +1,8 @@
 """What an integrator works on: the state of all blocks and the constants of one run.
 
-Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the two columns beside
-a row hold what makes the springs across the edge strain-free. Lengths are in l, velocities in l
-per step, times in steps, forces in the velocity that they add in one step.
+Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the columns beyond a row
+hold phantoms that fill up vectors, and make the springs across the edge strain-free. Lengths are in
+l, velocities in l per step, times in steps, forces in the velocity that they add in one step.
 """
 
 from copy import deepcopy
@@ -20,9 +20,9 @@ from springblock.solver.springs import (
     FORCE_Y,
     LANES,
     ONE,
-    U,
     Band,
     Springs,
+    U,
     aligned,
     band_rows,
     pitch,
@@ -46,7 +46,7 @@ class Blocks(NamedTuple):
     wy: Array
     t_det: Array  #: first detachment; infinite before
     static: Array  #: mu_s F_n; 0 where there is no contact
-    dynamic: Array  #: mu_d F_n
+    dynamic: Array  #: mu_d F_n; infinite for phantoms, which therefore never move
 
 
 class State(NamedTuple):

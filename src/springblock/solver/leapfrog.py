@@ -28,13 +28,11 @@ from springblock.solver.lattice import (
     keep_peaks,
 )
 from springblock.solver.release import force_in, room, share_of_step
-from springblock.solver.springs import EAST_X, FORCE_X, FORCE_Y, ONE, U, forces_on_band
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
 
-#: Field of scratch for w·v of a row, once its springs are not needed any more.
-_ALONG = EAST_X
 #: How much earlier than computed a row is woken, against rounding.
 _SLACK = 1e-9
 #: Share of F_mot by which a block's velocity may differ from what F_mot alone has left it.
@@ -114,14 +112,14 @@ def _without_phantoms(ux, uy, i, band, sum_x, sum_y):
 
 
 @njit(**JIT)
-def _count_switches(blocks, s, i, n):
+def _count_switches(blocks, turned, i, n):
     """Return how many blocks of a row slide that were at rest for an instant, and before the step.
 
     For each, the loop has left w·v: negative for one that has turned back, zero after rest.
     """
     switches, released = np.int64(0), np.int64(0)
     for x in range(ONE, n + ONE):
-        b, along = i + x, s[_ALONG + x]
+        b, along = i + x, turned[x]
         slides = ((blocks.wx[b] != 0.0) | (blocks.wy[b] != 0.0)) & (blocks.static[b] > 0.0)
         switches += np.int64(slides & (along <= 0.0))
         released += np.int64(slides & (along == 0.0))
@@ -129,8 +127,11 @@ def _count_switches(blocks, s, i, n):
 
 
 @njit(**JIT)
-def _move_rows_in_contact(blocks, rows, band, s, a):
-    """Kick and drift those rows of a band that are awake and hold blocks in contact."""
+def _move_rows_in_contact(blocks, rows, band, s, turned, a):
+    """Kick and drift those rows of a band that are awake and hold blocks in contact.
+
+    `turned` is room for w·v of a row.
+    """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     static, dynamic = blocks.static, blocks.dynamic
     for row in range(band.start, band.stop):
@@ -152,7 +153,7 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             wy[b] = new_y
             ux[b] = there_x
             uy[b] = there_y
-            s[_ALONG + x] = along
+            turned[x] = along
             slide = slide | slides
             switch = switch | (slides & (along <= 0.0) & (static[b] > 0.0))
             sum_x = add(sum_x, there_x)
@@ -162,7 +163,7 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE] = slide
-        more = _count_switches(blocks, s, i, band.n) if switch else (np.int64(0), np.int64(0))
+        more = _count_switches(blocks, turned, i, band.n) if switch else (np.int64(0), np.int64(0))
         rows.switching[row], rows.released[row] = more
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
@@ -379,7 +380,7 @@ def advance(state, constants, first, steps, every, samples):
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
             keep_peaks(state.peak, band, s)
-            _move_rows_in_contact(blocks, rows, band, s, a)
+            _move_rows_in_contact(blocks, rows, band, s, one_row(s), a)
             _move_free_rows(blocks, rows, band, s, a)
             more, count = _settle(blocks, rows, released, count, band, s, pull, k)
             switches += more

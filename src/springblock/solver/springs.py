@@ -10,9 +10,10 @@ cancel all but a few digits. With q = (2 e·d + d²)/L² = (r/L)² - 1,
 has neither cancellation nor, with g as a short polynomial, a root or a division. Rows in which
 the springs of some block leave the polynomial's range are computed again with the closed form.
 
-A band of rows is worked on in short loops, first what its springs pull with, then what its blocks
-feel: in one long loop the processor would run out of registers before it could overlap the work on
-several blocks.
+A row is worked on in short loops, first what its springs pull with, then what its blocks feel: in
+one long loop the processor would run out of registers before it could overlap the work on several
+blocks. Rows are filled up with phantoms to whole vectors: places that hold the displacement of the
+last block, feel no diagonal spring, and never move.
 
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """
@@ -49,13 +50,13 @@ LANES = 8
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: the first two are a band of rows each, the others one row. Their distance is a
-# constant, so that the compiler can see that they do not overlap, and no power of two, so that
-# they do not compete for the same cache lines.
+# Fields of scratch: forces are a band of rows each; the others, seen as an array of their own by
+# `one_row`, one row. Their distance is a constant, so that the compiler can see that they do not
+# overlap, and no power of two, so that they do not compete for the same cache lines.
 _FIELD = MAX_BLOCKS + 72
-_FIELDS = tuple(U(k * _FIELD) for k in range(12))
-FORCE_X, FORCE_Y, EAST_X, EAST_Y, NORTH_X, NORTH_Y = _FIELDS[:6]
-NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS[6:]
+_FIELDS = tuple(U(k * _FIELD) for k in range(10))
+FORCE_X, FORCE_Y = _FIELDS[:2]
+EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS
 
 
 class Band(NamedTuple):
@@ -95,6 +96,12 @@ def band_rows(n: int) -> int:
 def width(n):
     """Blocks of a row of n with its phantoms."""
     return (n + U(LANES - 1)) // U(LANES) * U(LANES)
+
+
+@register_jitable
+def one_row(s):
+    """View of those fields of scratch that hold one row."""
+    return s[2 * _FIELD :]
 
 
 @register_jitable
@@ -230,7 +237,7 @@ def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
 
 
 @njit(inline="always")
-def _gather(ux, uy, row, band, s, k_s, slider):
+def _gather(ux, uy, row, band, s, force, k_s, slider):
     """Enter F_mot of the blocks of a row, from what the springs from it and from below pull with.
 
     What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
@@ -247,13 +254,13 @@ def _gather(ux, uy, row, band, s, k_s, slider):
         north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
         fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
         fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
-        s[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
-        s[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
+        force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
+        force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
         s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
 
 
 @njit(**JIT)
-def _forces_by_series(ux, uy, first, band, needed, s, springs, slider):
+def _forces_by_series(ux, uy, first, band, needed, s, force, springs, slider):
     """Enter F_mot of a band from row `first` on.
 
     Rows are left out where neither they nor the next row are `needed`. Returns the first row with
@@ -263,16 +270,16 @@ def _forces_by_series(ux, uy, first, band, needed, s, springs, slider):
         if needed[row] or needed[row + ONE]:
             if _pulls_by_series(ux, uy, row, band, s, springs.series):
                 return row
-            _gather(ux, uy, row, band, s, springs.k_s, slider)
+            _gather(ux, uy, row, band, s, force, springs.k_s, slider)
     return band.stop
 
 
 @njit(**JIT)
-def _forces_by_closed_form(ux, uy, row, band, s, springs, slider):
+def _forces_by_closed_form(ux, uy, row, band, s, force, springs, slider):
     """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
     broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
     if broken == 0:
-        _gather(ux, uy, row, band, s, springs.k_s, slider)
+        _gather(ux, uy, row, band, s, force, springs.k_s, slider)
     return broken
 
 
@@ -291,20 +298,21 @@ def forces_on_band(ux, uy, band, needed, s, springs, slider):
     right. Returns row and column (from 1) of a spring that has collapsed, burst or become NaN;
     column 0 if there is none.
     """
+    pulls = one_row(s)
     if band.start == 0:
-        _clear_below(band, s)
-    row = _forces_by_series(ux, uy, band.start, band, needed, s, springs, slider)
+        _clear_below(band, pulls)
+    row = _forces_by_series(ux, uy, band.start, band, needed, pulls, s, springs, slider)
     while row < band.stop:
-        broken = _forces_by_closed_form(ux, uy, row, band, s, springs, slider)
+        broken = _forces_by_closed_form(ux, uy, row, band, pulls, s, springs, slider)
         if broken > 0:
             return row, broken
-        row = _forces_by_series(ux, uy, row + ONE, band, needed, s, springs, slider)
+        row = _forces_by_series(ux, uy, row + ONE, band, needed, pulls, s, springs, slider)
     return row, U(0)
 
 
 def scratch() -> Array:
     """Room for what is known of one band of rows."""
-    return aligned(len(_FIELDS) * _FIELD)
+    return aligned((2 + len(_FIELDS)) * _FIELD)
 
 
 def aligned(size: int, shift: int = 0) -> Array:
