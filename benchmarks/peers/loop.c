@@ -3,7 +3,8 @@
    Displacements in l, velocities in l per step, forces in the velocity that they add in one step.
    `restrict` tells the compiler that no two rows overlap; the two functions that it helps are not
    inlined, for the promise would be lost there. Not done here: the energy balance, and the watch
-   over springs that leave the range of the polynomial. */
+   over springs that leave the range of the polynomial; nor what the solver does by hand: friction
+   without a root and a division, and rows filled up to whole vectors, which would help here as well. */
 
 #include <math.h>
 #include <string.h>

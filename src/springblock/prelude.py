@@ -79,7 +79,8 @@ class Prelude:
         last = int(fit[-1])
         for field, stored in zip(blocks[:4], self.fields[last], strict=True):
             unpadded(field, n)[~bound] = stored
-            field.reshape(n, -1)[:, n + 1] = unpadded(field, n)[:, -1]  # see `close_edge`
+        for field in (blocks.ux, blocks.uy):
+            field.reshape(n, -1)[:, n + 1 :] = unpadded(field, n)[:, -1:]  # see `close_edge`
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()

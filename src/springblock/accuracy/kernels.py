@@ -14,7 +14,9 @@ from springblock.solver.springs import (
     Springs,
     band_rows,
     forces_on_band,
+    pitch,
     scratch,
+    width,
 )
 
 UNDAMPED = Material(gamma=0.0)
@@ -26,7 +28,8 @@ SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
 
 def with_border(displacement: Array) -> list[Array]:
     """Lay a displacement (2, N, N) out as the kernels want it, its edges free of strain."""
-    return [np.pad(u, 1, mode="edge")[1:-1].ravel() for u in displacement]
+    beyond = pitch(displacement.shape[-1]) - displacement.shape[-1] - 1
+    return [np.pad(u, ((0, 0), (1, beyond)), mode="edge").ravel() for u in displacement]
 
 
 def spring_forces(displacement: Array, band: int | None = None) -> Array:
@@ -44,14 +47,14 @@ def spring_forces(displacement: Array, band: int | None = None) -> Array:
         _, broken = forces_on_band(ux, uy, rows(n, start, stop), every_row, s, *SPRINGS)
         if broken:
             raise SimulationError(f"a spring in rows {start} to {stop} has collapsed or burst")
-        found = [s[int(field) :][: (stop - start) * (n + 2)] for field in (FORCE_X, FORCE_Y)]
-        forces.append(np.reshape(found, (2, -1, n + 2))[:, :, 1 : n + 1])
+        found = [s[int(field) :][: (stop - start) * pitch(n)] for field in (FORCE_X, FORCE_Y)]
+        forces.append(np.reshape(found, (2, -1, pitch(n)))[:, :, 1 : n + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
 
 
 def rows(n: int, start: int, stop: int) -> Band:
     """Rows [start, stop) of N with a border, as the kernels want them."""
-    return Band(*map(np.uint64, (start, stop, n, n + 2)))
+    return Band(*map(np.uint64, (start, stop, n, pitch(n), width(np.uint64(n)))))
 
 
 def swing(
@@ -71,7 +74,8 @@ def swing(
     blocks = state.blocks
     blocks.static[:] = 0.0
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):
-        field.reshape(n, -1)[:, : n + 2] = np.pad(u, 1, mode="edge")[1:-1]
+        unpadded(field, n)[:] = u
+        field.reshape(n, -1)[:, n + 1 :] = u[:, -1:]
     done = method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0]
     if done < steps:
         raise SimulationError(f"a spring has collapsed or burst in step {done}")

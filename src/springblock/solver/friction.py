@@ -5,9 +5,9 @@ detaches, and mu_d F_n opposes its velocity until it comes to rest and sticks ag
 the paper).
 """
 
-import math
-
 from numba import njit
+
+from springblock.solver.inverse_root import inverse_root
 
 
 @njit(inline="always")
@@ -32,8 +32,7 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     along = wx * vx + wy * vy
     held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)
     mean_x, mean_y = (wx + vx, wy + vy) if along > 0.0 else (wx, wy)
-    taken = dynamic / math.sqrt(mean_x * mean_x + mean_y * mean_y)
-    # False for the NaN of a block without load at rest
-    slides = (wx * wx + wy * wy > dynamic * dynamic) & (taken >= 0.0) & (not held)
+    taken = dynamic * inverse_root(mean_x * mean_x + mean_y * mean_y)
+    slides = (wx * wx + wy * wy > dynamic * dynamic) & (not held)
     new_x, new_y = wx - taken * mean_x, wy - taken * mean_y
     return (new_x if slides else 0.0), (new_y if slides else 0.0), slides, along

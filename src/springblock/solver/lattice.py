@@ -1,11 +1,12 @@
 """What an integrator works on: the state of all blocks and the constants of one run.
 
-Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the two columns beside
-a row hold what makes the springs across the edge strain-free. Lengths are in l, velocities in l
-per step, times in steps, forces in the velocity that they add in one step.
+Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the columns beyond a row
+hold phantoms that fill up vectors, and make the springs across the edge strain-free. Lengths are in
+l, velocities in l per step, times in steps, forces in the velocity that they add in one step.
 """
 
 from copy import deepcopy
+from itertools import count
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -17,12 +18,16 @@ from springblock.solver.compilation import JIT
 from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
+    LANES,
     ONE,
     Band,
     Springs,
+    U,
     aligned,
     band_rows,
+    pitch,
     scratch,
+    width,
 )
 
 Array = NDArray[np.float64]
@@ -41,7 +46,7 @@ class Blocks(NamedTuple):
     wy: Array
     t_det: Array  #: first detachment; infinite before
     static: Array  #: mu_s F_n; 0 where there is no contact
-    dynamic: Array  #: mu_d F_n
+    dynamic: Array  #: mu_d F_n; infinite for phantoms, which therefore never move
 
 
 class State(NamedTuple):
@@ -145,30 +150,34 @@ def prepare(
     `heading` is the unit vector of the slider's motion.
     """
     n = contact.shape[0]
-    pitch = -(-(n + 2) // 4) * 4
+    row = pitch(n)
     # m per step, per N
     compliance = step * integrator.force_time(step, material.gamma) / material.mass
     velocity_per_force = compliance / material.spacing
     load = material.block_load * n * n / np.count_nonzero(contact)  # F_n, N
 
-    def padded(values: Array) -> Array:
+    fields = count()
+
+    def padded(values: Array, beyond: float) -> Array:
         lattice = field()
+        lattice[:] = beyond
         unpadded(lattice, n)[:] = values
         return lattice
 
     def field() -> Array:
-        return aligned(n * pitch)
+        return aligned(n * row, 9 * next(fields))
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
+    dynamic = np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)
     state = State(
         blocks=Blocks(
             ux=field(),
             uy=field(),
             wx=field(),
             wy=field(),
-            t_det=field() + np.inf,
-            static=padded(static),
-            dynamic=padded(np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)),
+            t_det=padded(np.full((n, n), np.inf), np.inf),
+            static=padded(static, 0.0),
+            dynamic=padded(dynamic, np.inf),
         ),
         scratch=scratch(),
         work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
@@ -179,7 +188,7 @@ def prepare(
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(
         n=np.uint64(n),
-        pitch=np.uint64(pitch),
+        pitch=np.uint64(row),
         band_rows=np.uint64(band_rows(n)),
         springs=Springs.of(material.k_int * compliance, material.k_s * compliance),
         damping=material.gamma * step,
@@ -198,14 +207,18 @@ def unpadded(field: Array, n: int) -> Array:
 def band_from(start, constants):
     """Return the band that begins with row `start`."""
     n = constants.n
-    return Band(start, min(start + constants.band_rows, n), n, constants.pitch)
+    stop = min(start + constants.band_rows, n)
+    return Band(start, stop, n, constants.pitch, width(n))
 
 
 @njit(inline="always")
 def close_edge(ux, uy, i, n):
-    """Let the spring across the eastern edge of a row be free of strain."""
-    ux[i + n + ONE] = ux[i + n]
-    uy[i + n + ONE] = uy[i + n]
+    """Let the spring across the eastern edge of a row be free of strain, and those of phantoms."""
+    last_x, last_y = ux[i + n], uy[i + n]
+    for lane in range(LANES):  # always as many, which takes no loop
+        x = width(n) + U(2 + lane - LANES)
+        ux[i + x] = last_x if x > n else ux[i + x]
+        uy[i + x] = last_y if x > n else uy[i + x]
 
 
 @njit(**JIT)
@@ -214,7 +227,7 @@ def keep_peaks(peak, band, s):
     if peak is not None:
         for row in range(band.start, band.stop):
             i, own = row * band.pitch, (row - band.start) * band.pitch
-            for x in range(ONE, band.n + ONE):
+            for x in range(ONE, band.width + ONE):
                 fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
                 peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 

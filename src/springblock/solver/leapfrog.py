@@ -28,7 +28,7 @@ from springblock.solver.lattice import (
     keep_peaks,
 )
 from springblock.solver.release import force_in, room, share_of_step
-from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
+from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
@@ -73,8 +73,8 @@ class Rows(NamedTuple):
     in_contact: NDArray[np.bool_]  #: (N,) whether it holds any block in contact
     awake: NDArray[np.bool_]  #: (N + 1,) whether it is looked at in this step
     wake: NDArray[np.int64]  #: (N,) step at which to wake it at the latest
-    sliding: NDArray[np.int64]  #: (N + 2,) blocks that slide, with a row beyond each edge
-    switching: NDArray[np.int64]  #: (N,) those among them that come from rest, if for an instant
+    sliding: NDArray[np.bool_]  #: (N + 2,) whether any block slides, with a row beyond each edge
+    switching: NDArray[np.int64]  #: (N,) blocks that slide from rest, if for an instant
     released: NDArray[np.int64]  #: (N,) those among them that were at rest before this step
     waiting: NDArray[np.bool_]  #: (N,) whether any block has yet to detach
     x: Array  #: (N,) sums as of `Totals`
@@ -86,9 +86,9 @@ class Rows(NamedTuple):
 @njit(**JIT)
 def _rows(in_contact, n):
     """Rows as if every one of them moved."""
-    awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.int64)
+    awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = False
-    sliding[0] = sliding[n + 1] = 0
+    sliding[0] = sliding[n + 1] = False
     return Rows(
         in_contact=in_contact,
         awake=awake,
@@ -104,18 +104,43 @@ def _rows(in_contact, n):
     )
 
 
+@njit(inline="always")
+def _without_phantoms(ux, uy, i, band, sum_x, sum_y):
+    """Sums over a row less those over its phantoms, which have not moved."""
+    phantoms, x = float(band.width - band.n), i + band.n + ONE
+    return sum_x - phantoms * ux[x], sum_y - phantoms * uy[x]
+
+
 @njit(**JIT)
-def _move_rows_in_contact(blocks, rows, band, s, a):
-    """Kick and drift those rows of a band that are awake and hold blocks in contact."""
+def _count_switches(blocks, turned, i, n):
+    """Return how many blocks of a row slide that were at rest for an instant, and before the step.
+
+    For each, the loop has left w·v: negative for one that has turned back, zero after rest.
+    """
+    switches, released = np.int64(0), np.int64(0)
+    for x in range(ONE, n + ONE):
+        b, along = i + x, turned[x]
+        slides = ((blocks.wx[b] != 0.0) | (blocks.wy[b] != 0.0)) & (blocks.static[b] > 0.0)
+        switches += np.int64(slides & (along <= 0.0))
+        released += np.int64(slides & (along == 0.0))
+    return switches, released
+
+
+@njit(**JIT)
+def _move_rows_in_contact(blocks, rows, band, s, turned, a):
+    """Kick and drift those rows of a band that are awake and hold blocks in contact.
+
+    `turned` is room for w·v of a row.
+    """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     static, dynamic = blocks.static, blocks.dynamic
     for row in range(band.start, band.stop):
         if not (rows.in_contact[row] and rows.awake[row]):
             continue
         i, own = row * band.pitch, (row - band.start) * band.pitch
-        slide, switch, release = np.int64(0), np.int64(0), np.int64(0)
+        slide, switch = False, False
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
-        for x in range(ONE, band.n + ONE):
+        for x in range(ONE, band.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
@@ -128,18 +153,19 @@ def _move_rows_in_contact(blocks, rows, band, s, a):
             wy[b] = new_y
             ux[b] = there_x
             uy[b] = there_y
-            slide += np.int64(slides)
-            bound = slides & (static[b] > 0.0)
-            switch += np.int64(bound & (along <= 0.0))
-            release += np.int64(bound & (along == 0.0))
+            turned[x] = along
+            slide = slide | slides
+            switch = switch | (slides & (along <= 0.0) & (static[b] > 0.0))
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
             # Friction's work: the momentum that it takes, times the mean of the velocities around.
             taken_x, taken_y = trial_x - new_x, trial_y - new_y
             heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
-        rows.sliding[row + ONE], rows.switching[row], rows.released[row] = slide, switch, release
-        rows.x[row], rows.y[row] = sum_x, sum_y
+        rows.sliding[row + ONE] = slide
+        more = _count_switches(blocks, turned, i, band.n) if switch else (np.int64(0), np.int64(0))
+        rows.switching[row], rows.released[row] = more
+        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
 
@@ -155,10 +181,11 @@ def _move_free_rows(blocks, rows, band, s, a):
             continue
         i, own = row * band.pitch, (row - band.start) * band.pitch
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
-        for x in range(ONE, band.n + ONE):
+        for x in range(ONE, band.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
+            new_x, new_y = (new_x, new_y) if x <= band.n else (0.0, 0.0)
             there_x, there_y = ux[b] + new_x, uy[b] + new_y
             wx[b] = new_x
             wy[b] = new_y
@@ -167,7 +194,8 @@ def _move_free_rows(blocks, rows, band, s, a):
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
             squares = add(squares, new_x * new_x + new_y * new_y)
-        rows.x[row], rows.y[row], rows.squares[row] = sum_x, sum_y, squares
+        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
+        rows.squares[row] = squares
 
 
 @njit(**JIT)
@@ -300,7 +328,7 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
                 count = _find_released(blocks, released, count, band, s, row)
             if rows.switching[row] > 0 and rows.waiting[row]:
                 rows.waiting[row] = _note_detachments(blocks, i, n, now)
-            elif rows.sliding[row + ONE] == 0 and rows.wake[row] <= now:
+            elif not rows.sliding[row + ONE] and rows.wake[row] <= now:
                 own = (row - band.start) * band.pitch
                 rows.wake[row] = now + _steps_at_rest(blocks.static, s, own, i, n, pull)
         close_edge(blocks.ux, blocks.uy, i, n)
@@ -311,7 +339,7 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
 def _wake(rows, now):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
     for row in range(len(rows.wake)):
-        disturbed = rows.sliding[row] + rows.sliding[row + 1] + rows.sliding[row + 2] > 0
+        disturbed = rows.sliding[row] or rows.sliding[row + 1] or rows.sliding[row + 2]
         if disturbed:
             rows.wake[row] = now + 1  # and look again when all is at rest
         rows.awake[row] = disturbed or rows.wake[row] <= now
@@ -352,7 +380,7 @@ def advance(state, constants, first, steps, every, samples):
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
             keep_peaks(state.peak, band, s)
-            _move_rows_in_contact(blocks, rows, band, s, a)
+            _move_rows_in_contact(blocks, rows, band, s, one_row(s), a)
             _move_free_rows(blocks, rows, band, s, a)
             more, count = _settle(blocks, rows, released, count, band, s, pull, k)
             switches += more

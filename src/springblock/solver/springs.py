@@ -10,9 +10,10 @@ cancel all but a few digits. With q = (2 e·d + d²)/L² = (r/L)² - 1,
 has neither cancellation nor, with g as a short polynomial, a root or a division. Rows in which
 the springs of some block leave the polynomial's range are computed again with the closed form.
 
-A band of rows is worked on in short loops, first what its springs pull with, then what its blocks
-feel: in one long loop the processor would run out of registers before it could overlap the work on
-several blocks.
+A row is worked on in short loops, first what its springs pull with, then what its blocks feel: in
+one long loop the processor would run out of registers before it could overlap the work on several
+blocks. Rows are filled up with phantoms to whole vectors: places that hold the displacement of the
+last block, feel no diagonal spring, and never move.
 
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """
@@ -44,13 +45,18 @@ MAX_BLOCKS = 4096
 #: Rows are worked on in bands of about this many blocks.
 _BAND_BLOCKS = 2048
 
+#: Rows are filled up with phantoms to a multiple of this many blocks: no vector is cut short.
+LANES = 8
+
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: a band of rows each, but for the last two, which are one row. Their distance
-# is a constant, so that the compiler can see that they do not overlap, and no power of two, so that
-# they do not compete for the same cache lines.
+# Fields of scratch: forces are a band of rows each; the others, seen as an array of their own by
+# `one_row`, one row. Their distance is a constant, so that the compiler can see that they do not
+# overlap, and no power of two, so that they do not compete for the same cache lines.
 _FIELD = MAX_BLOCKS + 72
-FORCE_X, FORCE_Y, EAST, NORTH, NE, NW, BELOW_X, BELOW_Y = (U(k * _FIELD) for k in range(8))
+_FIELDS = tuple(U(k * _FIELD) for k in range(10))
+FORCE_X, FORCE_Y = _FIELDS[:2]
+EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS
 
 
 class Band(NamedTuple):
@@ -60,6 +66,7 @@ class Band(NamedTuple):
     stop: np.uint64
     n: np.uint64  #: blocks of a row
     pitch: np.uint64  #: numbers from one row to the next
+    width: np.uint64  #: blocks of a row with its phantoms
 
 
 class Springs(NamedTuple):
@@ -75,9 +82,26 @@ class Springs(NamedTuple):
         return cls(kappa, tuple((kappa * series()).tolist()), k_s)
 
 
+def pitch(n: int) -> int:
+    """Numbers from one row of n blocks to the next: a border, the blocks, phantoms and a border."""
+    return int(width(U(n))) + LANES
+
+
 def band_rows(n: int) -> int:
     """Rows of n blocks in one band."""
     return min(n, 1 + (_BAND_BLOCKS - 1) // n)
+
+
+@register_jitable
+def width(n):
+    """Blocks of a row of n with its phantoms."""
+    return (n + U(LANES - 1)) // U(LANES) * U(LANES)
+
+
+@register_jitable
+def one_row(s):
+    """View of those fields of scratch that hold one row."""
+    return s[2 * _FIELD :]
 
 
 @register_jitable
@@ -118,23 +142,38 @@ def _series(q, c):
 
 
 @njit(inline="always")
-def _stretch(ux, uy, i, j, x):
-    """Return q of the four springs from block (i, x) to the east, north, and along diagonals.
+def _apart(ux, uy, i, j, x):
+    """How far the ends of the springs to the east, north, and along diagonals have moved apart.
 
-    Row j is the next one; the last spring goes north-west from the block to the east.
+    They belong to block (i, x); row j is the next one. The last spring goes north-west from the
+    block to the east.
     """
     ax, ay = ux[i + x], uy[i + x]
     bx, by = ux[i + x + ONE], uy[i + x + ONE]
     cx, cy = ux[j + x], uy[j + x]
-    dx, dy = bx - ax, by - ay
-    east = 2.0 * dx + (dx * dx + dy * dy)
-    dx, dy = cx - ax, cy - ay
-    north = 2.0 * dy + (dx * dx + dy * dy)
-    dx, dy = ux[j + x + ONE] - ax, uy[j + x + ONE] - ay
-    ne = (dy + dx) + 0.5 * (dx * dx + dy * dy)
-    dx, dy = cx - bx, cy - by
-    nw = (dy - dx) + 0.5 * (dx * dx + dy * dy)
+    dx, dy = ux[j + x + ONE], uy[j + x + ONE]
+    return (bx - ax, by - ay), (cx - ax, cy - ay), (dx - ax, dy - ay), (cx - bx, cy - by)
+
+
+@njit(inline="always")
+def _stretch(apart):
+    """Return q of the four springs."""
+    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = apart
+    east = 2.0 * ex + (ex * ex + ey * ey)
+    north = 2.0 * ny + (nx * nx + ny * ny)
+    ne = (ney + nex) + 0.5 * (nex * nex + ney * ney)
+    nw = (nwy - nwx) + 0.5 * (nwx * nwx + nwy * nwy)
     return east, north, ne, nw
+
+
+@njit(inline="always")
+def _enter(s, x, apart, east, north, ne, nw):
+    """Enter what the four springs pull with, F = pull (e + d)."""
+    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = apart
+    s[EAST_X + x], s[EAST_Y + x] = east + east * ex, east * ey
+    s[NORTH_X + x], s[NORTH_Y + x] = north * nx, north + north * ny
+    s[NE_X + x], s[NE_Y + x] = ne + ne * nex, ne + ne * ney
+    s[NW_X + x], s[NW_Y + x] = nw * nwx - nw, nw + nw * nwy
 
 
 @njit(inline="always")
@@ -148,39 +187,29 @@ def _places(row, band):
 
 
 @njit(inline="always")
-def _cut(s, own, row, n):
-    """Take away the diagonal springs beyond the eastern edge, and beyond the last row."""
-    s[NE + own + n] = s[NW + own + n] = 0.0
-    if row + ONE == n:
-        for x in range(ONE, n):
-            s[NE + own + x] = s[NW + own + x] = 0.0
+def _last_diagonal(row, n):
+    """Return the first x without diagonal springs to the north: the last block, or in the last row
+    all of them."""
+    return n if row + ONE < n else ONE
 
 
-@njit(**JIT)
-def _pulls_by_series(ux, uy, first, band, needed, s, c):
-    """Enter kappa q g(q), which a spring pulls with over e + d, in a band from row `first` on.
+@njit(inline="always")
+def _pulls_by_series(ux, uy, row, band, s, c):
+    """Enter what the springs from a row pull with, kappa q g(q) (e + d); is any out of range?
 
-    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
-    a spring out of range, which is not finished, or the band's stop. Diagonal springs are entered
-    as if they were as stiff as axial ones; `_forces` halves them.
+    Diagonal springs are entered as if they were as stiff as axial ones; `_gather` halves them.
     """
-    n = band.n
-    for row in range(first, band.stop):
-        if not (needed[row] or needed[row + ONE]):
-            continue
-        i, j = _places(row, band)
-        own, outside = (row - band.start) * band.pitch, np.int64(0)
-        for x in range(ONE, n + ONE):
-            q = _stretch(ux, uy, i, j, x)
-            p = _series(q, c)
-            q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
-            outside += np.int64(not q_squared <= SERIES_RANGE**2)  # also for NaN
-            s[EAST + own + x], s[NORTH + own + x] = q[0] * p[0], q[1] * p[1]
-            s[NE + own + x], s[NW + own + x] = q[2] * p[2], q[3] * p[3]
-        if outside > 0:
-            return row
-        _cut(s, own, row, n)
-    return band.stop
+    i, j = _places(row, band)
+    edge, outside = _last_diagonal(row, band.n), False
+    for x in range(ONE, band.width + ONE):
+        apart = _apart(ux, uy, i, j, x)
+        q = _stretch(apart)
+        p = _series(q, c)
+        q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
+        outside = outside | (not q_squared <= SERIES_RANGE**2)  # also for NaN
+        ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
+        _enter(s, x, apart, q[0] * p[0], q[1] * p[1], ne, nw)
+    return outside
 
 
 @njit(inline="always")
@@ -188,62 +217,77 @@ def _is_whole(q):
     return (q > Q_MIN) & (q < Q_MAX)  # False for NaN
 
 
-@njit(**JIT)
+@njit(inline="always")
 def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
     n = band.n
     i, j = _places(row, band)
-    own, broken = (row - band.start) * band.pitch, np.int64(n + ONE)
-    for x in range(ONE, n + ONE):
-        q = _stretch(ux, uy, i, j, x)
-        s[EAST + own + x], s[NORTH + own + x] = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
-        s[NE + own + x], s[NW + own + x] = kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])
-        cut = (x == n) | (row + ONE == n)
-        whole = _is_whole(q[0]) & _is_whole(q[1]) & (cut | _is_whole(q[2]) & _is_whole(q[3]))
+    edge, broken = _last_diagonal(row, n), np.int64(n + ONE)
+    for x in range(ONE, band.width + ONE):
+        apart = _apart(ux, uy, i, j, x)
+        q = _stretch(apart)
+        inside = x < edge
+        east, north = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
+        ne, nw = (kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])) if inside else (0.0, 0.0)
+        _enter(s, x, apart, east, north, ne, nw)
+        diagonals = _is_whole(q[2]) & _is_whole(q[3])
+        whole = _is_whole(q[0]) & _is_whole(q[1]) & (diagonals | (not inside))
         broken = min(broken, np.int64(n + ONE) if whole else np.int64(x))
-    _cut(s, own, row, n)
     return U(broken) % (n + ONE)
 
 
-@njit(**JIT)
-def _forces(ux, uy, band, needed, s, k_s, slider):
-    """Enter F_mot of the blocks of a band, in those of its rows that are `needed`.
+@njit(inline="always")
+def _gather(ux, uy, row, band, s, force, k_s, slider):
+    """Enter F_mot of the blocks of a row, from what the springs from it and from below pull with.
 
     What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
     seen from the north and from the south, from the east and from the west, so that a mirrored
     scene moves as a mirror image to the last bit.
     """
-    n, (sx, sy) = band.n, slider
-    if band.start == 0:  # nothing lies below the first row
-        for x in range(ONE, n + ONE):
-            s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
-    for row in range(band.start, band.stop):
-        if not (needed[row] or needed[row + ONE]):
-            continue
-        i, j = _places(row, band)
-        own = (row - band.start) * band.pitch
-        e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
-        for x in range(ONE, n + ONE):
-            ax, ay = ux[i + x], uy[i + x]
-            bx, by = ux[i + x + ONE], uy[i + x + ONE]
-            cx, cy = ux[j + x], uy[j + x]
-            # Of the column to the west: east, north-east, and the one that goes there from here.
-            w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
-            pull = s[EAST + own + x]
-            e_x, e_y = pull + pull * (bx - ax), pull * (by - ay)
-            pull = s[NORTH + own + x]
-            n_x, n_y = pull * (cx - ax), pull + pull * (cy - ay)
-            pull = s[NE + own + x]
-            ne_x, ne_y = pull + pull * (ux[j + x + ONE] - ax), pull + pull * (uy[j + x + ONE] - ay)
-            pull = s[NW + own + x]
-            nw_x, nw_y = pull * (cx - bx) - pull, pull + pull * (cy - by)
+    i, own, (sx, sy) = row * band.pitch, (row - band.start) * band.pitch, slider
+    e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
+    for x in range(ONE, band.width + ONE):
+        # Of the column to the west: east, north-east, and the one that goes there from here.
+        w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
+        e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
+        ne_x, ne_y, nw_x, nw_y = s[NE_X + x], s[NE_Y + x], s[NW_X + x], s[NW_Y + x]
+        north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
+        fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
+        fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
+        force[FORCE_X + own + x] = fx + k_s * (sx - ux[i + x])
+        force[FORCE_Y + own + x] = fy + k_s * (sy - uy[i + x])
+        s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
 
-            north_x, north_y = n_x + 0.5 * (ne_x + wnw_x), n_y + 0.5 * (ne_y + wnw_y)
-            fx = (e_x - w_x) + (north_x - s[BELOW_X + x])
-            fy = (e_y - w_y) + (north_y - s[BELOW_Y + x])
-            s[FORCE_X + own + x] = fx + k_s * (sx - ax)
-            s[FORCE_Y + own + x] = fy + k_s * (sy - ay)
-            s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
+
+@njit(**JIT)
+def _forces_by_series(ux, uy, first, band, needed, s, force, springs, slider):
+    """Enter F_mot of a band from row `first` on.
+
+    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
+    a spring out of range, which is not entered, or the band's stop.
+    """
+    for row in range(first, band.stop):
+        if needed[row] or needed[row + ONE]:
+            if _pulls_by_series(ux, uy, row, band, s, springs.series):
+                return row
+            _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+    return band.stop
+
+
+@njit(**JIT)
+def _forces_by_closed_form(ux, uy, row, band, s, force, springs, slider):
+    """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
+    broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
+    if broken == 0:
+        _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+    return broken
+
+
+@njit(**JIT)
+def _clear_below(band, s):
+    """Let nothing lie below the first row."""
+    for x in range(ONE, band.width + ONE):
+        s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
 
 
 @njit(**JIT)
@@ -254,23 +298,28 @@ def forces_on_band(ux, uy, band, needed, s, springs, slider):
     right. Returns row and column (from 1) of a spring that has collapsed, burst or become NaN;
     column 0 if there is none.
     """
-    row = _pulls_by_series(ux, uy, band.start, band, needed, s, springs.series)
+    pulls = one_row(s)
+    if band.start == 0:
+        _clear_below(band, pulls)
+    row = _forces_by_series(ux, uy, band.start, band, needed, pulls, s, springs, slider)
     while row < band.stop:
-        broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
+        broken = _forces_by_closed_form(ux, uy, row, band, pulls, s, springs, slider)
         if broken > 0:
             return row, broken
-        row = _pulls_by_series(ux, uy, row + ONE, band, needed, s, springs.series)
-    _forces(ux, uy, band, needed, s, springs.k_s, slider)
+        row = _forces_by_series(ux, uy, row + ONE, band, needed, pulls, s, springs, slider)
     return row, U(0)
 
 
 def scratch() -> Array:
     """Room for what is known of one band of rows."""
-    return aligned(8 * _FIELD)
+    return aligned((2 + len(_FIELDS)) * _FIELD)
 
 
-def aligned(size: int) -> Array:
-    """Zeros, the second of which begins a cache line."""
-    raw = np.zeros(size + 8)
-    start = (-(raw.ctypes.data // 8) - 1) % 8
+def aligned(size: int, shift: int = 0) -> Array:
+    """Zeros, the second of which begins a cache line, `shift` lines from where others do.
+
+    The processor takes a number stored for one loaded, if it stands as far into a page of 4096 B.
+    """
+    raw = np.zeros(size + 8 * (shift + 1))
+    start = (-(raw.ctypes.data // 8) - 1) % 8 + 8 * shift
     return raw[start : start + size]
