@@ -61,6 +61,48 @@ rule precision_table:
         "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
+rule production_scene:
+    input:
+        COMPILED,
+    output:
+        f"{RESULTS}/accuracy/production/{{scene}}.parquet",
+    log:
+        f"{RESULTS}/logs/accuracy/production/{{scene}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/accuracy/production/{{scene}}.tsv"
+    wildcard_constraints:
+        scene="|".join(conventions.SCENES),
+    resources:
+        mem_mb=800,
+        runtime=30,
+    params:
+        code=sources.digest("springblock.commands.production"),
+    message:
+        "Measuring errors of ensembles at full size: {wildcards.scene}"
+    shell:
+        "springblock production --scene {wildcards.scene} --output {output:q} > {log:q} 2>&1"
+
+
+rule production_table:
+    input:
+        expand(rules.production_scene.output, scene=conventions.SCENES),
+    output:
+        f"{RESULTS}/tables/production.parquet",
+    log:
+        f"{RESULTS}/logs/production_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/production_table.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.collect"),
+    message:
+        "Collecting errors at full size in one table"
+    shell:
+        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
+
+
 rule stability_table:
     input:
         COMPILED,
