@@ -25,11 +25,7 @@ rule all:
         rules.claims.output,
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[
-                name
-                for name, figure in FIGURES.items()
-                if config["accuracy"] or figure.category != "Accuracy"
-            ],
+            figure=filter(is_part_of_all, FIGURES),
             suffix=["pdf", "png"],
         ),
         rules.accuracy.output if config["accuracy"] else [],

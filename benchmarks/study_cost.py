@@ -75,6 +75,8 @@ def _rule(path: Path) -> str:
         return "compile"
     if path.stem in _figures():
         return "figures"
+    if path.parent.name == "production" or path.stem == "production_table":
+        return "production"
     tables = ("precision_table", "stability_table")
     if path.parent.name == "accuracy" or path.stem in tables:
         return "accuracy"

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from precision import precision_rows
+from precision import precision_rows, production_rows
 from springblock.accuracy.page import page as accuracy_page
 from springblock.accuracy.stability.table import all_cases
 from springblock.claims import CLAIMS
@@ -27,7 +27,7 @@ def unmeasured(text):
 
 def test_the_page_on_errors_is_what_the_code_writes():
     stability = [{"family": case.family, "expected": "", "outcome": ""} for case in all_cases()]
-    text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}])
+    text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}], production_rows())
     assert numberless((DOCS / "accuracy.md").read_text()) == numberless(text)
 
 

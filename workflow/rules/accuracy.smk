@@ -103,6 +103,19 @@ rule production_table:
         "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
+rule production:
+    input:
+        rules.production_table.output,
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[name for name, figure in FIGURES.items() if figure.upon_request],
+            suffix=["pdf", "png"],
+        ),
+    localrule: True
+    message:
+        "Errors at full size are measured and drawn"
+
+
 rule stability_table:
     input:
         COMPILED,
@@ -123,11 +136,18 @@ rule stability_table:
         "springblock try --output {output:q} > {log:q} 2>&1"
 
 
+#: The table of errors at full size belongs to the page once it is there.
+AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).exists()]
+
+
 rule accuracy:
     input:
-        rules.precision_table.output,
-        rules.stability_table.output,
-        rules.aggregate.output,
+        tables=[
+            rules.precision_table.output,
+            rules.stability_table.output,
+            rules.aggregate.output,
+        ],
+        production=AT_FULL_SIZE,
     output:
         f"{RESULTS}/accuracy.md",
     log:
@@ -139,7 +159,9 @@ rule accuracy:
         runtime=5,
     params:
         code=sources.digest("springblock.commands.accuracy"),
+        production="--production" if AT_FULL_SIZE else "",
     message:
         "Writing down what to trust"
     shell:
-        "springblock accuracy {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock accuracy {input.tables:q} {params.production} {input.production:q} "
+        "--output {output:q} > {log:q} 2>&1"

@@ -81,3 +81,11 @@ def needed(figure):
             yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:
             yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
+
+
+def is_part_of_all(figure):
+    """Whether `snakemake` alone draws a figure; what is upon request, once its table is there."""
+    declared = FIGURES[figure]
+    if declared.category == "Accuracy" and not config["accuracy"]:
+        return False
+    return not declared.upon_request or all(Path(file).exists() for file in needed(figure))
