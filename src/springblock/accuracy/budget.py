@@ -18,7 +18,7 @@ from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH
 from springblock.defaults import STEP
 from springblock.rows import Row
 
-#: Realisations that the study has of a scene, by what it wants of them; l_c of pillars needs more.
+#: Realisations of a scene in the study, by what errors are asked of; l_c of pillars needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
 
@@ -106,7 +106,7 @@ def halving(steps: Sequence[Choice], budget: float) -> float:
 def study_budget(rows: Sequence[Row]) -> float:
     """CPU time of the study's seeds at the default step, s; `rows` as of `choices`."""
     (default,) = (choice for choice in choices(rows) if choice.step == STEP)
-    return default.spent(STUDY_SEEDS[rows[0]["quantity"]])
+    return default.spent(STUDY_SEEDS.get(rows[0]["quantity"], ENSEMBLE))
 
 
 def excess(steps: Sequence[Choice], budget: float) -> dict[float, float]:

@@ -1,6 +1,6 @@
 """The section of the page on ensembles of the study's own size."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import floor, isfinite, log10, sqrt
 
 from springblock.accuracy.budget import (
@@ -23,9 +23,9 @@ quarter of an hour; this page was written without its table.
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
 with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
-{most} seeds each: the table `production`, which `snakemake production` makes. Means over them at
-the default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus
-in the 95 % interval of the bias (the numerical error):
+{most} seeds each: the table `production`, which `snakemake production` makes. Means over them at the
+default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus in
+the 95 % interval of the bias (the numerical error):
 
 {values}
 
@@ -35,19 +35,18 @@ Student's, and of l_c bootstrap percentiles. In brackets the standard error of a
 
 {biases}
 
-The total error of an ensemble is the root of bias² + variance/seeds. For the CPU time that the
-study's seeds cost at the default, {ensemble} and for l_c {length_ensemble}, another step buys
-more of them or fewer. The bias is the estimate without what its own scatter adds; in square
-brackets, it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s, which is
-not known, counts as none. Errors in percent:
+The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
+or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for l_c
+{length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
+it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s, which is not known,
+counts as none. Errors in percent:
 
 {budgets}
 
 Halving the error costs so many times the CPU time: four where only scatter is left, less where the
 prelude is a large share, more where a finer step must take over.
 
-One step has to serve them all. Total errors over those of the best step, in the worst of these
-{n_cases} cases:
+One step has to serve them all. Total errors over those of the best step, in the worst case:
 
 {excess}
 """
@@ -63,9 +62,7 @@ def section(rows: Sequence[Row]) -> str:
     if not rows:
         return _WITHOUT
     default = select(rows, step=STEP)
-    pairs = [(scene, quantity) for quantity in STUDY_SEEDS for scene in SCENES]
-    found = [select(rows, scene=scene, quantity=quantity) for scene, quantity in pairs]
-    cases = [case for case in found if case]
+    cases, means = _cases(rows, STUDY_SEEDS), _cases(rows, ("t_max", "t_avg"))
     return _WITH.format(
         n_blocks=rows[0]["n_blocks"],
         fewest=min(row["realisations"] for row in rows),
@@ -76,9 +73,15 @@ def section(rows: Sequence[Row]) -> str:
         values=_by_scene("value", default, _value),
         biases=_by_scene("bias", default, _bias),
         budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        n_cases=len(cases),
-        excess=_worst(cases),
+        excess=_excesses({"of those above": cases, "of t_max and t_avg": means}),
     )
+
+
+def _cases(rows: Sequence[Row], quantities: Iterable[str]) -> list[list[Row]]:
+    """Rows of each quantity and scene that was measured."""
+    pairs = [(quantity, scene) for quantity in quantities for scene in SCENES]
+    found = [select(rows, scene=scene, quantity=quantity) for quantity, scene in pairs]
+    return [case for case in found if case]
 
 
 def _by_scene(name: str, rows: list[Row], cell: Callable[[Row], str]) -> str:
@@ -141,15 +144,24 @@ def _budget(rows: list[Row]) -> list[str]:
     ]
 
 
-def _worst(cases: list[list[Row]]) -> str:
-    """Largest excess of each step among the cases, by the biases of `_by_bias`."""
+def _excesses(groups: dict[str, list[list[Row]]]) -> str:
+    """Largest excess of each step in each group of cases."""
+    found = {name: _worst(cases) for name, cases in groups.items()}
+    steps = sorted(next(iter(found.values())))
+    lines = [[name, *(worst[step] for step in steps)] for name, worst in found.items()]
+    return markdown_table(["step (s)", *(f"{step:.0e}" for step in steps)], lines)
+
+
+def _worst(cases: list[list[Row]]) -> dict[float, str]:
+    """Largest excess of each step, by the biases of `_by_bias`."""
     found = [
         [excess(steps, study_budget(rows)) for rows, steps in zip(cases, alike, strict=True)]
         for alike in zip(*map(_by_bias, cases), strict=True)
     ]
-    steps = sorted(found[0][0])
-    line = [_between(".2f", [max(case[step] for case in each) for each in found]) for step in steps]
-    return markdown_table(["step (s)", *(f"{step:.0e}" for step in steps)], [["", *line]])
+    return {
+        step: _between(".2f", [max(case[step] for case in each) for each in found])
+        for step in found[0][0]
+    }
 
 
 def _between(digits: str, numbers: Sequence[float]) -> str:

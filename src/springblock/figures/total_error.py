@@ -23,6 +23,7 @@ from matplotlib.ticker import (
     NullLocator,
     SymmetricalLogLocator,
 )
+from numpy.typing import ArrayLike
 
 from springblock.accuracy.budget import (
     Bias,
@@ -154,7 +155,8 @@ def _draw_biases(panels: Sequence[Axes], table: DataFrame) -> None:
         ax.tick_params(labelleft=ax is panels[0])
     panels[0].set_ylabel("bias (%), linear within ±0.1 %")
     handles = [Line2D([], [], label=name, **look) for name, look in _QUANTITIES.values()]
-    panels[0].legend(handles=handles, loc="lower right")
+    frame: dict[str, Any] = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
+    panels[0].legend(handles=handles, loc="lower right", **frame)
 
 
 def _draw_bias(ax: Axes, rows: list[Row], aside: float, look: dict[str, Any]) -> None:
@@ -226,8 +228,12 @@ def _say_what_is_best(ax: Axes, by_bias: list[list[Choice]], budget: float) -> N
 
 def _errors(choice: Choice, spent: Array) -> Array:
     """Total error in percent for each CPU time in s, (n,); NaN where no realisation is done."""
-    errors = np.array([choice.error(seconds) for seconds in spent])
-    return _PERCENT * np.where(np.isfinite(errors), errors, np.nan)
+    return _PERCENT * _finite([choice.error(seconds) for seconds in spent])
+
+
+def _finite(errors: ArrayLike) -> Array:
+    """NaN, which is not drawn, in the place of infinite errors."""
+    return np.where(np.isfinite(errors), errors, np.nan)
 
 
 def _wide(step: float) -> float:
@@ -241,7 +247,7 @@ def _draw_excess(ax: Axes, table: DataFrame) -> None:
             if rows := _rows(table, scene, quantity):
                 found = [excess(choices(rows, bias), study_budget(rows)) for bias in Bias._fields]
                 steps = [_NANO * step for step in found[0]]
-                ratios = np.array([list(each.values()) for each in found])
+                ratios = _finite([list(each.values()) for each in found])
                 ax.plot(steps, ratios[0], linestyle=dashes, **look)
                 ends = ratios.min(axis=0), ratios.max(axis=0)
                 ax.vlines(steps, *ends, color=look["color"], linewidth=2.5, alpha=0.25)
