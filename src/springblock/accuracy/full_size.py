@@ -23,9 +23,9 @@ quarter of an hour; this page was written without its table.
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
 with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
-{most} seeds each: the table `production`, which `snakemake production` makes. Means over them at the
-default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus in
-the 95 % interval of the bias (the numerical error):
+{most} seeds each: the table `production`, which `snakemake production` makes. Means over them at
+the default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus
+in the 95 % interval of the bias (the numerical error):
 
 {values}
 
