@@ -189,7 +189,7 @@ def _share_limits(panels: Sequence[Axes]) -> None:
     ends = np.array([ax.get_ylim() for ax in panels])
     for ax in panels:
         ax.set_xlim(*_SPENT)
-        ax.set_ylim(0.4 * ends.min(), ends.max())  # room for words
+        ax.set_ylim(0.25 * ends.min(), ends.max())  # room for words
         ax.tick_params(labelleft=ax is panels[0])
 
 
