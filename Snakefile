@@ -26,7 +26,7 @@ rule all:
         rules.claims.output,
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[name for name, figure in FIGURES.items() if figure.category in CATEGORIES],
+            figure=filter(is_part_of_all, FIGURES),
             suffix=["pdf", "png"],
         ),
         rules.accuracy.output if config["accuracy"] else [],

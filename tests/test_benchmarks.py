@@ -190,6 +190,7 @@ def jobs_of_the_workflow():
         for text in re.split(r"^ *rule\b", file.read_text(), flags=re.MULTILINE)[1:]:
             for path in re.findall(r'benchmarks/(.*?)"', text):
                 path = path.replace("{{comparison}}-{{scene}}", "paired-flat")
+                path = path.replace("production/{{scene}}", "production/flat")
                 path = path.replace("{{", "{").replace("}}", "}")
                 for figure in declarations() if "{figure}" in path else [""]:
                     for part in ("", "beyond/"):
@@ -207,6 +208,8 @@ def test_every_job_of_the_workflow_counts_for_its_step():
         "correlations_table": "correlation",
         "compare_scene": "accuracy",
         "precision_table": "accuracy",
+        "production_scene": "production",
+        "production_table": "production",
         "stability_table": "accuracy",
         "": "figures",  # their rules are named in a loop
     }

@@ -172,7 +172,9 @@ def test_the_whole_study_can_be_planned(study):
     """With all its groups of scenes and its comparisons, from nothing."""
     jobs = planned(study, "--config", "results=elsewhere", **WHOLE)
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
-    assert {*tables, *declarations()} <= set(jobs)
+    upon_request = {name for name, figure in declarations().items() if figure.upon_request}
+    assert {*tables, *declarations()} - upon_request <= set(jobs)
+    assert not {*upon_request, "production_scene"} & set(jobs)
     assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
     sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **WHOLE)
     assert set(sizes) == {
@@ -183,6 +185,22 @@ def test_the_whole_study_can_be_planned(study):
         "figure_7",
     }
     assert sizes["simulate_batch"] < jobs["simulate_batch"]
+
+
+def test_errors_at_full_size_are_measured_upon_request(study):
+    jobs = planned(study, "--config", "results=elsewhere", "--", "production", **WHOLE)
+    needed = {"compile_integrator": 2, "production_scene": 3, "production_table": 1}
+    assert jobs == {**needed, "total_error": 1, "production": 1}
+
+
+def test_errors_at_full_size_belong_to_the_study_once_they_are_there(study):
+    table = study / "measured/tables/production.parquet"
+    table.parent.mkdir(parents=True)
+    table.touch()
+    options = ("--config", "results=measured", "--printshellcmds")
+    assert {"total_error", "accuracy"} <= set(planned(study, *options, **WHOLE))
+    commands = snakemake(study, "--dry-run", *options, **WHOLE).stdout
+    assert "realisations.parquet --production measured/tables/production.parquet" in commands
 
 
 def test_every_step_can_be_planned_by_its_name(study):

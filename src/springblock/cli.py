@@ -12,6 +12,7 @@ COMMANDS = {
     "correlation": "springblock.commands.correlation:correlation",
     "collect": "springblock.commands.collect:collect",
     "compare": "springblock.commands.compare:compare",
+    "production": "springblock.commands.production:production",
     "try": "springblock.commands.stability:try_cases",
     "accuracy": "springblock.commands.accuracy:write_page",
     "claims": "springblock.commands.claims:claims",

@@ -23,7 +23,7 @@ for test in sorted(TESTS):
 #: Letters of panels; those of other figures begin with a), too, if there are any.
 LETTERS = dict.fromkeys([f"figure_{number}" for number in (1, 4, 5, 8)], "ab")
 LETTERS |= dict.fromkeys([f"figure_{number}" for number in (2, 6, 9)], "abcd")
-LETTERS |= {"stability": "abcdef", "work_precision": "abcdefghijkl"}
+LETTERS |= {"stability": "abcdef", "work_precision": "abcdefghijkl", "total_error": "abcdefghijk"}
 
 
 @cache

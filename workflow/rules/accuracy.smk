@@ -63,6 +63,61 @@ rule precision_table:
         "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
+rule production_scene:
+    input:
+        COMPILED,
+    output:
+        f"{RESULTS}/accuracy/production/{{scene}}.parquet",
+    log:
+        f"{RESULTS}/logs/accuracy/production/{{scene}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/accuracy/production/{{scene}}.tsv"
+    wildcard_constraints:
+        scene="|".join(conventions.SCENES),
+    resources:
+        mem_mb=800,
+        runtime=30,
+    params:
+        code=sources.digest("springblock.commands.production"),
+    message:
+        "Measuring errors of ensembles at full size: {wildcards.scene}"
+    shell:
+        "springblock production --scene {wildcards.scene} --output {output:q} > {log:q} 2>&1"
+
+
+rule production_table:
+    input:
+        expand(rules.production_scene.output, scene=conventions.SCENES),
+    output:
+        f"{RESULTS}/tables/production.parquet",
+    log:
+        f"{RESULTS}/logs/production_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/production_table.tsv"
+    resources:
+        mem_mb=400,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.collect"),
+    message:
+        "Collecting errors at full size in one table"
+    shell:
+        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
+
+
+rule production:
+    input:
+        rules.production_table.output,
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[name for name, figure in FIGURES.items() if figure.upon_request],
+            suffix=["pdf", "png"],
+        ),
+    localrule: True
+    message:
+        "Errors at full size are measured and drawn"
+
+
 rule stability_table:
     input:
         COMPILED,
@@ -83,11 +138,18 @@ rule stability_table:
         "springblock try --output {output:q} > {log:q} 2>&1"
 
 
+#: The table of errors at full size belongs to the page once it is there.
+AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).exists()]
+
+
 rule accuracy:
     input:
-        rules.precision_table.output,
-        rules.stability_table.output,
-        rules.aggregate.input,
+        tables=[
+            rules.precision_table.output,
+            rules.stability_table.output,
+            rules.aggregate.input,
+        ],
+        production=AT_FULL_SIZE,
     output:
         f"{RESULTS}/accuracy.md",
     log:
@@ -99,7 +161,9 @@ rule accuracy:
         runtime=5,
     params:
         code=sources.digest("springblock.commands.accuracy"),
+        production="--production" if AT_FULL_SIZE else "",
     message:
         "Writing down what to trust"
     shell:
-        "springblock accuracy {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock accuracy {input.tables:q} {params.production} {input.production:q} "
+        "--output {output:q} > {log:q} 2>&1"

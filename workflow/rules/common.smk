@@ -92,3 +92,11 @@ def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
     lengths = config["figures"].get(figure, {})
     return FIGURES[figure].caption_in(ENSEMBLES, lengths, Material(**config["material"]))
+
+
+def is_part_of_all(figure):
+    """Whether `snakemake` alone draws a figure; what is upon request, once its table is there."""
+    declared = FIGURES[figure]
+    if declared.category not in CATEGORIES:
+        return False
+    return not declared.upon_request or all(Path(file).exists() for file in needed(figure))

@@ -5,8 +5,10 @@ surfaces          what errors are measured on
 reference         the solution that locates every event
 plain_rk4         Runge-Kutta as one would first write it
 work_precision    error against run time, in three comparisons
+production        bias, scatter and cost of the study's own ensembles
+budget            what an ensemble misses for so much CPU time
 kernels           the compiled loops, driven by hand
 stability         stiff and extreme cases
 residuals         realisations whose energy balance is suspect
-page              what to trust, in words
+page              what to trust, in words; full_size, its section on the study's own ensembles
 """

@@ -1,8 +1,10 @@
 """The page that says what a reader may trust; every number in it comes from the tables."""
 
+from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
+from springblock.accuracy import full_size
 from springblock.accuracy.conventions import (
     ENSEMBLE,
     HORIZON_NUDGE,
@@ -55,6 +57,9 @@ of a mean over {ensemble} seeds, which it must stay under. All in percent:
 
 {paired}
 
+## At full size
+
+{full_size}
 ## Every production run
 
 The largest energy residual of {n_runs} realisations is {worst_energy:.1e} of the slider's work,
@@ -76,8 +81,13 @@ the median {median_energy:.1e}. The study warns of any above {tolerance:.0e}, or
 """
 
 
-def page(precision: list[Row], stability: list[Row], realisations: list[Row]) -> str:
-    """Fill the page in from the rows of the three tables."""
+def page(
+    precision: list[Row],
+    stability: list[Row],
+    realisations: list[Row],
+    production: Sequence[Row] = (),
+) -> str:
+    """Fill the page in from the rows of the tables, of which `production` may be absent."""
     single = select(precision, comparison="reference")
     default = select(single, integrator="leapfrog", step=STEP)
     finest = select(single, integrator="leapfrog", step=min(row["step"] for row in single))
@@ -107,6 +117,7 @@ def page(precision: list[Row], stability: list[Row], realisations: list[Row]) ->
         fine=select(precision, comparison="scatter")[0]["step"],
         ensemble=ENSEMBLE,
         paired=_biases(select(paired, step=STEP), select(precision, comparison="scatter")),
+        full_size=full_size.section(production),
         n_runs=len(residuals),
         worst_energy=max(residuals),
         median_energy=median(residuals),

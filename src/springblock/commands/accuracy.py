@@ -14,11 +14,13 @@ from springblock.files import whole_file
 @click.argument("precision", type=INPUT)
 @click.argument("stability", type=INPUT)
 @click.argument("realisations", type=INPUT)
+@click.option("--production", type=INPUT, help="Table of errors at full size, if there is one.")
 @click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
-def write_page(precision: Path, stability: Path, realisations: Path, output: Path) -> None:
+def write_page(
+    precision: Path, stability: Path, realisations: Path, production: Path | None, output: Path
+) -> None:
     """Write the page from the tables PRECISION, STABILITY and REALISATIONS."""
-    text = page(
-        *(pq.read_table(table).to_pylist() for table in (precision, stability, realisations))
-    )
+    tables = [precision, stability, realisations] + ([production] if production else [])
+    text = page(*(pq.read_table(table).to_pylist() for table in tables))
     with whole_file(output) as partial:
         partial.write_text(text, encoding="utf-8")

@@ -1,0 +1,190 @@
+"""Errors of ensembles at the study's own size: the rows of results/tables/production.parquet.
+
+Ensembles of the study's scenes with N = 120 at several steps, against the leapfrog at the finest
+of them with the same seeds. Pairing takes most of the scatter from seed to seed out of the
+difference, which is the bias; the scatter itself says what so many seeds are worth.
+"""
+
+from collections.abc import Iterator
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+import pyarrow as pa
+from scipy.stats import t
+from tqdm import tqdm
+
+from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
+from springblock.accuracy.surfaces import Array, drawn
+from springblock.accuracy.work_precision import timed
+from springblock.correlation import Correlation, fit_length, side_times
+from springblock.defaults import STEP
+from springblock.pattern import Pattern
+from springblock.prelude import Prelude, compute_prelude
+from springblock.realisation import Realisation
+from springblock.rows import Row
+from springblock.simulation import simulate
+from springblock.statistics import limits
+from springblock.tables import column
+
+SCHEMA = pa.schema(
+    [
+        column("scene", pa.string(), "1", "flat, pillared or grooved; pulled along x"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+        column("quantity", pa.string(), "1", "what value and errors are of"),
+        column("unit", pa.string(), "1", "of value, scale, deviation and bias: 1, s or blocks"),
+        column("step", pa.float64(), "s", "integration step h of the leapfrog"),
+        column("value", pa.float64(), "see unit", "mean over the realisations; l_c fitted to all"),
+        column(
+            "scale",
+            pa.float64(),
+            "see unit",
+            "what errors are shares of: the value at the finest step, t_max for t_max - t_avg",
+        ),
+        column(
+            "deviation",
+            pa.float64(),
+            "see unit",
+            "standard deviation of one realisation; of l_c: that of the bootstrap times the root "
+            "of the number of realisations",
+        ),
+        column("bias", pa.float64(), "see unit", "value less that of the same seeds, finest step"),
+        column("bias_error", pa.float64(), "see unit", "standard error of the bias; paired"),
+        column(
+            "ci_low",
+            pa.float64(),
+            "see unit",
+            "lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
+        ),
+        column("ci_high", pa.float64(), "see unit", "upper end"),
+        column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
+        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
+        column("prelude_seconds", pa.float64(), "s", "CPU time of the prelude, shared by all"),
+    ]
+)
+
+_FLAT, _PILLARED = Pattern.flat(120), Pattern.pillars(120, 20, 20)
+_GROOVED = Pattern.pillars(120, 58, 62).grooved(8, 2)
+PATTERNS = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+#: As many as a quarter of an hour allows, more where a realisation costs less.
+SEEDS = dict(zip(SCENES, (100, 60, 40), strict=True))
+STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
+#: A multiple of all steps, near the study's 2e-7 s.
+SAMPLE_INTERVAL = 1.6e-7
+QUANTITIES = (*MEANS, DELAY)  #: of every realisation
+UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of what is no time
+
+
+class Estimate(NamedTuple):
+    """A quantity at one step, and its bias against the finest: columns of the table."""
+
+    value: float
+    deviation: float
+    bias: float
+    bias_error: float
+    ci_low: float
+    ci_high: float
+
+
+class Kept(NamedTuple):
+    """What is kept of one realisation, or of k stacked: (k, ...) each."""
+
+    means: Array  #: by quantity, in the order of `QUANTITIES`
+    sides: Array  #: s, as of `side_times`; (0,) where nothing correlates
+    seconds: Array  #: CPU time
+
+
+def production_rows(scene: str) -> Iterator[Row]:
+    """Compare ensembles of one scene at all steps; a row per quantity and step."""
+    pattern, seeds = PATTERNS[scene], SEEDS[scene]
+    preludes, ensembles = simulate_ensembles(pattern, seeds)
+    finest = ensembles[min(STEPS)].means
+    found = {
+        (quantity, step): of_mean(ensemble.means[:, i], finest[:, i])
+        for i, quantity in enumerate(QUANTITIES)
+        for step, ensemble in ensembles.items()
+    }
+    if ensembles[STEP].sides.size:
+        lengths = of_length({step: ensemble.sides for step, ensemble in ensembles.items()})
+        found |= {(LENGTH, step): estimate for step, estimate in lengths.items()}
+    for (quantity, step), estimate in found.items():
+        against = "t_max" if quantity == DELAY else quantity
+        yield {
+            "scene": scene,
+            "n_blocks": pattern.n_blocks,
+            "quantity": quantity,
+            "unit": UNITS.get(quantity, "s"),
+            "step": step,
+            **estimate._asdict(),
+            "scale": found[against, min(STEPS)].value,
+            "realisations": seeds,
+            "cpu_seconds": float(np.median(ensembles[step].seconds)),
+            "prelude_seconds": preludes[step],
+        }
+
+
+def simulate_ensembles(
+    pattern: Pattern, seeds: int
+) -> tuple[dict[float, float], dict[float, Kept]]:
+    """Return the CPU time of each step's prelude, and what is kept of so many seeds.
+
+    Steps take turns at every seed, so that what slows one of them slows all.
+    """
+    _load(Pattern.flat(4), STEP)  # compiled first
+    preludes = {step: timed(partial(_load, pattern, step)) for step in STEPS}
+    kept: dict[float, list[Kept]] = {step: [] for step in STEPS}
+    for seed in tqdm(range(seeds), desc="seeds"):
+        for step, (prelude, _) in preludes.items():
+            pull = partial(simulate, *drawn(pattern, seed), prelude=prelude, **_how(step))
+            kept[step].append(keep(pattern, *timed(pull)))
+    seconds = {step: spent for step, (_, spent) in preludes.items()}
+    return seconds, {step: Kept(*map(np.stack, zip(*kept[step], strict=True))) for step in STEPS}
+
+
+def _how(step: float) -> Row:
+    return {"step": step, "sample_interval": SAMPLE_INTERVAL}
+
+
+def _load(pattern: Pattern, step: float) -> Prelude:
+    return compute_prelude(pattern.contact, **_how(step))
+
+
+def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
+    """Keep of a run what ensembles are used for: means, and sides where pillars are whole."""
+    means = {name: getattr(run, name) for name in MEANS} | {DELAY: run.t_max - run.t_avg}
+    whole = len(pattern.levels) == 1
+    sides = side_times([run], pattern, "x")[0] if whole else np.empty(0)
+    return Kept(np.array([means[name] for name in QUANTITIES]), sides, np.array(seconds))
+
+
+def of_mean(values: Array, exact: Array) -> Estimate:
+    """Bias of a mean over k seeds, (k,), from that of the same seeds, with Student's interval."""
+    differences, k = values - exact, len(values)
+    bias, error = differences.mean(), differences.std(ddof=1) / np.sqrt(k)
+    half = t.ppf(0.975, k - 1) * error
+    return Estimate(
+        *map(float, (values.mean(), values.std(ddof=1), bias, error, bias - half, bias + half))
+    )
+
+
+def of_length(sides: dict[float, Array]) -> dict[float, Estimate]:
+    """Bias of l_c by step, from the times along the sides of the same k seeds.
+
+    The same resamples of seeds at every step; range of r and weights of the fit are those at the
+    default step, so that nothing but the times differs.
+    """
+    curves = {step: Correlation(times) for step, times in sides.items()}
+    span = slice(1, curves[STEP].last() + 1)
+    errors = curves[STEP].resampled[:, span].std(axis=0)
+    values, resampled = {}, {}
+    for step, curve in curves.items():
+        (values[step],) = fit_length(curve.mean[None, span], errors)
+        resampled[step] = fit_length(curve.resampled[:, span], errors)
+    finest, root = min(sides), np.sqrt(len(sides[STEP]))
+    estimates = {}
+    for step, value in values.items():
+        differences = resampled[step] - resampled[finest]
+        deviation, bias = root * resampled[step].std(), value - values[finest]
+        numbers = (value, deviation, bias, differences.std(), *limits(differences))
+        estimates[step] = Estimate(*map(float, numbers))
+    return estimates

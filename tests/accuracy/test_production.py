@@ -1,0 +1,88 @@
+"""Biases of ensembles, on made-up pairs whose bias is known and on surfaces of few blocks."""
+
+import numpy as np
+import pytest
+
+from springblock import Pattern, draw_friction, simulate
+from springblock.accuracy import production
+from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
+from springblock.accuracy.production import SCHEMA, STEPS, of_length, of_mean, production_rows
+from springblock.defaults import STEP
+from springblock.scene import Scene
+from springblock.tables import rows_to_table
+from test_correlation import times
+
+SEEDS = 4
+
+
+@pytest.fixture
+def rows(monkeypatch):
+    """Rows of pillars so small that each run takes milliseconds."""
+    monkeypatch.setitem(production.PATTERNS, "pillared", Pattern.pillars(12, 6, 6))
+    monkeypatch.setitem(production.SEEDS, "pillared", SEEDS)
+    return list(production_rows("pillared"))
+
+
+def test_the_bias_of_a_mean_is_what_was_added(rng):
+    exact = rng.normal(7.0, 2.0, 50)
+    found = of_mean(exact + 0.25, exact)
+    assert found.bias == pytest.approx(0.25)
+    assert found.bias_error == pytest.approx(0.0, abs=1e-12)
+    assert found.deviation == pytest.approx(exact.std(ddof=1))
+    assert found.value == pytest.approx(exact.mean() + 0.25)
+
+
+def test_pairs_tell_a_bias_that_is_far_below_the_scatter(rng):
+    """Of 200 such intervals, 95 % hold it: 190 within four standard deviations of 3."""
+    held = 0
+    for _ in range(200):
+        exact = rng.normal(7.0, 2.0, 50)
+        found = of_mean(exact + rng.normal(0.1, 0.05, 50), exact)
+        held += found.ci_low < 0.1 < found.ci_high
+        assert 0.0 < found.ci_low < found.ci_high < 0.2 < found.deviation / 50**0.5
+    assert 178 <= held <= 200
+
+
+def test_the_bias_of_a_length_is_told_where_sides_correlate_further(rng):
+    """The same noise at both steps, smoothed over two blocks at one of them."""
+    fine = times(rng, 60, 9, 20, 2.0)
+    coarse = fine + 0.4 * np.roll(fine - fine.mean(), 1, axis=-1)
+    found = of_length({5e-9: fine, STEP: coarse, 4e-8: fine})
+    assert found[5e-9].bias == found[4e-8].bias == found[4e-8].ci_high == 0.0
+    assert found[STEP].ci_low > 0.0
+    assert found[STEP].value - found[5e-9].value == pytest.approx(found[STEP].bias)
+    unpaired = found[STEP].deviation / 60**0.5
+    assert found[STEP].bias_error < 0.7 * unpaired
+
+
+def test_rows_are_those_of_the_table_without_a_bias_at_the_finest_step(rows):
+    table = rows_to_table(rows, SCHEMA)
+    assert all(set(row) == set(SCHEMA.names) for row in rows)
+    assert all({b"unit", b"meaning"} == set(field.metadata) for field in table.schema)
+    assert table.num_rows == 5 * len(STEPS)
+    for row in rows:
+        if row["step"] == min(STEPS):
+            assert row["bias"] == row["ci_low"] == row["ci_high"] == row["bias_error"] == 0.0
+        assert row["cpu_seconds"] > 0.0
+
+
+def test_rows_hold_what_simulate_yields(rows):
+    pattern = Pattern.pillars(12, 6, 6)
+    runs = [
+        simulate(pattern.contact, *draw_friction(12, s), sample_interval=1.6e-7) for s in range(4)
+    ]
+    found = {row["quantity"]: row for row in rows if row["step"] == STEP}
+    assert found["t_max"]["value"] == pytest.approx(np.mean([run.t_max for run in runs]))
+    delays = [run.t_max - run.t_avg for run in runs]
+    assert found[DELAY]["value"] == pytest.approx(np.mean(delays))
+    assert found[DELAY]["scale"] == pytest.approx(found["t_max"]["scale"])
+    assert (found[LENGTH]["unit"], found[DELAY]["unit"]) == ("blocks", "s")
+
+
+def test_scenes_are_those_of_the_study_and_steps_divide_the_sample_interval():
+    grooves = Scene(120, 58, 62, 8, 2)
+    for scene, wanted in zip(SCENES, (Scene(120), Scene(120, 20, 20), grooves), strict=True):
+        assert (production.PATTERNS[scene].contact == wanted.pattern.contact).all()
+    multiples = production.SAMPLE_INTERVAL / np.array(STEPS)
+    assert multiples == pytest.approx(np.round(multiples))
+    assert STEP in STEPS
