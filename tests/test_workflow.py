@@ -25,6 +25,7 @@ ALLOWED = {
     "Specify a conda environment or container for each rule.",  # all run in environment.lock's
 }
 
+GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
 TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
@@ -34,7 +35,7 @@ TINY = {
         "flat": {"seeds": 3},
         "pillars": {"n_p": [3, 6], "seeds": [2, 3]},
         "again": {"n_p": [6], "n_s": [6], "direction": ["x"], "seeds": 1},
-        "grooves": dict(n_p=[5], n_s=[7], n_p2=[1], n_s2=[1], direction=["x", "y"], seeds=1),
+        "grooves": GROOVES | {"direction": ["x", "y"], "seeds": 1},
     },
     "beyond": dict.fromkeys(PAPER["beyond"]),
     "figures": {

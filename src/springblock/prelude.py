@@ -21,6 +21,7 @@ from springblock.direction import heading
 from springblock.files import whole_file
 from springblock.material import Material
 from springblock.setup import PAPER, Setup
+from springblock.solver import on_cores
 from springblock.solver.lattice import Samples, State, prepare, unpadded
 
 Array = NDArray[np.float64]
@@ -102,6 +103,7 @@ def compute_prelude(
     integrator: str = INTEGRATOR,
     step: float = STEP,
     sample_interval: float = SAMPLE_INTERVAL,
+    cores: int = 1,
 ) -> Prelude:
     """Load a surface whose blocks never let go, until most seeds would have let one go.
 
@@ -115,7 +117,12 @@ def compute_prelude(
     state, constants = prepare(
         mask, ones, nothing, material, towards, setup.method, step, keep_peak=True
     )
-    advance, every, blocks, peak = setup.method.advance, setup.every, state.blocks, state.peak
+    advance, every, blocks, peak = (
+        on_cores(integrator, cores),
+        setup.every,
+        state.blocks,
+        state.peak,
+    )
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())
     blocks.static[bound] = _NEVER

@@ -15,7 +15,17 @@ from springblock.material import Material
 from springblock.prelude import Prelude, conditions
 from springblock.realisation import Realisation, first_minimum
 from springblock.setup import PAPER, Setup
-from springblock.solver.lattice import SQUARES, WORK, Constants, Samples, State, prepare, unpadded
+from springblock.solver import on_cores
+from springblock.solver.lattice import (
+    SQUARES,
+    WORK,
+    Advance,
+    Constants,
+    Samples,
+    State,
+    prepare,
+    unpadded,
+)
 
 Array = NDArray[np.float64]
 
@@ -44,6 +54,7 @@ def simulate(
     sample_interval: float = SAMPLE_INTERVAL,
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
+    cores: int = 1,
 ) -> Realisation:
     """Pull one surface from rest and record how it lets go.
 
@@ -72,6 +83,8 @@ def simulate(
     prelude : Prelude
         States of this very scene before its first detachment, see `compute_prelude`. They
         save time and change nothing.
+    cores : int
+        On which the leapfrog follows one large surface, to the bit as on one.
 
     Raises
     ------
@@ -83,7 +96,7 @@ def simulate(
     """
     contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic)
     setup = Setup(material, integrator, step, sample_interval)
-    towards = heading(direction)
+    advance, towards = on_cores(integrator, cores), heading(direction)
     stops = [
         whole_multiple("snapshot_times", time, "sample_interval", sample_interval)
         for time in snapshot_times
@@ -96,7 +109,7 @@ def simulate(
     limit = _LAST_RESORT * _lone_release_time(contact, mu_static, mu_dynamic, material)
 
     surface = contact, mu_static, mu_dynamic
-    motion = _Motion(setup, *prepare(*surface, material, towards, setup.method, step))
+    motion = _Motion(setup, advance, *prepare(*surface, material, towards, setup.method, step))
     if prelude is not None:
         here = conditions(contact, setup, towards)
         motion.skip(prelude, here, min([*stops, math.inf if end is None else end]) - 1)
@@ -121,6 +134,7 @@ class _Motion:
     """Blocks on their way, between two calls of the compiled loop."""
 
     setup: Setup
+    advance: Advance
     state: State
     constants: Constants
     samples: int = 0  #: taken so far, not counting the one at rest
@@ -147,7 +161,7 @@ class _Motion:
             return
         every, more, first = self.setup.every, until - self.samples, self.steps
         taken = Samples.empty(more)
-        done, row, column = self.setup.method.advance(
+        done, row, column = self.advance(
             self.state, self.constants, first, more * every, every, taken
         )
         if row >= 0:

@@ -79,27 +79,27 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
-    rows, blocks = leapfrog._rows.py_func(state.in_contact, 12), state.blocks
+    rows, blocks = leapfrog.make_rows.py_func(state.in_contact, 12), state.blocks
     assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.wx, blocks.wy))
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
     sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.n, pull)
     assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
-    rows.sliding[:] = 0
+    rows.sliding[:] = False
     rows.wake[:] = sure
-    leapfrog._wake(rows, sure - 1)
+    leapfrog.wake(rows, sure - 1)
     assert not rows.awake.any()
-    leapfrog._wake(rows, sure)
+    leapfrog.wake(rows, sure)
     assert rows.awake[:12].all()
 
 
 @pytest.mark.parametrize("moving", range(4))
 def test_a_moving_row_wakes_its_neighbours(moving):
-    rows = leapfrog._rows.py_func(np.ones(4, bool), 4)
-    rows.sliding[:] = 0
+    rows = leapfrog.make_rows.py_func(np.ones(4, bool), 4)
+    rows.sliding[:] = False
     rows.sliding[moving + 1] = 5
     rows.wake[:] = 1000
-    leapfrog._wake(rows, 7)
+    leapfrog.wake(rows, 7)
     np.testing.assert_array_equal(rows.awake[:4], abs(np.arange(4) - moving) <= 1)
 
 

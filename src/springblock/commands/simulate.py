@@ -95,14 +95,20 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[s
     }
 
 
+_CORES = click.option(
+    "--cores", type=int, default=1, show_default=True, help="For one large surface."
+)
+
+
 @click.command("prelude")
 @setup_options
+@_CORES
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
-def prelude(scene: Scene, setup: Setup, output: Path) -> None:
+def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
         contact, direction = scene.pattern.contact, scene.direction
-        compute_prelude(contact, direction=direction, **vars(setup)).save(output)
+        compute_prelude(contact, direction=direction, cores=cores, **vars(setup)).save(output)
 
 
 @click.command("simulate")
@@ -111,6 +117,7 @@ def prelude(scene: Scene, setup: Setup, output: Path) -> None:
 @click.option("--last-seed", type=int, required=True, help="Itself included.")
 @click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
 @click.option("--prelude", type=INPUT, help="Written by `springblock prelude`; saves time.")
+@_CORES
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
@@ -119,6 +126,7 @@ def simulate_batch(
     last_seed: int,
     duration: float | None,
     prelude: Path | None,
+    cores: int,
     output: Path,
 ) -> None:
     """Run the realisations of one scene from --first-seed to --last-seed."""
@@ -135,6 +143,7 @@ def simulate_batch(
                     direction=scene.direction,
                     duration=duration,
                     prelude=loaded,
+                    cores=cores,
                     **vars(setup),
                 )
             except SimulationError as error:

@@ -57,6 +57,7 @@ class _Restrict(Compiler):  # type: ignore[misc]
 #: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.
 JIT = {
     "cache": True,
+    "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract", "nsz"},
     "pipeline_class": _Restrict,

@@ -98,6 +98,24 @@ class Samples(NamedTuple):
         return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
 
 
+class Advance(Protocol):
+    """How an integrator takes steps."""
+
+    def __call__(
+        self,
+        state: State,
+        constants: Constants,
+        first: int,
+        steps: int,
+        every: int,
+        samples: Samples,
+    ) -> tuple[int, int, int]:
+        """Take `steps` steps from step `first` on, sampling each time `every` steps are full.
+
+        Returns steps taken, and row and column of a spring that no longer holds; -1 if all do.
+        """
+
+
 class Integrator(Protocol):
     """A way to follow the blocks through time: a module of this package.
 
@@ -113,19 +131,9 @@ class Integrator(Protocol):
     def force_time(self, step: float, gamma: float) -> float:
         """How long a force acts in one step, s."""
 
-    def advance(
-        self,
-        state: State,
-        constants: Constants,
-        first: int,
-        steps: int,
-        every: int,
-        samples: Samples,
-    ) -> tuple[int, int, int]:
-        """Take `steps` steps from step `first` on, sampling each time `every` steps are full.
-
-        Returns steps taken, and row and column of a spring that no longer holds; -1 if all do.
-        """
+    @property
+    def advance(self) -> Advance:
+        """Follows the blocks on one core."""
 
     def at_step(self, state: State, constants: Constants, steps: int) -> tuple[Array, float]:
         """Velocity, (2, lattice), after `steps` steps, and friction's heat until then."""

@@ -84,7 +84,7 @@ class Rows(NamedTuple):
 
 
 @njit(**JIT)
-def _rows(in_contact, n):
+def make_rows(in_contact, n):
     """Rows as if every one of them moved."""
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = False
@@ -246,7 +246,7 @@ def _look_around(blocks, released, row, x, constants, slider):
 
 
 @njit(**JIT)
-def _place_releases(blocks, rows, released, count, constants, k):
+def place_releases(blocks, rows, released, count, constants, k):
     """Let `count` blocks go at their times within the step, not at its end.
 
     At step k they are θ² a/2 on their way, and then move with (1/2 + θ) a. The energy that a
@@ -315,10 +315,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 @njit(**JIT)
 def _settle(blocks, rows, released, count, band, s, pull, now):
-    """See to what rows of a band have done.
-
-    Returns their switches from rest to sliding, and the number of blocks released so far.
-    """
+    """See to what rows of a band have done; returns what `move_band` does."""
     n, switches = band.n, np.int64(0)
     for row in range(band.start, band.stop):
         i = row * band.pitch
@@ -336,7 +333,21 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
 
 
 @njit(**JIT)
-def _wake(rows, now):
+def move_band(blocks, peak, rows, released, count, band, s, constants, now):
+    """Move a band whose forces are in scratch `s`.
+
+    Returns its switches from rest to sliding, and the number of blocks released so far.
+    """
+    a = math.exp(-constants.damping)
+    pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
+    keep_peaks(peak, band, s)
+    _move_rows_in_contact(blocks, rows, band, s, one_row(s), a)
+    _move_free_rows(blocks, rows, band, s, a)
+    return _settle(blocks, rows, released, count, band, s, pull, now)
+
+
+@njit(**JIT)
+def wake(rows, now):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
     for row in range(len(rows.wake)):
         disturbed = rows.sliding[row] or rows.sliding[row + 1] or rows.sliding[row + 2]
@@ -346,7 +357,7 @@ def _wake(rows, now):
 
 
 @njit(**JIT)
-def _totals(rows):
+def totals(rows):
     """Sum over rows, in their order."""
     x, y, heat, squares = 0.0, 0.0, 0.0, 0.0
     for row in range(len(rows.x)):
@@ -365,13 +376,12 @@ def advance(state, constants, first, steps, every, samples):
     changes no bit.
     """
     blocks, s, n = state.blocks, state.scratch, constants.n
-    pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
-    a, switches = math.exp(-constants.damping), np.int64(0)
-    rows, released = _rows(state.in_contact, np.int64(n)), room(np.int64(n * n))
+    rows, released = make_rows(state.in_contact, np.int64(n)), room(np.int64(n * n))
+    switches = np.int64(0)
     for k in range(first, first + steps):
         slider, count = (constants.slider_x * k, constants.slider_y * k), np.int64(0)
         if state.peak is None:  # a prelude looks at every block in every step
-            _wake(rows, k)
+            wake(rows, k)
         for start in range(U(0), n, constants.band_rows):
             band = band_from(start, constants)
             row, column = forces_on_band(
@@ -379,12 +389,11 @@ def advance(state, constants, first, steps, every, samples):
             )
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
-            keep_peaks(state.peak, band, s)
-            _move_rows_in_contact(blocks, rows, band, s, one_row(s), a)
-            _move_free_rows(blocks, rows, band, s, a)
-            more, count = _settle(blocks, rows, released, count, band, s, pull, k)
+            more, count = move_band(
+                blocks, state.peak, rows, released, count, band, s, constants, k
+            )
             switches += more
         if count > 0:
-            _place_releases(blocks, rows, released, count, constants, k)
-        switches = book(state.ledger, samples, constants, _totals(rows), switches, k, first, every)
+            place_releases(blocks, rows, released, count, constants, k)
+        switches = book(state.ledger, samples, constants, totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)

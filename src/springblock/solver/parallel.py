@@ -1,0 +1,153 @@
+"""The leapfrog of one large surface on several cores, to the bit as on one.
+
+Each core takes a share of neighbouring bands through every step. Only the bands at the two ends of
+a share feel rows of another one: all cores first compute the forces of these, while nothing moves,
+and only then go through their share.
+"""
+
+from concurrent.futures import Executor, ThreadPoolExecutor
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from springblock.solver.compilation import JIT
+from springblock.solver.lattice import (
+    Array,
+    Constants,
+    Samples,
+    State,
+    band_from,
+    book,
+)
+from springblock.solver.leapfrog import Rows, make_rows, move_band, place_releases, totals, wake
+from springblock.solver.release import Released, room
+from springblock.solver.springs import ONE, Band, U, forces_on_band, scratch
+
+
+class Share(NamedTuple):
+    """Rows [start, stop) that one core moves, and its room to work in."""
+
+    start: np.uint64
+    stop: np.uint64
+    lower: Array  #: scratch of the first band, and then of all but the last
+    upper: Array  #: scratch of the last band
+    released: Released
+
+
+def shares(constants: Constants, cores: int) -> list[Share]:
+    """Divide the bands of a lattice among so many cores, or fewer where there are fewer bands."""
+    size, n = int(constants.band_rows), int(constants.n)
+    bands = -(-n // size)
+    cuts = np.unique(np.linspace(0, bands, min(cores, bands) + 1).astype(int)) * size
+    return [
+        Share(U(start), U(min(stop, n)), scratch(), scratch(), room((min(stop, n) - start) * n))
+        for start, stop in zip(cuts[:-1].tolist(), cuts[1:].tolist(), strict=True)
+    ]
+
+
+@njit(**JIT)
+def _forces_on_end(blocks, rows, band, s, springs, slider):
+    """Forces of a band, and first what the row below pulls it with."""
+    if band.start > 0:
+        below = Band(band.start - ONE, band.start, band.n, band.pitch, band.width)
+        row, column = forces_on_band(blocks.ux, blocks.uy, below, rows.awake, s, springs, slider)
+        if column > 0:
+            return row, column
+    return forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
+
+
+@njit(**JIT)
+def _look(blocks, rows, share, constants, slider):
+    """Forces at both ends of a share, before anything moves.
+
+    Returns row and column of a broken spring; column 0 if none is.
+    """
+    first = band_from(share.start, constants)
+    row, column = _forces_on_end(blocks, rows, first, share.lower, constants.springs, slider)
+    if column > 0 or first.stop == share.stop:
+        return row, column
+    last = band_from(_last_band(share, constants), constants)
+    return _forces_on_end(blocks, rows, last, share.upper, constants.springs, slider)
+
+
+@njit(inline="always")
+def _last_band(share, constants):
+    """First row of the last band."""
+    size = constants.band_rows
+    return (share.stop - ONE) // size * size
+
+
+@njit(**JIT)
+def _move(blocks, peak, rows, share, constants, slider, now):
+    """Take a share through a step.
+
+    Returns switches and releases, and row and column of a broken spring; column 0 if none is.
+    """
+    springs, last = constants.springs, _last_band(share, constants)
+    switches, count = np.int64(0), np.int64(0)
+    for start in range(share.start, share.stop, constants.band_rows):
+        band = band_from(start, constants)
+        s = share.upper if start == last and start > share.start else share.lower
+        if share.start < start < last:
+            row, column = forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
+            if column > 0:
+                return switches, count, row, column
+        more, count = move_band(blocks, peak, rows, share.released, count, band, s, constants, now)
+        switches += more
+    return switches, count, U(0), U(0)
+
+
+def advance(
+    state: State,
+    constants: Constants,
+    first: int,
+    steps: int,
+    every: int,
+    samples: Samples,
+    cores: int,
+) -> tuple[int, int, int]:
+    """As `leapfrog.advance`, on so many cores."""
+    rows, switches = make_rows(state.in_contact, int(constants.n)), 0
+    released, parts = room(int(constants.n) ** 2), shares(constants, cores)
+    with ThreadPoolExecutor(len(parts)) as executor:
+        for k in range(first, first + steps):
+            if state.peak is None:
+                wake(rows, k)
+            more, count, row, column = _step(executor, state, rows, parts, released, constants, k)
+            if column > 0:
+                return k - first, row, column - 1
+            if count > 0:
+                place_releases(state.blocks, rows, released, count, constants, k)
+            switches += more
+            switches = book(
+                state.ledger, samples, constants, totals(rows), switches, k, first, every
+            )
+    return steps, -1, -1
+
+
+def _step(
+    executor: Executor,
+    state: State,
+    rows: Rows,
+    parts: list[Share],
+    released: Released,
+    constants: Constants,
+    k: int,
+) -> tuple[int, int, int, int]:
+    """Move all blocks; returns switches and releases, and row and column of a broken spring."""
+    slider = constants.slider_x * k, constants.slider_y * k
+    blocks, peak = state.blocks, state.peak
+    looked = list(executor.map(lambda part: _look(blocks, rows, part, constants, slider), parts))
+    for row, column in looked:
+        if column > 0:
+            return 0, 0, row, column
+    switches = count = 0
+    moved = executor.map(lambda part: _move(blocks, peak, rows, part, constants, slider, k), parts)
+    for part, (more, let_go, row, column) in zip(parts, list(moved), strict=True):
+        if column > 0:
+            return switches, count, row, column
+        for all_of_them, its_own in zip(released[:5], part.released[:5], strict=True):
+            all_of_them[count : count + let_go] = its_own[:let_go]
+        switches, count = switches + more, count + let_go
+    return switches, count, 0, 0

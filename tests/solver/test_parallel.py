@@ -1,0 +1,95 @@
+"""Several cores: the same bits as one."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, compute_prelude, draw_friction, simulate
+from springblock.solver import leapfrog, parallel
+from springblock.solver.lattice import Samples, prepare
+
+PATTERNS = {
+    "flat": Pattern.flat(30),
+    "pillared": Pattern.pillars(30, 10, 5),
+    "grooved": Pattern.pillars(30, 28, 2).grooved(8, 2),
+    "small": Pattern.flat(3),
+}
+FAST = Material(slider_velocity=0.05)  # lets go, stops and lets go again within microseconds
+STEPS, EVERY = 400, 10
+
+
+def start(name, band_rows, **options):
+    pattern, step = PATTERNS[name], 2e-8
+    coefficients = draw_friction(pattern.n_blocks, seed=0)
+    heading = np.cos(0.3), np.sin(0.3)
+    state, constants = prepare(
+        pattern.contact, *coefficients, FAST, heading, leapfrog, step, **options
+    )
+    return state, constants._replace(band_rows=np.uint64(band_rows))
+
+
+@pytest.mark.parametrize("name", PATTERNS)
+@pytest.mark.parametrize("band_rows", [1, 2, 7])
+@pytest.mark.parametrize("cores", [1, 2, 3, 40])
+def test_every_bit_is_as_on_one_core(name, band_rows, cores):
+    """However many bands a share holds: one, two, more."""
+    alone, together = (start(name, band_rows) for _ in range(2))
+    samples, others = (Samples.empty(STEPS // EVERY) for _ in range(2))
+    assert leapfrog.advance(*alone, 0, STEPS, EVERY, samples) == (STEPS, -1, -1)
+    assert parallel.advance(*together, 0, STEPS, EVERY, others, cores) == (STEPS, -1, -1)
+    for one, other in zip(
+        (*alone[0].blocks, *samples), (*together[0].blocks, *others), strict=True
+    ):
+        np.testing.assert_array_equal(one, other)
+    np.testing.assert_array_equal(alone[0].ledger, together[0].ledger)
+    assert (
+        samples.switches.sum() > np.isfinite(alone[0].blocks.t_det).sum() > 0
+    )  # some let go again
+
+
+def test_what_a_prelude_keeps_is_the_same():
+    peaks = []
+    for cores in (1, 3):
+        state, constants = start("pillared", 2, keep_peak=True)
+        state.blocks.static[state.blocks.static > 0.0] = 1e6
+        parallel.advance(state, constants, 0, STEPS, STEPS, Samples.empty(1), cores)
+        peaks.append(state.peak)
+    np.testing.assert_array_equal(*peaks)
+    assert np.count_nonzero(peaks[0]) > 400
+
+
+@pytest.mark.parametrize("row", [0, 6, 7, 29])
+@pytest.mark.parametrize("cores", [1, 2, 3])
+def test_a_broken_spring_is_found_wherever_it_is(row, cores):
+    """In the first band of a share, in its last one, and between them."""
+    state, constants = start("flat", 2)
+    state.blocks.ux.reshape(30, -1)[row, 6] = np.nan
+    done, y, x = parallel.advance(state, constants, 0, 10, 10, Samples.empty(1), cores)
+    assert done == 0
+    assert max(abs(y - row), abs(x - 5)) <= 1  # it tears at its neighbours, too
+
+
+def test_a_realisation_and_its_prelude_take_several_cores():
+    pattern = Pattern.pillars(60, 20, 10)
+    surface = pattern.contact, *draw_friction(60, seed=1)
+    alone, together = (
+        simulate(*surface, cores=cores, prelude=compute_prelude(pattern.contact, cores=cores))
+        for cores in (1, 2)
+    )
+    np.testing.assert_array_equal(alone.t_det, together.t_det)
+    np.testing.assert_array_equal(alone.force, together.force)
+    assert alone.energy == together.energy
+
+
+@pytest.mark.parametrize(
+    ("cores", "integrator", "sentence"),
+    [
+        (0, "leapfrog", "cores must be at least 1, not 0"),
+        (2.0, "leapfrog", "cores must be a whole number, not 2.0"),
+        (True, "leapfrog", "cores must be a whole number, not True"),
+        (2, "rk4", "cores must be 1 with rk4, not 2"),
+    ],
+)
+def test_cores_that_cannot_be_used_are_refused(cores, integrator, sentence):
+    surface = np.ones((4, 4), bool), np.ones((4, 4)), np.ones((4, 4))
+    with pytest.raises((TypeError, ValueError), match=sentence):
+        simulate(*surface, integrator=integrator, cores=cores)
