@@ -27,7 +27,7 @@ FIGURE = Declaration(
     category="Figures",
     caption="""First detachment times t_det over t_max on one pillar, means over all pillars and
     realisations: a) by place on the pillar, b) by part of each ring of blocks from the edge to the
-    middle, with 95 % bootstrap intervals over realisations. Figure 5 of the paper; b) is an
+    middle, with 95 % t intervals over realisations. Figure 5 of the paper; b) is an
     addition.""",
     source=Realisations(groups=("pillars",)),
 )
@@ -45,7 +45,7 @@ _PARTS = {
 def draw(runs: "Sequence[Record]") -> Figure:
     """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
 
-    Means over all pillars and `runs`, which share one scene; bars are 95 % bootstrap intervals
+    Means over all pillars and `runs`, which share one scene; bars are 95 % t intervals
     over runs. An arrow shows the sliding direction if it is "x" or "y".
     """
     scene = runs[0].scene

@@ -35,7 +35,7 @@ FIGURE = Declaration(
     caption="""a) Friction force over the normal force and b) share of first detachments in each
     bin, on a flat surface and on pillars of several sizes; dots: t_max, rings: t_avg. c) Static
     friction and d) t_max - t_avg over the size of the pillars; dashed: flat surface. Means over
-    realisations with 95 % bootstrap intervals. Curves end with the shortest realisation. Figure 6
+    realisations with 95 % t intervals. Curves end with the shortest realisation. Figure 6
     of the paper; c) and d) are additions.""",
     source=Realisations(groups=("flat", "pillars"), keys=("n_p",)),
 )

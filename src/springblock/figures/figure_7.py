@@ -24,7 +24,7 @@ FIGURE = Declaration(
     caption="""Correlation of first detachment times along the sides of a pillar, from the middle of
     the side, sliding along x: c_x on sides along x, c_y on sides along y. Lines: exp(-r/l_c),
     dotted beyond the range of the fit. Inset: l_c of c_x over the size of the pillars; open: fits
-    of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are 95 % bootstrap
+    of A exp(-r/l_c), where three distances or more can be fitted. Bands and bars are 95 % BCa
     intervals over realisations. Figure 7 of the paper; the open points are an addition.""",
     source=Correlations(groups=("pillars",)),
 )

@@ -30,7 +30,7 @@ FIGURE = Declaration(
     category="Figures",
     caption="""Friction force over the normal force and share of first detachments in each bin on
     pillars with grooves, for each sliding direction; b) and d) enlarge the end. Means over
-    realisations with 95 % bootstrap intervals. Triangles are load peaks of the mean: those that
+    realisations with 95 % t intervals. Triangles are load peaks of the mean: those that
     stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
     Figure 9 of the paper.""",
     source=Realisations(groups=("grooves",), keys=("direction",)),

@@ -15,7 +15,7 @@ FIGURE = Declaration(
     title="Sliding at an angle to grooves",
     category="Supplement",
     caption="""a) Static friction and b) t_max - t_avg over the angle between the sliding direction
-    and the grooves, 0 and 90 degrees in the paper. Means over realisations with 95 % bootstrap
+    and the grooves, 0 and 90 degrees in the paper. Means over realisations with 95 % t
     intervals.""",
     source=Realisations(groups=("grooves", "angles"), keys=("direction",), pick=one_pattern),
 )

@@ -38,7 +38,7 @@ FIGURE = Declaration(
     category="Supplement",
     caption="""Friction force over the normal force towards the end of a run, on patterns of two and
     of three levels, sliding a) along and b) across the grooves. Means over realisations with 95 %
-    bootstrap intervals; triangles are load peaks of the mean, as in figure 9. The paper expects
+    t intervals; triangles are load peaks of the mean, as in figure 9. The paper expects
     that its effects remain on further levels.""",
     source=Realisations(
         groups=("grooves", "third_level"), keys=("direction", "level"), pick=_along_and_across

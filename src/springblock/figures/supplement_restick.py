@@ -21,7 +21,7 @@ FIGURE = Declaration(
     category="Supplement",
     caption="""Blocks that have come to rest and let go again, over time, as a share of all blocks
     in contact; the re-stick rule can matter for no more. Means over realisations with 95 %
-    bootstrap intervals. The paper does not say when a sliding block sticks; of the two integrators,
+    t intervals. The paper does not say when a sliding block sticks; of the two integrators,
     `rk4` lets every block that turns back stick, `leapfrog` only those that static friction can
     hold.""",
     source=Realisations(groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction")),

@@ -29,7 +29,7 @@ FIGURE = Declaration(
     title="Size of the surface",
     category="Supplement",
     caption="""a) Static friction and b) t_max - t_avg over the side N of a flat and of a pillared
-    surface. Means over realisations with 95 % bootstrap intervals. Everything else is at N = 120,
+    surface. Means over realisations with 95 % t intervals. Everything else is at N = 120,
     as in the paper.""",
     source=Realisations(
         groups=("flat", "size_flat", "pillars", "size_pillars"),

@@ -31,7 +31,7 @@ FIGURE = Declaration(
     category="Supplement",
     caption="""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s, which
     the paper leaves open; a line for each size of the pillars. Means over realisations with 95 %
-    bootstrap intervals.""",
+    t intervals.""",
     source=Realisations(groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=_sizes_varied),
 )
 
