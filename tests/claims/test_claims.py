@@ -13,7 +13,7 @@ from claims.paper import ACROSS, ALONG, DEEP_ALONG, FLAT, PILLARS
 from springblock.claims import CLAIMS
 from springblock.claims.correlation import apart, between, events, mixed
 from springblock.claims.flat import lonely
-from springblock.claims.grooves import edge, grooved_parts, valley
+from springblock.claims.grooves import both_peaks, edge, grooved_parts, valley
 from springblock.claims.rule import Claim, Estimate, Evidence, verdict
 from springblock.claims.samples import difference, first_patch, isolated, position, rates, share
 from springblock.rows import Row
@@ -313,6 +313,13 @@ def test_mixed_sides_keep_each_place_and_take_it_from_another_realisation():
     times = np.arange(3.0)[:, None, None, None] + 10.0 * np.arange(4.0) + np.zeros((3, 2, 2, 4))
     assert mixed(times).shape == times.shape
     assert mixed(times)[1, 1, 0].tolist() == [1.0, 12.0, 20.0, 31.0]
+
+
+def test_of_several_load_peaks_the_two_most_prominent_count():
+    small = peaks((100.0, 0.64), (220.0, 0.62), (300.0, 0.65), (345.0, 0.63))
+    run = next(run for run in records() if run.scene == ALONG)
+    assert both_peaks(replace(run, **small(run))) == (100, 300)
+    assert both_peaks(replace(run, **peaks((300.0, 0.65))(run))) is None
 
 
 def test_between_load_peaks_lies_the_lowest_force():

@@ -48,9 +48,15 @@ _WAYS = "realisations of a grooved surface that slides along and across its groo
 
 
 def both_peaks(run: Run) -> tuple[int, int] | None:
-    """Samples of the first and the last load peak; None with less than two."""
+    """Samples of the two most prominent load peaks, the earlier first; None with less than two."""
+    from scipy.signal import peak_prominences  # slow to load
+
     peaks = load_peaks(run.force, 0.0)
-    return (int(peaks[0]), int(peaks[-1])) if len(peaks) > 1 else None
+    if len(peaks) < 2:
+        return None
+    prominences, *_ = peak_prominences(run.force, peaks)
+    first, second = sorted(peaks[np.argsort(prominences)[-2:]])
+    return int(first), int(second)
 
 
 def valley(run: Run) -> int | None:

@@ -3,6 +3,13 @@
 #: Section of the paper, what it says, why it is not tested.
 UNTESTED = (
     (
+        "1",
+        "When the motion begins, grooves aligned with the sliding direction favor the rupture "
+        "front propagation, so that the force peak is smaller.",
+        "a front has no definition that its speed could be measured by; that the peak is smaller "
+        "is tested",
+    ),
+    (
         "2",
         "The model provides a good qualitative understanding at small computational costs with "
         "respect to three-dimensional methods.",
@@ -49,6 +56,18 @@ UNTESTED = (
     ),
     (
         "3.2",
+        "The asymmetry of sides along and across the sliding direction was observed in "
+        "experiments.",
+        "about experiments",
+    ),
+    (
+        "3.2",
+        "When the precursor length scale is much smaller than the pattern size, the transition is "
+        "similar to that of a non-patterned surface.",
+        "needs pillars much larger than n_p = 60; that the trend goes there is tested",
+    ),
+    (
+        "3.2",
         "Such a minimum of static friction is observed in experiments, and real precursors have a "
         "characteristic length.",
         "about experiments",
@@ -73,6 +92,11 @@ UNTESTED = (
         "3.3",
         "The results can be generalized to more complex geometries and other surface patterns.",
         "no limit is set to them",
+    ),
+    (
+        "4",
+        "Between the load peaks the whole contact surface is in a stressed state.",
+        "stress after the first detachment is not kept",
     ),
     (
         "4",
