@@ -72,7 +72,7 @@ def relative_lag(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Pillars with n_p <= 3 lie closer to the flat surface than to the paper's example."""
+    """Pillars with n_p <= 3 are off the flat surface by less than half of the paper's example."""
     quantities: Quantities = {
         "(t_max - t_avg)/t_max": relative_lag,
         "precursors": before_peak,
@@ -240,8 +240,8 @@ CLAIMS = (
         "Pillars with n_p <= 3 behave like a flat surface",
         "3.2",
         "For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. "
-        "Static friction, which the paper allows to differ, is left out. Tested: closer to that "
-        "than to pillars with n_p = 20.",
+        "Static friction, which the paper allows to differ, is left out. Tested: off by less than "
+        "half of what pillars with n_p = 20 are off by.",
         "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
         small_pillars,
     ),
