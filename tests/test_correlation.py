@@ -9,9 +9,11 @@ from springblock import Pattern, correlation
 from springblock.commands.correlation import _sides
 from springblock.correlation import (
     Correlation,
+    amplitude,
     design_effect,
     fit_length,
     fit_tail,
+    groove_times,
     integral_length,
     references,
     side_times,
@@ -48,17 +50,31 @@ def test_a_known_length_is_found(decaying):
     for estimate in (length.fitted, length.integral, length.tail):
         assert estimate.low < 3.0 < estimate.high
         assert estimate.high - estimate.low < 1.5
+    assert length.amplitude.low < 1.0 < length.amplitude.high
     assert length.deviation < 2.0
+    assert (np.abs(length.residual.mean) < 0.03).all()
+    assert (length.residual.low < length.residual.mean).all()
     exact = np.exp(-np.arange(len(found.mean)) / 3.0)
     assert (found.interval.low <= exact + 1e-12).all()
     assert (found.interval.high >= exact - 1e-12).all()
+
+
+@pytest.mark.parametrize(("size", "last"), [(6, 2), (12, 4), (20, 6), (60, 6)])
+def test_lengths_of_all_sides_that_are_long_enough_rest_on_one_range(rng, size, last):
+    assert Correlation(times(rng, 12, 2, size, 3.0)).length().last == last
+
+
+def test_what_all_blocks_of_a_realisation_share_is_no_exponential(rng):
+    shift = SPREAD * rng.standard_normal((400, 1, 1, 1))
+    flat = Correlation(times(rng, 400, 4, 20, 1.0) + shift).length()
+    assert flat.residual.low[0] > 0.0  # c(r) levels off where the fit goes on falling
+    assert flat.amplitude.high < 1.0
 
 
 def test_independent_times_have_no_correlation(rng):
     found = Correlation(times(rng, 60, 9, 20, 0.0))
     assert found.mean[0] == pytest.approx(1.0)
     assert np.abs(found.mean[1:]).max() < 0.05
-    assert found.length().last <= 2
     assert found.length().fitted.mean < 0.5
 
 
@@ -150,9 +166,11 @@ def test_pillars_that_move_together_are_one_sample(rng):
 def test_exact_curves_give_exact_lengths():
     r, error = np.arange(1, 7), np.linspace(0.05, 0.1, 6)
     curves = np.exp(-r / np.array([0.5, 3.0, 40.0])[:, None])
-    for estimate in (fit_length, integral_length, fit_tail):
+    for estimate in (fit_length, fit_tail):
         np.testing.assert_allclose(estimate(curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
+    np.testing.assert_allclose(integral_length(curves), [0.5, 3.0, 40.0], rtol=2e-3)
     np.testing.assert_allclose(fit_tail(0.6 * curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
+    np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
     assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
     assert np.isnan(fit_tail(curves[:, :2], error[:2])).all()
 
@@ -174,6 +192,22 @@ def test_sides_cut_by_grooves_are_refused():
     assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
     with pytest.raises(ValueError, match="no whole sides along y"):
         side_times([run], pattern, "y")
+
+
+def test_edges_of_grooves_are_the_rows_beside_them():
+    pattern = Pattern.pillars(24, 8, 4).grooved(
+        2, 1, along="x"
+    )  # rows 2-3, 5-6 and 8-9 of a pillar
+    y, x = np.mgrid[:24.0, :24.0]
+    run = SimpleNamespace(t_det=100.0 * y + x)
+    edges = groove_times([run, run], pattern)
+    assert edges.shape == (2, 4, 4, 8)
+    assert edges[0, 1, :, 0].tolist() == [314.0, 514.0, 614.0, 814.0]
+    run.t_det[3, 14] = np.nan
+    with pytest.raises(ValueError, match="beside a groove never detached"):
+        groove_times([run], pattern)
+    with pytest.raises(ValueError, match="no grooves along x"):
+        groove_times([run], Pattern.pillars(24, 8, 4))
 
 
 def test_what_cannot_be_correlated_is_refused(decaying):

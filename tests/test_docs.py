@@ -25,7 +25,7 @@ def numberless(text):
 
 def unmeasured(text):
     """Lines of the page on statements that hold for any study."""
-    measured = ("|", "Verdict: ", "Rests on", "- realisations/", "- tables/")
+    measured = ("|", "Verdict: ", "Rests on", "- preludes/", "- realisations/", "- tables/")
     return [line for line in text.splitlines() if line and not line.startswith(measured)]
 
 

@@ -5,13 +5,14 @@ first detachment times of the blocks of a side and ⟨...⟩ the mean over reali
 
     C(x₁, x₂) = ⟨τ₁τ₂⟩ - ⟨τ₁⟩⟨τ₂⟩,    c(r) = C(x₀, x₀ + r) / C(x₀, x₀),
 
-x₀ at the side's middle, and c(r) ~ exp(-r/l_c). Numerator and denominator are sums over all
-pillars, both sides of each, both directions along it and a few x₀ (`references`). Means ⟨τ⟩ are
-taken for each block of the surface by itself, as the paper's are.
+x₀ at the side's middle, and c(r) ~ exp(-r/l_c): A exp(-r/l_c), since "~" leaves the amplitude
+open. Numerator and denominator are sums over all pillars, both sides of each, both directions along
+it and a few x₀ (`references`). Means ⟨τ⟩ are taken for each block of the surface by itself, as the
+paper's are.
 
-Intervals are bootstrap intervals over whole realisations, since the pillars of one realisation
-share one surface (`design_effect` says how much that matters). They and the bias are those of
-Efron & Tibshirani 1993, doi:10.1201/9780429246593.
+Intervals are BCa intervals over whole realisations, since the pillars of one realisation share one
+surface (`design_effect` says how much that matters). They and the bias are those of Efron &
+Tibshirani 1993, doi:10.1201/9780429246593.
 """
 
 from collections.abc import Sequence
@@ -24,11 +25,14 @@ from numpy.typing import NDArray
 
 from springblock.pattern import Pattern
 from springblock.run import Array, Run
-from springblock.statistics import Interval, bootstrap_weights, limits
+from springblock.statistics import Interval, bootstrap_interval, bootstrap_weights
 
-#: Correlation lengths among which the fit looks for the best, blocks: 0.2 % apart. A parabola does
+#: Fits begin at r = 1 and end here, blocks, on every side that is long enough: a third of 20, the
+#: shortest side on which enough distances can be fitted. Lengths from other ranges do not compare.
+LAST = 6
+#: Correlation lengths among which the fit looks for the best, blocks: 1 % apart. A parabola does
 #: the rest: what the jackknife multiplies by k must be smooth.
-_LENGTHS = np.geomspace(0.1, 1000.0, 4606)
+_LENGTHS = np.geomspace(0.1, 1000.0, 922)
 
 
 def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
@@ -52,6 +56,31 @@ def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
     times = np.stack([run.t_det[place] for run in runs])
     if not np.isfinite(times).all():
         raise ValueError(f"some block of a side along {side} never detached; run for longer")
+    return times
+
+
+def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
+    """First detachment times along the edges of the grooves that run along x within pillars.
+
+    Returns
+    -------
+    (k, pillars, edges, n_p) s: for k runs, the rows on both sides of every groove.
+
+    Raises
+    ------
+    ValueError
+        Where no such groove divides the pillars, or a block of an edge never detached.
+    """
+    if len(pattern.levels) != 2 or pattern.levels[1].along != "x":
+        raise ValueError("the pillars have no grooves along x that nothing cuts")
+    size, first = pattern.levels[0].size, pattern.origins[0, 0]
+    pawls = [(start - first, n) for start, n in pattern.profile("y") if start < first + size]
+    beside = [edge for start, n in pawls for edge in (start, start + n - 1)][1:-1]
+    y, x = pattern.origins.T[:, :, None, None]
+    place = (y + np.array(beside)[:, None], x + np.arange(size))
+    times = np.stack([run.t_det[place] for run in runs])
+    if not np.isfinite(times).all():
+        raise ValueError("some block beside a groove never detached; run for longer")
     return times
 
 
@@ -88,10 +117,12 @@ class Length(NamedTuple):
 
     fitted: Interval  #: exp(-r/l_c) by weighted least squares
     integral: Interval  #: the exponential that has the same sum over r
-    tail: Interval  #: A exp(-r/l) with A free; NaN where it has less than three r to fit
-    bias: float  #: of the fitted one, by jackknife
+    tail: Interval  #: A exp(-r/l_c) with A free; NaN where it has less than three r to fit
+    amplitude: Interval  #: A of that
+    bias: float  #: of the one through c(0) = 1, by jackknife
     last: int  #: all look at r = 1 ... last
     deviation: float  #: largest distance of c(r) from the fit, in its standard errors
+    residual: Interval  #: c(r) - A exp(-r/l_c), (last,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,8 +174,7 @@ class Correlation:
     @cached_property
     def resampled(self) -> Array:
         """c(r) of bootstrap resamples, (b, r)."""
-        weights = bootstrap_weights(len(self.times))
-        return self.weighted(weights[weights.max(axis=1) < 1.0])  # one alone has no variance
+        return self.weighted(bootstrap_weights(len(self.times)))
 
     @cached_property
     def _left_out(self) -> Array:
@@ -152,36 +182,48 @@ class Correlation:
         k = len(self.times)
         return self.weighted((1.0 - np.eye(k)) / (k - 1.0))
 
-    @property
+    @cached_property
     def interval(self) -> Interval:
-        """c(r) with its 95 % interval, (r,) each."""
-        return Interval(self.mean, *limits(self.resampled))
+        """c(r) with its 95 % interval, (r,) each; c(0) = 1 has none."""
+        beyond = bootstrap_interval(lambda w: self.weighted(w)[:, 1:], len(self.times))
+        return Interval(*(np.append(1.0, limit) for limit in beyond))
 
     @property
     def bias(self) -> Array:
         """Bias of c(r), (r,), by jackknife: that of a ratio of means, of order 1/k."""
         return _jackknife_bias(self.mean, self._left_out)
 
+    @property
     def last(self) -> int:
-        """Distance up to which l_c is fitted: the first whose interval holds 0, at most n_p/3."""
-        beyond = min(self.times.shape[-1] // 3, len(self.mean) - 1)
-        touches = np.flatnonzero(self.interval.low[1:beyond] <= 0.0)
-        return int(touches[0]) + 1 if touches.size else beyond
+        """Distance up to which l_c is fitted: `LAST`, or n_p/3 on shorter sides."""
+        return min(LAST, self.times.shape[-1] // 3, len(self.mean) - 1)
 
     def length(self) -> Length:
-        """Correlation length; the range of r and its weights stay those of all realisations."""
-        last = self.last()
-        mean, resampled, left_out = (
-            c[..., 1 : last + 1] for c in (self.mean[None], self.resampled, self._left_out)
+        """Correlation length; its weights stay those of all realisations."""
+        span = slice(1, self.last + 1)
+        error = self.resampled[:, span].std(axis=0)
+
+        def estimates(weights: Array) -> Array:
+            c = self.weighted(weights)[:, span]
+            tail = fit_tail(c, error)
+            gain = amplitude(c, error, tail)
+            residual = c - gain[:, None] * np.exp(-_distances(self.last) / tail[:, None])
+            return np.column_stack([fit_length(c, error), integral_length(c), tail, gain, residual])
+
+        found = bootstrap_interval(estimates, len(self.times))
+        fitted, integral, tail, gain = (Interval(*(limit[i] for limit in found)) for i in range(4))
+        bias = _jackknife_bias(fitted.mean, fit_length(self._left_out[:, span], error))
+        distance = np.abs(self.mean[span] - np.exp(-_distances(self.last) / fitted.mean))
+        return Length(
+            fitted=fitted,
+            integral=integral,
+            tail=tail,
+            amplitude=gain,
+            bias=float(bias),
+            last=self.last,
+            deviation=float((distance / error).max()),
+            residual=Interval(*(limit[4:] for limit in found)),
         )
-        error = resampled.std(axis=0)
-        fitted, integral, tail = (
-            Interval(estimate(mean, error)[0], *limits(estimate(resampled, error)))
-            for estimate in (fit_length, integral_length, fit_tail)
-        )
-        bias = _jackknife_bias(fitted.mean, fit_length(left_out, error))
-        distance = np.abs(mean[0] - np.exp(-np.arange(1, last + 1) / fitted.mean)) / error
-        return Length(fitted, integral, tail, float(bias), last, float(distance.max()))
 
 
 def _jackknife_bias(mean: Array, left_out: Array) -> Array:
@@ -190,7 +232,7 @@ def _jackknife_bias(mean: Array, left_out: Array) -> Array:
 
 def _decays(last: int) -> Array:
     """exp(-r/l) for r = 1 ... last and the lengths to choose from, (r, lengths)."""
-    return np.exp(-np.arange(1, last + 1)[:, None] / _LENGTHS)
+    return np.exp(-_distances(last)[:, None] / _LENGTHS)
 
 
 def fit_length(correlation: Array, error: Array) -> Array:
@@ -224,11 +266,18 @@ def fit_tail(correlation: Array, error: Array) -> Array:
     return _lowest(-gain)
 
 
-def integral_length(correlation: Array, error: Array) -> Array:
-    """Length of the exponential with the same sum as c(r) from r = 1 on, (b, r); (b,).
+def amplitude(correlation: Array, error: Array, lengths: Array) -> Array:
+    """Best A of A exp(-r/l), (b,), given the length of each c(r)."""
+    decay, weight = np.exp(-_distances(correlation.shape[-1]) / lengths[:, None]), error**-2.0
+    return np.maximum((correlation * weight * decay).sum(axis=-1), 0.0) / (decay**2 @ weight)
 
-    All r weigh the same, whatever the `error` of each.
-    """
+
+def _distances(last: int) -> Array:
+    return np.arange(1.0, last + 1.0)
+
+
+def integral_length(correlation: Array) -> Array:
+    """Length of the exponential with the same sum as c(r) from r = 1 on, (b, r); (b,)."""
     sums = _decays(correlation.shape[-1]).sum(axis=0)  # 1/(exp(1/l) - 1) for a long range
     return np.interp(correlation.sum(axis=-1), sums, _LENGTHS)
 

@@ -53,6 +53,12 @@ class Prelude:
     ledger: Array  #: (k, 3)
     force: Array  #: (2, samples of the last state) components of ΣF_s
 
+    @property
+    def surface(self) -> str:
+        """Pattern and direction of its scene, as `surface` writes them."""
+        n, mask, _, towards, *_ = json.loads(self.conditions)
+        return json.dumps([n, mask, towards])
+
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
         with whole_file(path) as partial, partial.open("wb") as file:
@@ -86,6 +92,11 @@ class Prelude:
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
         return skipped, Samples(force_x, force_y, np.zeros(skipped, np.int64))
+
+
+def surface(contact: NDArray[np.bool_], towards: tuple[float, float]) -> str:
+    """Pattern and direction as text."""
+    return json.dumps([len(contact), np.packbits(contact).tobytes().hex(), towards])
 
 
 def conditions(contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float]) -> str:

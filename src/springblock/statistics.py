@@ -1,13 +1,18 @@
 """What an ensemble shows: means with their intervals, pillars, load peaks.
 
-The intervals are bootstrap intervals over realisations (Efron & Tibshirani 1993,
-doi:10.1201/9780429246593); the observables are those of Costagliola, Bosia & Pugno 2022,
-doi:10.1016/j.ijsolstr.2022.111525.
+Intervals are 95 % intervals over realisations. Those of means are Student's; other statistics have
+bias-corrected and accelerated bootstrap intervals (BCa; Efron & Tibshirani 1993,
+doi:10.1201/9780429246593, chapter 14). Of 10 or 20 realisations both cover the truth more nearly
+as often as they say than bootstrap percentiles. The observables are those of Costagliola, Bosia &
+Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from collections.abc import Iterable, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from springblock.pattern import Pattern
 from springblock.run import Array, Run, friction, percent
 
-_INTERVAL = (2.5, 97.5)  #: percentiles
+_LEVEL = 0.95  #: of all intervals
 #: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
 _LOAD_PEAK = 0.9
 
@@ -28,32 +33,129 @@ class Interval(NamedTuple):
     high: Array
 
 
-def bootstrap_weights(k: int, seed: int = 0, resamples: int = 1000) -> Array:
-    """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1."""
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
-    return drawn / k
+def students_t(freedom: ArrayLike, level: float = _LEVEL) -> Array:
+    """Half an interval of this level in standard errors, by degrees of freedom."""
+    from scipy.special import stdtrit  # slow to load, and most jobs do without
+
+    return stdtrit(freedom, 0.5 + level / 2.0)
 
 
-def limits(resampled: Array) -> tuple[Array, Array]:
-    """Limits of the 95 % percentile interval, (...), of resampled values, (resamples, ...)."""
-    low, high = np.percentile(resampled, _INTERVAL, axis=0)
-    return low, high
+def mean_interval(values: ArrayLike) -> Interval:
+    """Mean over k realisations, (k, ...), with its 95 % interval of Student's t, (...).
 
-
-def mean_interval(values: ArrayLike, seed: int = 0, resamples: int = 1000) -> Interval:
-    """Mean over k realisations, (k, ...), with its 95 % bootstrap percentile interval, (...).
-
-    Realisations are drawn as wholes, so what belongs to one of them stays together. A single
-    one says nothing about its spread: its limits are NaN.
+    A single realisation says nothing about its spread: its limits are NaN.
     """
     values = np.asarray(values, dtype=float)
-    k, shape = len(values), values.shape[1:]
     mean = values.mean(axis=0)
-    if k == 1:
-        return Interval(mean, np.full(shape, np.nan), np.full(shape, np.nan))
-    means = bootstrap_weights(k, seed, resamples) @ values.reshape(k, -1)
-    low, high = limits(means)
-    return Interval(mean, low.reshape(shape), high.reshape(shape))
+    if len(values) == 1:
+        return Interval(mean, np.full(mean.shape, np.nan), np.full(mean.shape, np.nan))
+    half = students_t(len(values) - 1) * standard_error(values)
+    return Interval(mean, mean - half, mean + half)
+
+
+def difference_interval(first: ArrayLike, second: ArrayLike) -> Interval:
+    """Mean of the first sample minus that of the second, (k,) and (l,), with its 95 % interval.
+
+    The samples are independent and may differ in their variances (Welch 1947,
+    doi:10.1093/biomet/34.1-2.28). NaN limits where one of them is a single realisation.
+    """
+    samples = [np.asarray(sample, dtype=float) for sample in (first, second)]
+    mean = samples[0].mean() - samples[1].mean()
+    sizes = np.array([len(sample) for sample in samples])
+    if sizes.min() < 2:
+        return Interval(mean, np.array(np.nan), np.array(np.nan))
+    squares = np.array([standard_error(sample) for sample in samples]) ** 2
+    error = squares.sum()
+    freedom = error**2 / (squares**2 / (sizes - 1)).sum() if error > 0.0 else 1.0
+    half = students_t(freedom) * np.sqrt(error)
+    return Interval(mean, mean - half, mean + half)
+
+
+def position_interval(sample: ArrayLike, zero: ArrayLike, one: ArrayLike) -> Interval:
+    """Where the mean of a sample lies from that of `zero`, 0, to that of `one`, 1; BCa.
+
+    Three independent samples, (k,), (l,) and (m,), of two realisations or more.
+    """
+    from scipy.stats import bootstrap  # slow to load, and most jobs do without
+
+    def place(*samples: Array, axis: int = -1) -> Array:
+        middle, start, end = (part.mean(axis=axis) for part in samples)
+        return (middle - start) / (end - start)
+
+    samples = tuple(np.asarray(part, dtype=float) for part in (sample, zero, one))
+    options: dict[str, Any] = {"random_state": np.random.default_rng(0), "n_resamples": 2000}
+    with _degenerate_allowed():
+        found = bootstrap(samples, place, method="BCa", vectorized=True, **options)
+    return _or_percentiles(np.asarray(place(*samples)), found)
+
+
+@contextmanager
+def _degenerate_allowed() -> Iterator[None]:
+    """Without warnings where BCa limits do not exist."""
+    from scipy.stats import DegenerateDataWarning
+
+    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
+        warnings.simplefilter("ignore", DegenerateDataWarning)
+        yield
+
+
+def _or_percentiles(value: Array, found: Any) -> Interval:
+    """A value with its BCa limits, or percentiles where these are NaN."""
+    resampled, share = found.bootstrap_distribution, 50.0 * (1.0 - _LEVEL)
+    plain = np.percentile(resampled, (share, 100.0 - share), axis=-1)
+    low, high = (
+        np.where(np.isnan(limit), percentile, limit)
+        for limit, percentile in zip(found.confidence_interval, plain, strict=True)
+    )
+    return Interval(value, low, high)
+
+
+def share_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
+    """Share of k realisations, with the exact interval of Clopper and Pearson 1934."""
+    from scipy.stats import binomtest  # slow to load, and most jobs do without
+
+    low, high = binomtest(hits, k).proportion_ci(level)
+    return Interval(np.array(hits / k), np.array(low), np.array(high))
+
+
+def bootstrap_weights(k: int, seed: int = 0, resamples: int = 2000) -> Array:
+    """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1.
+
+    Resamples of one realisation alone are left out: they have no variance.
+    """
+    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
+    return drawn[drawn.max(axis=1) < k] / k
+
+
+def bootstrap_interval(statistic: Callable[[Array], Array], k: int, seed: int = 0) -> Interval:
+    """Any statistic of k realisations with its 95 % BCa interval, (...).
+
+    `statistic` turns sets of weights of the realisations, (b, k), each of sum 1, into values,
+    (b, ...). Realisations are drawn as wholes, so what belongs to one of them stays together.
+    Limits are percentiles where leaving out any one realisation changes nothing, and NaN below
+    three realisations.
+    """
+    from scipy.stats import bootstrap  # slow to load, and most jobs do without
+
+    def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
+        flat = drawn.reshape(-1, drawn.shape[axis])
+        values = np.moveaxis(statistic(_weights_of(flat, k)), 0, -1)
+        return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
+
+    value = statistic(np.full((1, k), 1.0 / k))[0]
+    if k < 3:
+        return Interval(value, np.full(value.shape, np.nan), np.full(value.shape, np.nan))
+    resampled = statistic(bootstrap_weights(k, seed))
+    given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
+    options: dict[str, Any] = {"vectorized": True, "n_resamples": 0, "bootstrap_result": given}
+    with _degenerate_allowed():
+        found = bootstrap((np.arange(k),), of_drawn, method="BCa", **options)
+    return _or_percentiles(value, found)
+
+
+def _weights_of(drawn: NDArray[np.intp], k: int) -> Array:
+    """Weights, (b, k), of the realisations in each of b draws of their numbers, (b, n)."""
+    return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
 
 
 def half_widths(
@@ -69,7 +171,7 @@ def half_widths(
         if size > len(values):
             break
         drawn = [rng.permutation(values)[:size] for _ in range(subsets)]
-        _, low, high = mean_interval(np.stack(drawn, axis=1), seed=int(rng.integers(2**32)))
+        _, low, high = mean_interval(np.stack(drawn, axis=1))
         widths[size] = float(np.mean(high - low)) / 2.0
     return widths
 
@@ -82,21 +184,6 @@ def standard_error(values: Array) -> Array:
     return values.std(axis=0, ddof=1) / np.sqrt(k)
 
 
-def ratio_interval(numerator: ArrayLike, denominator: ArrayLike, seed: int = 0) -> Interval:
-    """Ratio of two means over the same k realisations, (k,) each, with its 95 % interval.
-
-    Bootstrap as in `mean_interval`; a realisation brings its share of both means.
-    """
-    pairs = np.stack([numerator, denominator]).astype(float)
-    k = pairs.shape[1]
-    top, bottom = pairs.mean(axis=1)
-    if k == 1:
-        return Interval(top / bottom, np.array(np.nan), np.array(np.nan))
-    weights = bootstrap_weights(k, seed)
-    tops, bottoms = (weights @ values for values in pairs)
-    return Interval(top / bottom, *limits(tops / bottoms))
-
-
 def repeatability(fields: Array) -> Interval:
     """Share of the variance over places that is the same in all k fields, (k, places).
 
@@ -106,8 +193,6 @@ def repeatability(fields: Array) -> Interval:
     doi:10.1037/0033-2909.86.2.420). The 95 % interval is Student's, with the jackknife's error:
     a bootstrap would compare fields with themselves. NaN below three fields.
     """
-    from scipy.stats import t  # slow to load, and most jobs do without
-
     k = len(fields)
     if k < 3:
         return Interval(*np.full(3, np.nan))
@@ -121,7 +206,7 @@ def repeatability(fields: Array) -> Interval:
 
     whole = share(crossed.sum(), variances.sum(), k)
     without = share(crossed.sum() - 2.0 * crossed, variances.sum() - variances, k - 1)
-    half = t.ppf(0.975, k - 1) * np.sqrt(k - 1) * without.std()
+    half = students_t(k - 1) * np.sqrt(k - 1) * without.std()
     return Interval(whole, whole - half, whole + half)
 
 
@@ -245,27 +330,14 @@ def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 
-def lesser_peak(curve: Array) -> float:
-    """How far the second most prominent load peak of a force curve, (n,), stands out.
+def lesser_prominence(curve: Array) -> float:
+    """Prominence of the second most prominent peak under load, (n,), over the largest force.
 
-    Its prominence over the largest force, 0 where one peak alone reaches `_LOAD_PEAK` of it.
+    How far the force falls between two load peaks, from the lower of them; 0 with one alone.
     """
-    from scipy.signal import find_peaks  # as above
+    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
 
-    highest = curve.max()
-    found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)[1]["prominences"]
-    return float(np.sort(found)[-2] / highest) if len(found) > 1 else 0.0
-
-
-def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Interval:
-    """Count the load peaks of the mean of k force curves, (k, n), with a bootstrap interval."""
-    k = len(curves)
-    number = len(load_peaks(curves.mean(axis=0), standard_error(curves)))
-    if k == 1:
-        return Interval(np.array(number), np.array(np.nan), np.array(np.nan))
-    weights = bootstrap_weights(k, seed, resamples)
-    means = weights @ curves
-    variances = np.maximum(weights @ curves**2 - means**2, 0.0)
-    scatters = np.sqrt(variances / (k - 1))
-    counts = [len(load_peaks(m, scatter)) for m, scatter in zip(means, scatters, strict=True)]
-    return Interval(np.array(number), *limits(np.array(counts)))
+    highest = float(curve.max())
+    _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
+    prominences = np.sort(found["prominences"])
+    return float(prominences[-2]) / highest if len(prominences) > 1 else 0.0

@@ -83,7 +83,12 @@ SUMMARY = pa.schema(
 
 _SIDE = [
     *SCENE,
-    column("side", pa.string(), "x or y", "axis along which the sides of the pillars run"),
+    column(
+        "side",
+        pa.string(),
+        "x, y or grooves",
+        "axis along which the sides of the pillars run, or edges along the grooves within them",
+    ),
     column("realisations", pa.int32(), "1", "realisations k that are averaged over"),
 ]
 
@@ -96,6 +101,9 @@ CORRELATION = pa.schema(
         column("ci_low", pa.float64(), "1", "lower limit of its 95 % interval"),
         column("ci_high", pa.float64(), "1", "upper limit"),
         column("bias", pa.float64(), "1", "jackknife estimate of its bias; not subtracted"),
+        column("residual", pa.float64(), "1", "c(r) - A exp(-r/l_c); NaN beyond the fit"),
+        column("residual_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("residual_high", pa.float64(), "1", "upper limit"),
         column("samples", pa.int32(), "1", "sides averaged over: realisations × pillars × 2"),
     ]
 )
@@ -112,16 +120,18 @@ CORRELATION_LENGTH = pa.schema(
             "r_last",
             pa.int32(),
             "blocks",
-            "end of the fit, which begins at r = 1: the first r where the interval of c(r) "
-            "holds 0, at most n_p/3",
+            "end of the fits, which begin at r = 1: 6 for all sides, n_p/3 on shorter ones",
         ),
         column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
         column("integral", pa.float64(), "blocks", "length with the same sum of exp(-r/l) as c(r)"),
         column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
         column("integral_high", pa.float64(), "blocks", "upper limit"),
-        column("tail", pa.float64(), "blocks", "length in A exp(-r/l), A free; NaN if r_last < 3"),
+        column("tail", pa.float64(), "blocks", "l_c in A exp(-r/l_c); NaN if r_last < 3"),
         column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
         column("tail_high", pa.float64(), "blocks", "upper limit"),
+        column("amplitude", pa.float64(), "1", "A of that fit"),
+        column("amplitude_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("amplitude_high", pa.float64(), "1", "upper limit"),
         column(
             "design_effect",
             pa.float64(),

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from springblock import draw_friction
 from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.rule import Evidence
 from springblock.rows import Row
@@ -13,9 +14,11 @@ from springblock.scene import Scene
 from springblock.statistics import pillar_ring
 from springblock.tables import Record
 
-N, SEEDS = 48, range(24)
+N, SEEDS = 48, range(60)
 FLAT = Scene(N)
-ALONG, ACROSS = (Scene(N, 23, 25, 5, 1, direction=direction) for direction in "xy")
+ALONG, ACROSS, ANGLED = (
+    Scene(N, 23, 25, 5, 1, direction=direction) for direction in ("x", "y", "45")
+)
 DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
 PILLARS = [Scene(N, n_p, n_p) for n_p in (2, 6, 24)]
 
@@ -27,45 +30,71 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     PILLARS[2]: (300.0, 0.70, 20.0, []),
     ALONG: (300.0, 0.65, 15.0, [(220.0, 0.60)]),
     ACROSS: (300.0, 0.70, 20.0, []),
+    ANGLED: (300.0, 0.70, 20.0, []),
     DEEP_ALONG: (300.0, 0.65, 15.0, [(220.0, 0.60)]),
     DEEP_ACROSS: (300.0, 0.70, 20.0, []),
 }
 
 
-def times(scene: Scene, rng: np.random.Generator) -> np.ndarray:
+def times(scene: Scene, seed: int, rng: np.random.Generator) -> np.ndarray:
     """t_det over t_max, (N, N), as the paper has it."""
     if scene == FLAT:
-        return flat_times(rng)
+        return flat_times(seed, rng)
     field, size = np.full((N, N), np.nan), scene.n_p
     like_flat = scene.level == 1 and size < 4
-    pillar = 1.04 if like_flat else ringed(size) if scene.level == 1 else grooved(scene)
+    pillar = 1.03 if like_flat else ringed(size) if scene.level == 1 else grooved(scene)
     for y, x in scene.pattern.origins:
         field[y : y + size, x : x + size] = pillar + 0.001 * rng.standard_normal()
+        if scene.level == 1 and size > 4:
+            field[y : y + size, x : x + size] += by_side(size, rng)
     return field + 0.001 * rng.standard_normal(field.shape)
 
 
-def flat_times(rng: np.random.Generator) -> np.ndarray:
-    """A few lonely precursors and a pair of them, anywhere; the front comes late."""
+def flat_times(seed: int, rng: np.random.Generator) -> np.ndarray:
+    """Lonely precursors where thresholds are low, a few that share a neighbour; a late front."""
     field = 1.02 + 0.002 * rng.standard_normal((N, N))
-    blocks = 4 * rng.choice((N // 4) ** 2, 8, replace=False)
-    rows, columns = 4 * (blocks // N) + 1, blocks % N + 1
-    field[rows, columns] = 0.85
-    field[rows[0], columns[0] + 1] = 0.86
+    taken = np.zeros((N, N), bool)
+    weakest = np.argsort(draw_friction(N, seed)[0], axis=None)
+    singles, groups = 40, 4
+    for block in weakest:
+        y, x = divmod(int(block), N)
+        room = np.s_[max(y - 2, 0) : y + 5, max(x - 2, 0) : x + 5]
+        if taken[room].any() or not (singles or groups):
+            continue
+        if groups and y + 2 < N and x + 2 < N:
+            groups -= 1
+            early = rng.uniform(0.86, 0.89, (2, 2))
+            field[y : y + 3 : 2, x : x + 3 : 2], field[y + 1, x + 1] = early, 0.95
+            taken[y : y + 3, x : x + 3] = True
+        elif singles:
+            singles -= 1
+            field[y, x], taken[y, x] = rng.uniform(0.86, 0.89), True
     return field
 
 
 def ringed(size: int) -> np.ndarray:
+    """The border in the paper's order before t_max; the inside of large pillars late."""
+    start, step, apart = (0.50, 0.22, 0.06) if size < 20 else (0.84, 0.06, 0.02)
     pillar = np.zeros((size, size))
     for depth in range(size // 2):
         for late, mask in enumerate(pillar_ring(size, depth).values()):
-            pillar[mask] = min(0.70 + 0.08 * depth, 0.93) + 0.02 * late
+            inside = (0.90 if size < 20 else 0.96) + 0.012 * min(depth, 4) + 0.001 * depth
+            pillar[mask] = start + step * depth + apart * late if depth < 2 else inside
     return pillar
+
+
+def by_side(size: int, rng: np.random.Generator) -> np.ndarray:
+    """Sides along x detach as wholes, sooner or later; those along y block by block."""
+    field = np.zeros((size, size))
+    field[[0, -1], 1:-1] = 0.005 * rng.standard_normal((2, 1))
+    field[1:-1, [0, -1]] = 0.010 * rng.standard_normal((size - 2, 2))
+    return field
 
 
 def grooved(scene: Scene) -> np.ndarray:
     (y, x), size = scene.pattern.origins[0], scene.n_p
     contact = scene.pattern.contact[y : y + size, x : x + size]
-    if scene.direction == "y":
+    if scene.direction != "x":
         return np.where(edge(contact), 0.70, np.where(contact, 0.98, np.nan))
     pillar = np.full((size, size), np.nan)
     for late, mask in zip((0.55, 0.65, 0.70, 0.98), grooved_parts(scene).values(), strict=True):
@@ -83,21 +112,28 @@ def record(scene: Scene, seed: int) -> Record:
         height * np.exp(-(((1e6 * time - place) / width) ** 2))
         for place, height in [(t_max, friction), *others]
     )
-    t_det = 1e-6 * t_max * times(scene, rng)
-    nothing = np.zeros(len(time), np.int32)
+    t_det = 1e-6 * t_max * times(scene, seed, rng)
+    detachments = counted(t_det, len(time))
+    again = 250 * (1e6 * time == 250.0) * (scene.level > 1)
     return Record(
         scene=scene,
         seed=seed,
         time=time,
         force=force,
         normal_force=1.0,
-        detachments=nothing,
-        switches=nothing,
+        detachments=detachments,
+        switches=detachments + again,
         t_det=t_det,
         t_max=1e-6 * t_max,
         t_avg=float(np.nanmean(t_det)),
         static_friction=friction,
     )
+
+
+def counted(t_det: np.ndarray, samples: int) -> np.ndarray:
+    """First detachments in the microsecond before each sample."""
+    microseconds = np.ceil(1e6 * t_det[np.isfinite(t_det)]).astype(int)
+    return np.bincount(microseconds, minlength=samples)[:samples]
 
 
 def evidence(records: Iterable[Record]) -> Evidence:
@@ -110,10 +146,12 @@ def evidence(records: Iterable[Record]) -> Evidence:
         summaries={
             scene: [{name: getattr(run, name) for name in names} for run in runs]
             for scene, runs in by_scene.items()
-        },
+        }
+        | summaries(),
         records=by_scene,
         correlation=correlation(),
         correlation_length=lengths(),
+        stress=stress(),
         precision=precision(),
     )
 
@@ -122,8 +160,43 @@ def as_in_the_paper() -> list[Record]:
     return [record(scene, seed) for scene in CURVES for seed in SEEDS]
 
 
-#: Scenes of the tables of correlations, and l_c.
-LENGTHS = {Scene(120, 20, 20): 3.4, Scene(120, 60, 60): 4.4, Scene(120, 58, 62, 8, 2): 4.3}
+def summaries() -> dict[Scene, list[Row]]:
+    """Rows of pillars of three sizes on a larger surface, on which correlations are known."""
+    rows = {}
+    for n_p, friction in ((2, 0.78), (6, 0.60), (60, 0.70)):
+        rng = np.random.default_rng(n_p)
+        rows[Scene(120, n_p, n_p)] = [
+            {"seed": seed, "t_max": 3e-4, "t_avg": 2.9e-4, "static_friction": friction + noise}
+            for seed, noise in zip(SEEDS, 0.002 * rng.standard_normal(len(SEEDS)), strict=True)
+        ]
+    return rows
+
+
+def stress() -> dict[Scene, np.ndarray]:
+    """Most at corners and edges across; on grooved pillars less uneven, and most outside."""
+    fields = {scene: np.full((N, N), np.nan) for scene in (*PILLARS[1:], ALONG, ACROSS)}
+    for scene, field in fields.items():
+        size = scene.n_p
+        if scene.level == 1:
+            pillar, parts = np.full((size, size), 0.6), pillar_ring(size, 0).values()
+            levels = (3.0, 2.5, 2.0)
+        else:
+            pillar, parts = np.full((size, size), np.nan), grooved_parts(scene).values()
+            levels = (1.5, 1.4, 1.2, 0.9) if scene == ALONG else (1.6, 1.5, 1.3, 0.8)
+        for level, mask in zip(levels, parts, strict=True):
+            pillar[mask] = level
+        for y, x in scene.pattern.origins:
+            field[y : y + size, x : x + size] = pillar
+    return fields
+
+
+#: Scenes of the tables of correlations, and l_c of their sides.
+LENGTHS = {
+    Scene(120, 20, 20): {"x": 3.4, "y": 0.5},
+    Scene(120, 60, 60): {"x": 4.4, "y": 0.5},
+    Scene(120, 58, 62, 8, 2): {"x": 4.3, "grooves": 4.3},
+    ACROSS: {"x": 0.5, "grooves": 0.5},
+}
 
 
 def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
@@ -134,23 +207,25 @@ def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
 def correlation() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r": r, **around("correlation", np.exp(-r / decay), 0.03)}
-            for side, decay in (("x", l_c), ("y", 0.5))
+            {**scene.row, "side": side, "r": r, "realisations": 60}
+            | around("correlation", np.exp(-r / decay), 0.03)
+            | around("residual", 0.01, 0.002, prefix="residual")
+            for side, decay in sides.items()
             for r in range(9)
         ]
-        for scene, l_c in LENGTHS.items()
+        for scene, sides in LENGTHS.items()
     }
 
 
 def lengths() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r_last": 8}
+            {**scene.row, "side": side, "r_last": 6, "realisations": 60}
             | around("l_c", value, 0.2)
             | around("tail", value, 0.3, prefix="tail")
-            for side, value in (("x", l_c), ("y", 0.5))
+            for side, value in sides.items()
         ]
-        for scene, l_c in LENGTHS.items()
+        for scene, sides in LENGTHS.items()
     }
 
 

@@ -4,17 +4,23 @@
 CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
 if config["accuracy"]:
     CLAIM_TABLES["precision"] = rules.precision_table.output[0]
+#: Ensembles whose realisations and preludes claims rest on.
+CLAIM_ENSEMBLES = [
+    ensemble
+    for group in ("flat", "pillars", "grooves", "angles", "third_level")
+    for ensemble in ENSEMBLES.get(group, [])
+]
 
 
 rule claims:
     input:
         *CLAIM_TABLES.values(),
         table=rules.aggregate.input,
-        batches=batches(
-            ensemble
-            for group in ("flat", "pillars", "grooves", "third_level")
-            for ensemble in ENSEMBLES.get(group, [])
-        ),
+        batches=batches(CLAIM_ENSEMBLES),
+        preludes=[
+            f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
+            for ensemble in dict.fromkeys(CLAIM_ENSEMBLES)
+        ],
     output:
         table=f"{RESULTS}/tables/claims.parquet",
         page=f"{RESULTS}/claims.md",
@@ -28,10 +34,13 @@ rule claims:
     params:
         code=sources.digest("springblock.commands.claims"),
         configuration=sources.configuration_digest(config),
+        preludes=lambda wildcards, input: " ".join(
+            f"--prelude {quote(file)}" for file in input.preludes
+        ),
         tables=" ".join(f"--{option} {quote(table)}" for option, table in CLAIM_TABLES.items()),
     message:
         "Testing the paper's statements"
     shell:
-        "springblock claims {input.batches:q} --realisations {input.table:q} {params.tables} "
+        "springblock claims {input.batches:q} --realisations {input.table:q} {params.tables} {params.preludes} "
         "--configuration {params.configuration} --output {output.table:q} --page {output.page:q} "
         "> {log:q} 2>&1"

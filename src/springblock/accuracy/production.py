@@ -17,14 +17,13 @@ from tqdm import tqdm
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
 from springblock.accuracy.surfaces import Array, drawn
 from springblock.accuracy.work_precision import timed
-from springblock.correlation import Correlation, fit_length, side_times
+from springblock.correlation import Correlation, fit_tail, side_times
 from springblock.defaults import STEP
 from springblock.pattern import Pattern
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
 from springblock.rows import Row
 from springblock.simulation import simulate
-from springblock.statistics import limits
 from springblock.tables import column
 
 SCHEMA = pa.schema(
@@ -34,7 +33,12 @@ SCHEMA = pa.schema(
         column("quantity", pa.string(), "1", "what value and errors are of"),
         column("unit", pa.string(), "1", "of value, scale, deviation and bias: 1, s or blocks"),
         column("step", pa.float64(), "s", "integration step h of the leapfrog"),
-        column("value", pa.float64(), "see unit", "mean over the realisations; l_c fitted to all"),
+        column(
+            "value",
+            pa.float64(),
+            "see unit",
+            "mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+        ),
         column(
             "scale",
             pa.float64(),
@@ -174,17 +178,18 @@ def of_length(sides: dict[float, Array]) -> dict[float, Estimate]:
     default step, so that nothing but the times differs.
     """
     curves = {step: Correlation(times) for step, times in sides.items()}
-    span = slice(1, curves[STEP].last() + 1)
+    span = slice(1, curves[STEP].last + 1)
     errors = curves[STEP].resampled[:, span].std(axis=0)
     values, resampled = {}, {}
     for step, curve in curves.items():
-        (values[step],) = fit_length(curve.mean[None, span], errors)
-        resampled[step] = fit_length(curve.resampled[:, span], errors)
+        (values[step],) = fit_tail(curve.mean[None, span], errors)
+        resampled[step] = fit_tail(curve.resampled[:, span], errors)
     finest, root = min(sides), np.sqrt(len(sides[STEP]))
     estimates = {}
     for step, value in values.items():
         differences = resampled[step] - resampled[finest]
         deviation, bias = root * resampled[step].std(), value - values[finest]
-        numbers = (value, deviation, bias, differences.std(), *limits(differences))
+        limits = np.percentile(differences, (2.5, 97.5))
+        numbers = (value, deviation, bias, differences.std(), *limits)
         estimates[step] = Estimate(*map(float, numbers))
     return estimates

@@ -4,6 +4,11 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the p
 words ("similar", "uniform", "the same"), the claimed range says how close is close enough.
 """
 
-from springblock.claims import correlation, flat, grooves, model, pillars
+from springblock.claims import correlation, flat, grooves, model, pillars, sizes, stress
 
-CLAIMS = (*flat.CLAIMS, *pillars.CLAIMS, *correlation.CLAIMS, *grooves.CLAIMS, *model.CLAIMS)
+_CHAPTERS = (model, stress, flat, pillars, sizes, correlation, grooves)
+
+#: By the section of the paper that makes them.
+CLAIMS = tuple(
+    sorted((claim for chapter in _CHAPTERS for claim in chapter.CLAIMS), key=lambda c: c.section)
+)

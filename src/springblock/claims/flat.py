@@ -1,47 +1,47 @@
 """Flat surfaces: isolated precursors anywhere, then the front (section 3.1 of the paper)."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from springblock.claims.rule import Claim, Evidence, Finding
+from springblock.asperities import draw_friction
+from springblock.claims.rule import Claim, Estimate, Evidence, Finding, Range
 from springblock.claims.samples import (
     ALIKE,
+    COMPARABLE,
     INF,
+    MOST,
+    NEARLY_ALL,
     NEGATIVE,
+    NEGLIGIBLE,
     POSITIVE,
-    Mask,
+    before_peak,
+    first_patch,
     in_files,
-    lags,
+    in_table,
+    isolated,
     mean,
+    neighbours,
+    over_rows,
     over_runs,
     place,
+    rates,
     scenes_along_x,
+    share_of,
 )
 from springblock.run import Array, Run
-from springblock.statistics import mean_interval, repeatability
+from springblock.statistics import bootstrap_interval, repeatability
+from springblock.tables import Record
 
 _EARLY = 0.9  #: of t_max
 _CORE = 10  #: blocks from the edges of the surface to its core
 _SMALL = 0.2  #: difference in standard deviations that is called small (Cohen 1988)
+_SHUFFLES = 5  #: of the detachment times of a realisation
+_PATCH = 5  #: blocks, side of the patch that counts as a nucleation point
+_BURST = 0.02  #: of t_max, over which detachments are counted
 _FLAT = "realisations of the flat surface"
-
-
-def neighbours(field: Array, outside: float) -> Array:
-    """Values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
-    padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
-    shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
-    return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
-
-
-def isolated(run: Run, until: float) -> float:
-    """Share of the blocks detached before `until` t_max that had eight resting neighbours then.
-
-    Blocks that never detach, NaN, count as resting.
-    """
-    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
-    return _share(alone, run.t_det < until * run.t_max)
 
 
 def lonely(run: Run) -> float:
@@ -50,43 +50,126 @@ def lonely(run: Run) -> float:
     None of these has started a front by itself in a tenth of t_max.
     """
     alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_max), axis=0)
-    return _share(alone, run.t_det < _EARLY * run.t_max)
+    return share_of(alone, run.t_det < _EARLY * run.t_max)
 
 
-def _share(blocks: Mask, among: Mask) -> float:
-    return float(blocks[among].mean()) if among.any() else float("nan")
+def shuffled(run: Record, until: float) -> float:
+    """The share of `isolated` if the same detachment times had fallen anywhere, on average."""
+    rng, n = np.random.default_rng(run.seed), len(run.t_det)
+    anywhere = (rng.permutation(run.t_det.ravel()).reshape(n, n) for _ in range(_SHUFFLES))
+    return float(np.mean([isolated(replace(run, t_det=times), until) for times in anywhere]))
+
+
+def clustering(observed: Array, chance: Array) -> Estimate:
+    """Ratio of the mean shares, (k,) each, of precursors that are not isolated."""
+    near, by_chance = 1.0 - observed, 1.0 - chance
+    with np.errstate(invalid="ignore", divide="ignore"):  # NaN: by chance there are none
+        found = bootstrap_interval(lambda w: (w @ near) / (w @ by_chance), len(near))
+    return Estimate.of(found, len(near))
+
+
+def weakest(run: Record) -> float:
+    """Share of the m blocks detached before t_max that are among the m weakest of the surface."""
+    early = run.t_det < run.t_max
+    thresholds, _ = draw_friction(len(run.t_det), run.seed)
+    bound = np.sort(thresholds, axis=None)[np.count_nonzero(early) - 1]
+    return share_of(thresholds <= bound, early)
+
+
+def avalanche_lag(run: Run) -> float:
+    """Time of the most detachments minus t_max, s."""
+    return float(run.time[np.argmax(rates(run, _BURST * run.t_max))]) - run.t_max
+
+
+def rate_at_peak(run: Run) -> float:
+    """Detachments around t_max over those around the time of the most."""
+    counts = rates(run, _BURST * run.t_max)
+    return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Precursors come one by one; up to t_max and up to a tenth of t_max before it."""
+    """Precursors come one by one, and hardly less so than by chance."""
     for scene in scenes_along_x(evidence.records, 0):
         for until in (_EARLY, 1.0):
-            shares = over_runs(partial(isolated, until=until), evidence.records[scene])
+            case = {"N": scene.n_blocks, "t/t_max below": until}
+            runs = evidence.records[scene]
+            shares = over_runs(partial(isolated, until=until), runs)
+            chance = over_runs(partial(shuffled, until=until), runs)
             yield Finding(
-                {"N": scene.n_blocks, "t/t_max below": until},
+                case | {"measure": "share"},
                 "share of the blocks detached by then that let go while all eight neighbours were "
                 "at rest since the start",
                 mean(shares),
-                (0.5, INF),
+                (MOST, INF),
+                in_files(scene),
+            )
+            both = sorted(shares.keys() & chance.keys())
+            if not both:
+                continue
+            yield Finding(
+                case | {"measure": "chance"},
+                "share of the others, over that of the same detachment times shuffled",
+                clustering(*(np.array([s[seed] for seed in both]) for s in (shares, chance))),
+                (-INF, COMPARABLE),
                 in_files(scene),
             )
 
 
-def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
-    """Some early precursors stay alone until the force maximum."""
+def _of_runs(
+    evidence: Evidence,
+    quantity: Callable[[Record], float],
+    statistic: str,
+    claimed: Range,
+    unit: str = "1",
+) -> Iterator[Finding]:
+    """Mean of a quantity of the realisations of each flat surface."""
     for scene in scenes_along_x(evidence.records, 0):
-        yield Finding(
-            place(scene),
-            "share of the blocks detached before 0.9 t_max around which no other has by t_max",
-            mean(over_runs(lonely, evidence.records[scene])),
-            POSITIVE,
-            in_files(scene),
-        )
+        sample = over_runs(quantity, evidence.records[scene])
+        yield Finding(place(scene), statistic, mean(sample), claimed, in_files(scene), unit)
+
+
+def weakest_first(evidence: Evidence) -> Iterator[Finding]:
+    """Precursors are the blocks with the lowest thresholds, which the seed tells."""
+    name = "share of the m blocks detached before t_max that have one of the m lowest mu_static"
+    return _of_runs(evidence, weakest, name, (MOST, INF))
+
+
+def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
+    """Some early precursors stay alone until the force maximum, and some do not."""
+    name = "share of the blocks detached before 0.9 t_max around which no other has by t_max"
+    return _of_runs(evidence, lonely, name, (1.0 - NEARLY_ALL, NEARLY_ALL))
+
+
+def onset(evidence: Evidence) -> Iterator[Finding]:
+    """At t_max next to nothing has detached."""
+    name = "share of the blocks detached before t_max"
+    return _of_runs(evidence, before_peak, name, (-INF, NEGLIGIBLE))
+
+
+def avalanche_follows(evidence: Evidence) -> Iterator[Finding]:
+    """The most blocks let go after t_max."""
+    name = "time of the most detachments, within 2 % of t_max, minus t_max"
+    return _of_runs(evidence, avalanche_lag, name, POSITIVE, "s")
+
+
+def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
+    """At t_max the rate of detachments is below half of its largest."""
+    name = "detachments within 2 % of t_max around it, over the most in such a time"
+    return _of_runs(evidence, rate_at_peak, name, (-INF, MOST))
 
 
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
     """t_max < t_avg on flat surfaces."""
-    return lags(evidence, 0, 0, NEGATIVE)
+    for scene in scenes_along_x(evidence.summaries, 0):
+        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
+        yield Finding(place(scene), "t_max - t_avg", mean(lag), NEGATIVE, in_table(scene), "s")
+
+
+def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
+    """The patch that detaches first lies as far from the edge as any."""
+    name = f"share of places nearer to the edge than the {_PATCH} x {_PATCH} blocks detaching first"
+    claimed = (MOST - _SMALL, MOST + _SMALL)
+    return _of_runs(evidence, lambda run: first_patch(run.t_det, _PATCH), name, claimed)
 
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:
@@ -100,7 +183,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             {"N": n, "part": "core"},
             "share of the variance of t_det that place explains (jackknife)",
-            repeatability(times[:, core]),
+            Estimate.of(repeatability(times[:, core]), len(times)),
             (-INF, ALIKE),
             in_files(scene),
         )
@@ -108,7 +191,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             {"N": n, "part": "outermost blocks"},
             "mean t_det minus that of the core",
-            mean_interval(late),
+            mean(np.array(late)),
             (-_SMALL, _SMALL),
             in_files(scene),
             "standard deviations of t_det",
@@ -119,16 +202,51 @@ CLAIMS = (
     Claim(
         "Isolated precursors on flat surfaces",
         "3.1",
-        "Slip precursors occur as single detachment events before the macroscopic sliding phase.",
+        "Slip precursors occur as single detachment events before the macroscopic sliding phase. "
+        "Tested: most are isolated, and those that are not are less than twice as many as by "
+        "chance.",
         _FLAT,
         isolated_precursors,
     ),
     Claim(
+        "Precursors are the weakest blocks",
+        "3.1",
+        "Slip precursors occur corresponding to the weakest microscopic static friction "
+        "thresholds. Tested: most of them.",
+        _FLAT,
+        weakest_first,
+    ),
+    Claim(
         "Not every precursor starts a front",
         "3.1",
-        "Not all the precursors trigger a rupture wave front.",
+        "From these events rupture waves may nucleate; not all the precursors trigger a rupture "
+        "wave front. Tested: more than a tenth of them stay alone, and less than nine tenths.",
         _FLAT,
         not_all_nucleate,
+    ),
+    Claim(
+        "t_max is the onset of propagation on flat surfaces",
+        "3.1",
+        "The time instant t_max corresponds to the onset of propagation. Tested: less than a tenth "
+        "of the surface has detached before.",
+        _FLAT,
+        onset,
+    ),
+    Claim(
+        "The main avalanche follows t_max on flat surfaces",
+        "3.1",
+        "After t_max there is the main sliding avalanche, highlighted by the peak of the number of "
+        "detachments.",
+        _FLAT,
+        avalanche_follows,
+    ),
+    Claim(
+        "Force and detachments peak apart on flat surfaces",
+        "3.1",
+        "The two peaks, of force and of detachments, are clearly separated. Tested: at the one, "
+        "detachments are below half of the other.",
+        _FLAT,
+        peaks_apart,
     ),
     Claim(
         "t_max < t_avg on flat surfaces",
@@ -144,5 +262,13 @@ CLAIMS = (
         "uniform.",
         f"three {_FLAT} or more",
         uniform,
+    ),
+    Claim(
+        "Nucleation anywhere on flat surfaces",
+        "3.2",
+        "On average, each point of the surface has the same probability of being a nucleation "
+        "point. Tested: how far from the edge the first patch of 5 x 5 blocks detaches.",
+        _FLAT,
+        nucleation_anywhere,
     ),
 )

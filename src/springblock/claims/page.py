@@ -4,41 +4,75 @@ import math
 from collections.abc import Sequence
 from itertools import groupby
 
+from springblock.claims.untested import UNTESTED
 from springblock.rows import Row, markdown_table
 
-_LINE = 100  #: characters
+_LINE = 160  #: characters of a verdict in the list of statements
+
+_SECTIONS = {
+    "1": "Introduction",
+    "2": "Model",
+    "3.1": "Non-patterned surface",
+    "3.2": "Single-scale patterned surfaces",
+    "3.3": "Multiscale patterned surfaces",
+    "4": "Discussion and relevance to seismic phenomena",
+    "5": "Conclusions",
+}
 
 _PAGE = """# What becomes of the paper's statements
 
 Written by `snakemake claims` from the table `claims`, which rests on the tables `realisations`,
-`correlation`, `correlation_length` and `work_precision` and on the realisations of flat, pillared
-and grooved surfaces. Units are SI, lengths count blocks.
+`correlation`, `correlation_length` and `work_precision`, on the realisations of flat, pillared
+and grooved surfaces and on their preludes. Units are SI, lengths count blocks.
 
 ## The rule
 
-Every statement claims a range for some statistic, in one or several cases. A finding *holds*
-where the 95 % interval of the statistic lies within that range, *fails* where it lies wholly
-outside, and is *open* where it lies across an edge. All findings of a case must hold for the case
-to hold; one that fails makes it fail. The statement is
+Every statement claims a range for some statistic, in one or several cases. The ranges were fixed
+before the numbers. Where the paper has words, all statements take them alike: what it says without
+exception means more than nine tenths, "most" more than half, "negligible" less than a tenth,
+"comparable" within a factor of two.
 
-- **reproduced** where all cases hold,
-- **not reproduced** where all fail,
-- **depends on** what differs between cases where some hold and some fail,
-- **not settled** otherwise,
-- **not tested** where what it needs was not simulated or measured.
+A finding *holds* where the interval of the statistic lies within the claimed range, *fails* where
+it lies wholly outside, and is *open* where it lies across an edge. Intervals that decide together
+are wider than each alone: those of a statement's k findings are at 1 - 0.05/k (Bonferroni; both
+arms grow as those of Student's t), so that all hold together with 95 %. Of forty statements about
+two may still owe their verdict to chance.
 
-Intervals are bootstrap intervals over realisations unless the statistic says otherwise.
-Differences between scenes are paired, the same seed drawing the same coefficients, save those of
-correlation lengths, which combine the intervals of both. Other seeds must not change a verdict
-called reproduced:
+An open finding is *underpowered* where it would hold less than four times in five if its true
+value were the median of those findings of the same statistic that hold. The page names how many
+realisations an open finding needs, if its value is the true one.
+
+All findings of a case must hold for the case to hold; one that fails makes it fail, and one that is
+underpowered leaves it so. The statement, which is made of all its cases,
+
+- **depends on** what differs between cases where some hold and some fail, whatever open ones
+  become,
+- is **not reproduced** where some case fails and none holds: no open case could save it, though one
+  may yet show that it depends on something,
+- is **reproduced** where cases hold, none fails, and those still open are underpowered and fewer,
+- is **not settled** otherwise: nothing fails, and a case that could decide is open, or too many
+  cannot,
+- is **not tested** where what it needs was not simulated or measured.
+
+## The intervals
+
+They are 95 % intervals over realisations: Student's t for means, Welch's for differences between
+surfaces, which are independent samples though they share their seeds, Clopper's and Pearson's for
+shares of realisations, and the bias-corrected and accelerated bootstrap (BCa) for all else, unless
+the statistic says otherwise. Differences within a realisation are paired. Stress before the first
+detachment has no scatter, and its intervals no width.
+
+Other seeds must not change a verdict called reproduced:
 
     snakemake --config first_seed=1000 results=results/offset
 
+## The statements
+
 {summary}
 
-Not tested here: that results are the same for other Young's moduli at the same ratio to the
-pressure; how slider velocity, pressure and scatter change the number of fronts; that the time
-between the load peaks follows the difference of the length scales.
+## Not tested
+
+{untested}
 
 {sections}
 """
@@ -47,13 +81,30 @@ between the load peaks follows the difference of the length scales.
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
-    summary = [
-        [f"{i}. {part[0]['claim']}", _in_short(part[0])] for i, part in enumerate(by_claim, 1)
-    ]
-    sections = [_section(i, part) for i, part in enumerate(by_claim, 1)]
+    numbered = list(enumerate(by_claim, 1))
+    untested = [[section, what, why] for section, what, why in UNTESTED]
     return _PAGE.format(
-        summary=markdown_table(["statement", "verdict"], summary), sections="\n\n".join(sections)
+        summary="\n\n".join(_contents(numbered)),
+        untested=markdown_table(["section", "statement", "why not"], untested),
+        sections="\n\n".join(_section(*part) for part in numbered),
     )
+
+
+def _contents(numbered: Sequence[tuple[int, Sequence[Row]]]) -> list[str]:
+    """Tables of statements and verdicts, section by section."""
+    parts = []
+    for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
+        lines = [[_link(i, part[0]), _in_short(part[0]), _decided(part)] for i, part in group]
+        heading = f"### Section {section}: {_SECTIONS[section]}"
+        parts += [heading, markdown_table(["statement", "verdict", "what decided it"], lines)]
+    return parts
+
+
+def _link(number: int, row: Row) -> str:
+    """A statement's number and name, and the anchor that Markdown gives to them."""
+    heading = f"{number}. {row['claim']}"
+    kept = "".join(c for c in heading.lower() if c.isalnum() or c in " -_")
+    return f"[{heading}](#{kept.replace(' ', '-')})"
 
 
 def _in_short(row: Row) -> str:
@@ -66,6 +117,65 @@ def _verdict(row: Row) -> str:
     return f"**{row['verdict']}** {row['depends_on']}".strip()
 
 
+def _decided(part: Sequence[Row]) -> str:
+    """One sentence: the finding that comes closest to changing the verdict, or settles it."""
+    judged = part[0]["verdict"]
+    if judged == "not tested":
+        return f"{part[0]['rests_on'].capitalize()}."
+    if judged == "not settled":
+        least = max(part, key=_wanted)
+        return f"{_in_words(least, part)}; {_needed(least)}."
+    kinds = {"reproduced": ["holds"], "not reproduced": ["fails"], "depends on": ["holds", "fails"]}
+    words = []
+    for kind in kinds[judged]:
+        found = [row for row in part if row["outcome"] == kind]
+        said = f"{len(found)} of {len(part)} {_verb(kind, len(found))}"
+        clearest = max(found, key=_clearness) if kind == "fails" else min(found, key=_clearness)
+        how = "most clearly" if kind == "fails" else "most narrowly"
+        decided = _in_words(clearest, part)
+        words.append(f"{said}, {how} {decided}" if found[1:] else decided)
+    return f"{'; '.join(words)}."
+
+
+def _verb(kind: str, number: int) -> str:
+    return kind if number == 1 else {"holds": "hold", "fails": "fail"}[kind]
+
+
+def _wanted(row: Row) -> float:
+    wanted = row["settled_by"]
+    return -1.0 if math.isnan(wanted) else wanted
+
+
+def _clearness(row: Row) -> float:
+    """Distance from the nearest edge of the claimed range, in the arm that points there."""
+    value, low, high = row["value"], row["together_low"], row["together_high"]
+    ways = []
+    for limit in (row["claimed_low"], row["claimed_high"]):
+        if math.isfinite(limit):
+            arm = value - low if limit < value else high - value
+            ways.append(abs(value - limit) / arm if arm > 0.0 else math.inf)
+    return min(ways)
+
+
+def _in_words(row: Row, part: Sequence[Row]) -> str:
+    """A finding, with what tells its case from those of the statement's others."""
+    common = set.intersection(*(set(other["case"].split(", ")) for other in part))
+    case = ", ".join(key for key in row["case"].split(", ") if key not in common)
+    told_apart = f" ({case})" if case else ""
+    return f"{row['statistic']} is {_value(row)}, claimed {_range(row)}{told_apart}"
+
+
+def _needed(row: Row) -> str:
+    """How many realisations would settle an open finding."""
+    wanted = row["settled_by"]
+    if math.isnan(wanted):
+        return "no interval"
+    if math.isinf(wanted):
+        return "no number of realisations settles it"
+    digits = 10 ** max(0, len(str(int(wanted))) - 2)
+    return f"about {math.ceil(wanted / digits) * digits} realisations would settle it"
+
+
 def _section(number: int, part: Sequence[Row]) -> str:
     first = part[0]
     lines = [
@@ -76,17 +186,30 @@ def _section(number: int, part: Sequence[Row]) -> str:
     if first["verdict"] == "not tested":
         lines[-1] += f" {first['rests_on'].capitalize()}."
     else:
-        header = ["case", "statistic", "value [95 % interval]", "claimed", "outcome"]
+        header = ["case", "statistic", _heading(len(part)), "claimed", "outcome"]
         lines.append(markdown_table(header, [_cells(row) for row in part]))
         sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
         lines.append("\n".join(["Rests on", "", *(f"- {source}" for source in sources)]))
     return "\n\n".join(lines)
 
 
+def _heading(together: int) -> str:
+    """Heading of the values; the level of each interval where several hold together."""
+    if together == 1:
+        return "value [95 % interval]"
+    return f"value [95 % interval together, {100.0 - 5.0 / together:.4g} % alone]"
+
+
 def _cells(row: Row) -> list[str]:
-    value = f"{row['value']:.3g} [{row['ci_low']:.3g}, {row['ci_high']:.3g}]"
+    outcome = row["outcome"]
+    if outcome in ("open", "underpowered"):
+        outcome += f": {_needed(row)}"
+    return [row["case"], row["statistic"], _value(row), _range(row), outcome]
+
+
+def _value(row: Row) -> str:
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    return [row["case"], row["statistic"], value + unit, _range(row), row["outcome"]]
+    return f"{row['value']:.3g} [{row['together_low']:.3g}, {row['together_high']:.3g}]{unit}"
 
 
 def _range(row: Row) -> str:

@@ -1,17 +1,24 @@
 """What a claim is and rests on, and the rule from intervals to verdicts."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
+from statistics import median
 
 from springblock.rows import Row
+from springblock.run import Array
 from springblock.scene import Scene
-from springblock.statistics import Interval
+from springblock.statistics import Interval, share_interval, students_t
 from springblock.tables import Record
 
 Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
+
+_DOUBT = 0.05  #: chance that one of the intervals of a statement misses its true value
+_POWER = 0.84  #: standard errors that four in five estimates stay below
+_MANY = 10**6  #: realisations beyond which nobody would go
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,31 +29,96 @@ class Evidence:
     summaries: Table = field(default_factory=dict)  #: the table `realisations`
     correlation: Table = field(default_factory=dict)
     correlation_length: Table = field(default_factory=dict)
+    #: Tangential force on each block before the first lets go, over its mean; NaN off contact.
+    stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
 
 
 @dataclass(frozen=True)
+class Estimate:
+    """A statistic with the limits of its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+    runs: int = 0  #: realisations of the surface that has the fewest; 0: chance plays no part
+
+    @classmethod
+    def of(cls, interval: Interval, runs: int) -> "Estimate":
+        """An interval of numbers that so many realisations have led to."""
+        mean, low, high = interval
+        return cls(float(mean), float(low), float(high), runs)
+
+    def limits(self, together: int, runs: int | None = None) -> Range:
+        """Limits of an interval that is one of several which must all be right (Bonferroni).
+
+        Both arms grow as those of Student's t do, from 95 % to 1 - 0.05/together. With other
+        `runs` they are those to expect of so many realisations with the same scatter.
+        """
+        if not self.runs:
+            return self.low, self.high
+        runs = runs or self.runs
+        now, then = students_t(self.runs - 1), students_t(runs - 1, 1.0 - _DOUBT / together)
+        wider = float(then / now) * math.sqrt(self.runs / runs)
+        below, above = self.value - self.low, self.high - self.value
+        return self.value - wider * below, self.value + wider * above
+
+
+class Share(Estimate):
+    """A share of realisations, whose limits are exact at any level."""
+
+    def limits(self, together: int, runs: int | None = None) -> Range:
+        """As those of any estimate, and never beyond 0 and 1."""
+        runs = runs or self.runs
+        found = share_interval(round(self.value * runs), runs, 1.0 - _DOUBT / together)
+        return float(found.low), float(found.high)
+
+
+@dataclass(frozen=True)
 class Finding:
-    """A statistic with its 95 % interval, and the open range in which the claim puts it."""
+    """A statistic with its interval, and the open range in which the claim puts it."""
 
     case: Case
     statistic: str
-    interval: Interval
+    estimate: Estimate
     claimed: Range
     rests_on: str  #: separated by "; "
     unit: str = "1"
 
-    @property
-    def outcome(self) -> str:
-        """Whether the claim "holds", "fails" or stays "open" here.
+    def outcome(self, together: int = 1, runs: int | None = None) -> str:
+        """Whether the claim "holds", "fails" or stays "open" here, as one of several findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
-        outside, and is open where it does neither or there is no interval.
+        outside, and is open where it does neither or there is no interval. With other `runs` it
+        is the outcome to expect of so many realisations with the same value.
         """
-        (_, low, high), (lowest, highest) = self.interval, self.claimed
+        (low, high), (lowest, highest) = self.estimate.limits(together, runs), self.claimed
         if lowest < low and high < highest:
             return "holds"
         return "fails" if high <= lowest or low >= highest else "open"
+
+    def settled_by(self, together: int = 1) -> float:
+        """Realisations that would decide an open finding, were its value the true one.
+
+        To 2 %; infinite if a million would not do, NaN where it is decided or has no interval.
+        """
+        runs = self.estimate.runs
+        if self.outcome(together) != "open" or runs < 2:
+            return math.nan
+        while runs < _MANY:
+            runs = math.ceil(1.02 * runs)
+            if self.outcome(together, runs) != "open":
+                return runs
+        return math.inf
+
+    def had_power_at(self, value: float, together: int) -> bool:
+        """Whether it would hold four times in five if this were the true value."""
+        low, high = self.estimate.limits(together)
+        alone = self.estimate.limits(1)
+        error = (alone[1] - alone[0]) / 2.0 / float(students_t(self.estimate.runs - 1))
+        shift, (lowest, highest) = value - self.estimate.value, self.claimed
+        spare = _POWER * error
+        return lowest < low + shift - spare and high + shift + spare < highest
 
 
 @dataclass(frozen=True)
@@ -60,64 +132,113 @@ class Claim:
     test: Callable[[Evidence], Iterable[Finding]]
 
 
+def outcomes(findings: Sequence[Finding]) -> list[str]:
+    """Outcome of each finding of a claim: "holds", "fails", "open" or "underpowered".
+
+    The intervals of all findings hold together. An open finding is underpowered where it would
+    hold less than four times in five if its true value were the median of those that hold in other
+    cases.
+    """
+    together = len(findings)
+    first = [finding.outcome(together) for finding in findings]
+
+    def finally_judged(finding: Finding, outcome: str) -> str:
+        holding = [
+            other.estimate.value
+            for other, found in zip(findings, first, strict=True)
+            if found == "holds" and _comparable(other, finding)
+        ]
+        if outcome != "open" or not holding:
+            return outcome
+        powerful = not finding.estimate.runs or finding.had_power_at(median(holding), together)
+        return "open" if powerful else "underpowered"
+
+    return [finally_judged(*pair) for pair in zip(findings, first, strict=True)]
+
+
+def _comparable(first: Finding, second: Finding) -> bool:
+    """The same is claimed of the same statistic in another case."""
+    same = (first.statistic, first.claimed) == (second.statistic, second.claimed)
+    return same and first.case != second.case
+
+
 def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
     """Judge a claim by its findings; return the verdict and what it depends on.
 
-    All findings of a case must hold for the case to hold, and one that fails makes it fail. The
-    claim is "reproduced" where all cases hold and "not reproduced" where all fail. It
-    "depends on" what differs between cases where some hold and some fail. It is "not settled"
-    otherwise: some interval lies across the edge of its claimed range. Without any finding it is
-    "not tested".
+    All findings of a case must hold for the case to hold, one that fails makes it fail, and one
+    that is underpowered leaves it so. The claim is made of all its cases:
+
+    - it "depends on" what differs between cases where some hold and some fail;
+    - it is "not reproduced" where some fail and none holds: no open case could save it, but one
+      may yet show that it depends on something, and these are named;
+    - it is "reproduced" where some hold, none fails and none is open but for lack of power, and
+      those are fewer than the ones that hold;
+    - it is "not settled" otherwise, and "not tested" without any finding.
     """
     if not findings:
         return "not tested", ""
-    cases = groupby(findings, key=lambda finding: finding.case)
-    outcomes = [(case, _together(group)) for case, group in cases]
-    found = {outcome for _, outcome in outcomes}
-    if found == {"holds"}:
+    judged = zip(findings, outcomes(findings), strict=True)
+    cases = groupby(judged, key=lambda pair: pair[0].case)
+    decided = [(case, _together(outcome for _, outcome in group)) for case, group in cases]
+    found = [outcome for _, outcome in decided]
+    if {"holds", "fails"} <= set(found):
+        return "depends on", _difference(decided)
+    if "fails" in found:
+        return "not reproduced", _cases(decided, _varied(decided)) if set(found) & _OPEN else ""
+    weak = found.count("underpowered")
+    if "open" not in found and found.count("holds") > weak:
         return "reproduced", ""
-    if found == {"fails"}:
-        return "not reproduced", ""
-    if {"holds", "fails"} <= found:
-        return "depends on", _difference(outcomes)
     return "not settled", ""
 
 
-def _together(findings: Iterable[Finding]) -> str:
-    outcomes = {finding.outcome for finding in findings}
-    return next(outcome for outcome in ("fails", "open", "holds") if outcome in outcomes)
+def _together(found: Iterable[str]) -> str:
+    kinds = set(found)
+    return next(kind for kind in ("fails", "underpowered", "open", "holds") if kind in kinds)
 
 
 _BOTH = ("holds", "fails")
+_OPEN = {"open", "underpowered"}
 
 
-def _difference(outcomes: Sequence[tuple[Case, str]]) -> str:
+def _difference(decided: Sequence[tuple[Case, str]]) -> str:
     """Say by which keys the cases that hold differ from those that fail, and which are which.
 
     These are the keys that tell them apart by themselves; without such a key, all whose values
     differ.
     """
-    keys = dict.fromkeys(key for case, _ in outcomes for key in case)
+    keys = dict.fromkeys(key for case, _ in decided for key in case)
     holds, fails = (
-        {key: {case[key] for case, outcome in outcomes if outcome == which} for key in keys}
+        {key: {case.get(key) for case, found in decided if found == which} for key in keys}
         for which in _BOTH
     )
     telling = [key for key in keys if not holds[key] & fails[key]]
     telling = telling or [key for key in keys if holds[key] != fails[key]]
-    names = {(_name(case, telling), outcome) for case, outcome in outcomes}
+    names = {(_name(case, telling), found) for case, found in decided}
     if len({name for name, _ in names}) < len(names):  # no key tells them apart without the others
-        telling = [key for key in keys if len({case[key] for case, _ in outcomes}) > 1]
+        telling = _varied(decided)
+    return _cases(decided, telling)
+
+
+def _varied(decided: Sequence[tuple[Case, str]]) -> list[str]:
+    """Keys that differ between cases."""
+    keys = dict.fromkeys(key for case, _ in decided for key in case)
+    return [key for key in keys if len({case.get(key) for case, _ in decided}) > 1]
+
+
+def _cases(decided: Sequence[tuple[Case, str]], telling: Sequence[str]) -> str:
+    """Say which cases hold, fail and are open, told apart by these keys."""
     lists = []
-    for which in (*_BOTH, "open"):
-        cases = [_name(case, telling) for case, outcome in outcomes if outcome == which]
+    for words, kinds in (("holds", {"holds"}), ("fails", {"fails"}), ("open", _OPEN)):
+        cases = [_name(case, telling) for case, found in decided if found in kinds]
         if cases:
-            lists.append(f"{which} for {' and '.join(dict.fromkeys(cases))}")
+            lists.append(f"{words} for {' and '.join(dict.fromkeys(cases))}")
     return f"{', '.join(telling)}: {'; '.join(lists)}"
 
 
 def _name(case: Case, keys: Sequence[str]) -> str:
     """Name a case by a few of its keys; a single one goes without saying."""
-    return str(case[keys[0]]) if len(keys) == 1 else describe({key: case[key] for key in keys})
+    shown = {key: case[key] for key in keys if key in case}
+    return str(case[keys[0]]) if len(keys) == 1 else describe(shown)
 
 
 def describe(case: Case) -> str:

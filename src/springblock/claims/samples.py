@@ -7,11 +7,16 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims.rule import Case, Evidence, Finding, Range, describe
+from springblock.claims.rule import Case, Estimate, Finding, Share, describe
 from springblock.rows import Row
-from springblock.run import Array
+from springblock.run import Array, Run
 from springblock.scene import Scene
-from springblock.statistics import Interval, mean_interval, ratio_interval
+from springblock.statistics import (
+    difference_interval,
+    mean_interval,
+    position_interval,
+    share_interval,
+)
 from springblock.tables import Record
 
 Mask = NDArray[np.bool_]
@@ -21,6 +26,9 @@ INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
 
 SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
+#: What the paper says in words, the same for all statements: a rule without exception, most, a
+#: part that can be neglected, a factor between what is comparable or about the same.
+NEARLY_ALL, MOST, NEGLIGIBLE, COMPARABLE = 0.9, 0.5, 0.1, 2.0
 ALIKE = 0.2  #: share of the variance that place may explain where the paper calls it uniform
 ALONG = "x"  #: the paper's sliding direction
 
@@ -69,9 +77,9 @@ def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     return f"tables/{table}: {describe(keys)}"
 
 
-def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Interval:
+def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Estimate:
     """A value of a row with its interval."""
-    return Interval(*(np.array(row[key]) for key in (value, low, high)))
+    return Estimate(float(row[value]), float(row[low]), float(row[high]), row["realisations"])
 
 
 def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> dict[int, float]:
@@ -79,50 +87,100 @@ def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> dict[int
     return {row["seed"]: function(row) for row in rows}
 
 
-def lags(evidence: Evidence, level: int, smallest: int, claimed: Range) -> Iterator[Finding]:
-    """t_max - t_avg, s, of each scene along x of the table `realisations`."""
-    for scene in scenes_along_x(evidence.summaries, level, smallest):
-        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
-        yield Finding(place(scene), "t_max - t_avg", mean(lag), claimed, in_table(scene), "s")
-
-
-def mean(sample: Sample) -> Interval:
+def mean(sample: Sample | Array) -> Estimate:
     """Mean of a sample with its interval; NaN for an empty one."""
-    if not sample:
-        return Interval(*np.full(3, np.nan))
-    return mean_interval(list(sample.values()))
+    values = list(sample.values()) if isinstance(sample, Mapping) else sample
+    if not len(values):
+        return Estimate(np.nan, np.nan, np.nan)
+    return Estimate.of(mean_interval(values), len(values))
 
 
-def difference(first: Sample, second: Sample) -> Interval:
-    """Mean of first - second over the seeds that both have: realisations are paired."""
-    return mean({seed: first[seed] - second[seed] for seed in sorted(first.keys() & second)})
+def share(sample: Sample | NDArray[np.bool_]) -> Estimate:
+    """Share of the realisations in which something is so, with its exact interval."""
+    flags = list(sample.values()) if isinstance(sample, Mapping) else sample
+    return Share.of(share_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
-def position(sample: Sample, zero: Sample, one: Sample) -> Interval:
-    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; paired.
+def difference(first: Sample, second: Sample) -> Estimate:
+    """Mean of a sample minus that of one of another surface: both are independent (Welch).
+
+    The same seeds do not help: realisations of different surfaces are hardly correlated.
+    """
+    if not first or not second:
+        return mean({})
+    samples = [list(sample.values()) for sample in (first, second)]
+    return Estimate.of(difference_interval(*samples), min(map(len, samples)))
+
+
+def position(sample: Sample, zero: Sample, one: Sample) -> Estimate:
+    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1.
 
     The interval is NaN where those of `zero` and `one` cannot be told apart.
     """
-    scale = difference(one, zero)
-    seeds = sorted(sample.keys() & zero.keys() & one.keys())
-    if not seeds:
+    samples = [list(values.values()) for values in (sample, zero, one)]
+    scale, runs = difference(one, zero), min(map(len, samples))
+    if runs < 2 or scale.low <= 0.0 <= scale.high:
         return mean({})
-    between = ratio_interval(
-        [sample[seed] - zero[seed] for seed in seeds], [one[seed] - zero[seed] for seed in seeds]
-    )
-    if scale.low <= 0.0 <= scale.high:
-        return Interval(between.mean, np.array(np.nan), np.array(np.nan))
-    return between
+    return Estimate.of(position_interval(*samples), runs)
 
 
-def in_order(case: Case, parts: Mapping[str, Array], rests_on: str) -> Iterator[Finding]:
-    """Each part of a pillar detaches before the next; mean t_det/t_max of each, (k,)."""
+def in_order(
+    case: Case, parts: Mapping[str, Array], rests_on: str, time: str = "t_max"
+) -> Iterator[Finding]:
+    """Each part of a pillar detaches before the next; mean t_det over `time` of each, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
-        statistic = f"t_det/t_max of the {late} minus that of the {early}"
-        yield Finding(case, statistic, mean_interval(after - before), POSITIVE, rests_on)
+        statistic = f"t_det/{time} of the {late} minus that of the {early}"
+        yield Finding(case, statistic, mean(after - before), POSITIVE, rests_on)
 
 
 def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:
     """A number per realisation, by its seed, without those in which it is not defined, NaN."""
     values = {run.seed: function(run) for run in runs}
     return {seed: value for seed, value in values.items() if np.isfinite(value)}
+
+
+def before_peak(run: Run) -> float:
+    """Share of all detaching blocks that detach before t_max."""
+    times = run.t_det[np.isfinite(run.t_det)]
+    return float(np.mean(times < run.t_max))
+
+
+def neighbours(field: Array, outside: float) -> Array:
+    """Values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
+    padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
+    shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
+    return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
+
+
+def isolated(run: Run, until: float) -> float:
+    """Share of the blocks detached before `until` t_max that had eight resting neighbours then.
+
+    Blocks that never detach, NaN, count as resting.
+    """
+    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
+    return share_of(alone, run.t_det < until * run.t_max)
+
+
+def share_of(blocks: Mask, among: Mask) -> float:
+    """Share of some blocks that are among others; NaN where there are none."""
+    return float(blocks[among].mean()) if among.any() else float("nan")
+
+
+def rates(run: Run, width: float) -> Array:
+    """First detachments within `width` s around each sample, (n,)."""
+    samples = max(1, round(width / (run.time[1] - run.time[0])))
+    counts: Array = np.convolve(run.detachments.astype(float), np.ones(samples), mode="same")
+    return counts
+
+
+def first_patch(times: Array, size: int) -> float:
+    """Where the patch of `size` by `size` blocks lies that detaches first, (n, n) s.
+
+    The share of all such patches that lie nearer to the edge, half of those just as near included:
+    1/2 on average if every place is as good, 0 at the edge, 1 at the centre.
+    """
+    windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
+    from_edge = np.minimum(np.arange(len(windows)), np.arange(len(windows))[::-1])
+    depth = np.minimum.outer(from_edge, from_edge)
+    here = depth.flat[np.argmin(windows)]
+    return float(np.mean(depth < here) + 0.5 * np.mean(depth == here))

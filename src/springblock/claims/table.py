@@ -5,9 +5,16 @@ from collections.abc import Iterable
 import numpy as np
 import pyarrow as pa
 
-from springblock.claims.rule import Claim, Evidence, Finding, describe, verdict
+from springblock.claims.rule import (
+    Claim,
+    Estimate,
+    Evidence,
+    Finding,
+    describe,
+    outcomes,
+    verdict,
+)
 from springblock.rows import Row
-from springblock.statistics import Interval
 from springblock.tables import column
 
 SCHEMA = pa.schema(
@@ -17,13 +24,28 @@ SCHEMA = pa.schema(
         column("statement", pa.string(), "1", "what the paper says, in short"),
         column("case", pa.string(), "1", "the surface, part or quantity looked at"),
         column("statistic", pa.string(), "1", "what the value is"),
-        column("unit", pa.string(), "1", "unit of the five numbers that follow"),
+        column("unit", pa.string(), "1", "unit of the seven numbers that follow"),
         column("value", pa.float64(), "see unit", "the statistic; NaN if not tested"),
         column("ci_low", pa.float64(), "see unit", "lower end of its 95 % interval"),
         column("ci_high", pa.float64(), "see unit", "upper end"),
+        column(
+            "together_low",
+            pa.float64(),
+            "see unit",
+            "lower end of an interval that holds in 95 % together with those of the statement's "
+            "other rows (Bonferroni)",
+        ),
+        column("together_high", pa.float64(), "see unit", "upper end"),
         column("claimed_low", pa.float64(), "see unit", "the statement claims more than this"),
         column("claimed_high", pa.float64(), "see unit", "and less than this"),
-        column("outcome", pa.string(), "1", "of this row: holds, fails or open"),
+        column("realisations", pa.int32(), "1", "behind the value; 0: chance plays no part"),
+        column("outcome", pa.string(), "1", "of this row: holds, fails, open or underpowered"),
+        column(
+            "settled_by",
+            pa.float64(),
+            "1",
+            "realisations that would decide an open row, were its value true; else NaN",
+        ),
         column("verdict", pa.string(), "1", "on the statement, from all its rows"),
         column("depends_on", pa.string(), "1", "what tells cases that hold from those that fail"),
         column("rests_on", pa.string(), "1", "files, scenes and rows behind the value, by ';'"),
@@ -37,30 +59,35 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
     for claim in claims:
         findings = list(claim.test(evidence))
         judged, depends_on = verdict(findings)
-        for finding in findings or [_nothing(claim)]:
-            value, low, high = (float(number) for number in finding.interval)
-            table.append(
-                {
-                    "claim": claim.name,
-                    "section": claim.section,
-                    "statement": claim.statement,
-                    "case": describe(finding.case),
-                    "statistic": finding.statistic,
-                    "unit": finding.unit,
-                    "value": value,
-                    "ci_low": low,
-                    "ci_high": high,
-                    "claimed_low": finding.claimed[0],
-                    "claimed_high": finding.claimed[1],
-                    "outcome": finding.outcome,
-                    "verdict": judged,
-                    "depends_on": depends_on,
-                    "rests_on": finding.rests_on,
-                }
-            )
+        said = {"claim": claim.name, "section": claim.section, "statement": claim.statement}
+        found = zip(findings, outcomes(findings), strict=True) if findings else [_nothing(claim)]
+        for finding, outcome in found:
+            row = _row(finding, max(1, len(findings)))
+            row |= {"outcome": outcome, "verdict": judged, "depends_on": depends_on}
+            table.append(said | row)
     return table
 
 
-def _nothing(claim: Claim) -> Finding:
-    unknown = Interval(*np.full(3, np.nan))
-    return Finding({}, "", unknown, (np.nan, np.nan), f"missing: {claim.needs}")
+def _row(finding: Finding, together: int) -> Row:
+    estimate = finding.estimate
+    low, high = estimate.limits(together)
+    return {
+        "case": describe(finding.case),
+        "statistic": finding.statistic,
+        "unit": finding.unit,
+        "value": estimate.value,
+        "ci_low": estimate.low,
+        "ci_high": estimate.high,
+        "together_low": low,
+        "together_high": high,
+        "claimed_low": finding.claimed[0],
+        "claimed_high": finding.claimed[1],
+        "realisations": estimate.runs,
+        "settled_by": finding.settled_by(together),
+        "rests_on": finding.rests_on,
+    }
+
+
+def _nothing(claim: Claim) -> tuple[Finding, str]:
+    unknown = Estimate(np.nan, np.nan, np.nan)
+    return Finding({}, "", unknown, (np.nan, np.nan), f"missing: {claim.needs}"), "open"

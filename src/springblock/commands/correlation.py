@@ -5,10 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import click
+import numpy as np
 import pyarrow.parquet as pq
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
-from springblock.correlation import Correlation, Length, design_effect, side_times
+from springblock.correlation import Correlation, Length, design_effect, groove_times, side_times
 from springblock.rows import Row
 from springblock.sources import code_version
 from springblock.tables import (
@@ -32,8 +33,9 @@ def correlation(batches: tuple[Path, ...], output_correlation: Path, output_leng
         lengths: list[Row] = []
         for side, times in _sides(read_records(batches)):
             found = Correlation(times)
-            curves += [side | row for row in _curve(found)]
-            lengths.append(side | _length(found.length()) | {"design_effect": design_effect(times)})
+            length = found.length()
+            curves += [side | row for row in _curve(found, length)]
+            lengths.append(side | _length(length) | {"design_effect": design_effect(times)})
         digest = pq.read_schema(batches[0]).metadata[b"configuration_digest"].decode()
         metadata = {"code_version": code_version(__name__), "configuration_digest": digest}
         write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
@@ -51,10 +53,14 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
     columns = scene.row | {"realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
+    if scene.level == 2 and scene.sides:
+        yield columns | {"side": "grooves"}, groove_times(records, scene.pattern)
 
 
-def _curve(found: Correlation) -> Iterator[Row]:
+def _curve(found: Correlation, length: Length) -> Iterator[Row]:
     k, pillars, sides, _ = found.times.shape
+    residuals = np.full((3, len(found.mean)), np.nan)
+    residuals[:, 1 : length.last + 1] = length.residual
     for r, (mean, low, high, bias) in enumerate(zip(*found.interval, found.bias, strict=True)):
         yield {
             "r": r,
@@ -62,14 +68,19 @@ def _curve(found: Correlation) -> Iterator[Row]:
             "ci_low": low,
             "ci_high": high,
             "bias": bias,
+            **dict(
+                zip(("residual", "residual_low", "residual_high"), residuals[:, r], strict=True)
+            ),
             "samples": k * pillars * sides,
         }
 
 
 def _length(length: Length) -> Row:
     names = ["l_c", "ci_low", "ci_high"]
-    names += [f"{key}{end}" for key in ("integral", "tail") for end in ("", "_low", "_high")]
-    values = map(float, [*length.fitted, *length.integral, *length.tail])
+    names += [
+        f"{key}{end}" for key in ("integral", "tail", "amplitude") for end in ("", "_low", "_high")
+    ]
+    values = map(float, (*length.fitted, *length.integral, *length.tail, *length.amplitude))
     return {
         **dict(zip(names, values, strict=True)),
         "bias": length.bias,

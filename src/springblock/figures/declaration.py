@@ -19,8 +19,8 @@ Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
 
 #: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
-INTERVALS = "95 % bootstrap intervals over realisations"
-CORRELATION_INTERVALS = "95 % bootstrap intervals over realisations"
+INTERVALS = "95 % t intervals over realisations"
+CORRELATION_INTERVALS = "95 % BCa bootstrap intervals over realisations"
 
 
 class Ensemble(Protocol):

@@ -22,7 +22,7 @@ from springblock.figures.ensembles import (
 )
 from springblock.figures.style import GREY, journal
 from springblock.run import Array, friction
-from springblock.statistics import lesser_peak, mean_interval
+from springblock.statistics import lesser_prominence, mean_interval
 
 FIGURE = Declaration(
     title="Sliding at an angle to grooves",
@@ -67,7 +67,7 @@ def draw(ensembles: Mapping[str, Runs]) -> Figure:
 
 def _quantities(runs: Runs) -> tuple[Array, Array, Array]:
     """Static friction, t_max - t_avg in µs, and prominence of the lesser peak in %, (k,) each."""
-    lesser = np.array([100.0 * lesser_peak(friction(run)) for run in runs])
+    lesser = np.array([100.0 * lesser_prominence(friction(run)) for run in runs])
     return *highest_and_lag(runs), lesser
 
 

@@ -30,8 +30,9 @@ FIGURE = Declaration(
     title="Number of realisations",
     category="Supplement",
     caption="""Half the 95 % interval of a) static friction and b) t_max - t_avg over the number k
-    of realisations, which the paper does not give. Markers: mean over random subsets of the
-    ensembles; lines: 1.96 standard deviations of the whole ensemble over the root of k.""",
+    of realisations, which the paper does not give. Markers: t intervals, mean over random
+    subsets of the ensembles; lines: 1.96 standard deviations of the whole ensemble over the root
+    of k. Few realisations know their own scatter badly: t intervals are wider for it.""",
     source=Realisations(
         groups=("flat", "pillars", "grooves"),
         keys=("n_p", "n_p2", "direction"),
