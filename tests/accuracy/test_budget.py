@@ -107,4 +107,4 @@ def test_budgets_are_those_of_the_study():
     pillars = dict(zip(scenes["pillars"]["n_p"], scenes["pillars"]["seeds"], strict=True))
     assert STUDY_SEEDS[LENGTH] == pillars[20]
     assert STUDY_SEEDS["static_friction"] == STUDY_SEEDS[DELAY] == scenes["flat"]["seeds"]
-    assert scenes["grooves"]["seeds"] == scenes["flat"]["seeds"]
+    assert scenes["grooves"][0]["seeds"] == scenes["flat"]["seeds"]
