@@ -101,21 +101,21 @@ class Scene:
         return ("x",) if self.n_p2 else ("x", "y")
 
     @property
-    def _names(self) -> dict[str, Any]:
-        """What distinguishes its pattern from that of a flat surface, by name."""
+    def names(self) -> dict[str, Any]:
+        """Lengths of its levels, and what else tells patterns of them apart, by name."""
         return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
 
     @property
     def folder(self) -> str:
         """Hive-style folder of its realisations."""
         size = {"n_blocks": self.n_blocks, "level": self.level}
-        named = {**size, **self._names, **dict(self.varied), "direction": self.direction}
+        named = {**size, **self.names, **dict(self.varied), "direction": self.direction}
         return "/".join(f"{key}={value}" for key, value in named.items())
 
     @property
     def arguments(self) -> str:
         """The scene as options of `springblock simulate`."""
-        named = {"n_blocks": self.n_blocks, **self._names, "direction": self.direction}
+        named = {"n_blocks": self.n_blocks, **self.names, "direction": self.direction}
         options = [f"--{key.replace('_', '-')} {value}" for key, value in named.items()]
         return " ".join(options + [f"--vary {name}={value}" for name, value in self.varied])
 

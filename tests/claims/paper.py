@@ -15,11 +15,22 @@ from springblock.statistics import pillar_ring
 from springblock.tables import Record
 
 N, SEEDS = 48, range(60)
+NAMES = ("slider_velocity", "pressure", "mu_static_std")
 FLAT = Scene(N)
 ALONG, ACROSS, ANGLED = (
     Scene(N, 23, 25, 5, 1, direction=direction) for direction in ("x", "y", "45")
 )
+BARE_ALONG, BARE_ACROSS = (Scene(N, n_p2=5, n_s2=1, direction=direction) for direction in "xy")
 DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
+UNDAMPED = Scene(N, varied={"gamma": 0.0})
+STIFF = Scene(N, varied={"youngs_modulus": 4e7, "pressure": 2e5, "step": 1e-8})
+#: The lowest and the highest value of each constant that decides how many fronts there are.
+FEW, MANY = (
+    [Scene(N, varied={name: value}) for name, value in zip(NAMES, values, strict=True)]
+    for values in ((5e-5, 1e4, 0.02), (5e-3, 2e5, 0.3))
+)
+#: Surfaces whose lengths differ by less than those of `ALONG`.
+SHORTER = [Scene(N, 17, 7, 5, 1), Scene(N, 11, 13, 5, 1)]
 PILLARS = [Scene(N, n_p, n_p) for n_p in (2, 6, 24)]
 
 #: t_max in µs, static friction, width of the force peak in µs; other load peaks as (µs, height).
@@ -31,15 +42,26 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     ALONG: (300.0, 0.65, 15.0, [(220.0, 0.60)]),
     ACROSS: (300.0, 0.70, 20.0, []),
     ANGLED: (300.0, 0.70, 20.0, []),
+    **dict.fromkeys([UNDAMPED, STIFF, *FEW, *MANY], (100.0, 0.80, 3.0, [])),
+    BARE_ALONG: (300.0, 0.70, 20.0, []),
+    BARE_ACROSS: (300.0, 0.75, 20.0, []),
     DEEP_ALONG: (300.0, 0.65, 15.0, [(220.0, 0.60)]),
     DEEP_ACROSS: (300.0, 0.70, 20.0, []),
+}
+
+SHORTER_CURVES = {
+    SHORTER[0]: (300.0, 0.63, 6.0, [(247.0, 0.60)]),
+    SHORTER[1]: (300.0, 0.61, 6.0, [(273.0, 0.59)]),
 }
 
 
 def times(scene: Scene, seed: int, rng: np.random.Generator) -> np.ndarray:
     """t_det over t_max, (N, N), as the paper has it."""
-    if scene == FLAT:
-        return flat_times(seed, rng)
+    if not scene.level:
+        return flat_times(seed, rng, fronts=3 if scene in MANY else 1)
+    if not scene.n_p:
+        field = np.where(scene.pattern.contact, 1.03, np.nan)
+        return field + 0.001 * rng.standard_normal(field.shape)
     field, size = np.full((N, N), np.nan), scene.n_p
     like_flat = scene.level == 1 and size < 4
     pillar = 1.03 if like_flat else ringed(size) if scene.level == 1 else grooved(scene)
@@ -50,9 +72,12 @@ def times(scene: Scene, seed: int, rng: np.random.Generator) -> np.ndarray:
     return field + 0.001 * rng.standard_normal(field.shape)
 
 
-def flat_times(seed: int, rng: np.random.Generator) -> np.ndarray:
-    """Lonely precursors where thresholds are low, a few that share a neighbour; a late front."""
+def flat_times(seed: int, rng: np.random.Generator, fronts: int) -> np.ndarray:
+    """Lonely precursors where thresholds are low, a few that share a neighbour; late fronts."""
     field = 1.02 + 0.002 * rng.standard_normal((N, N))
+    for column in rng.permutation(N // 8)[:fronts]:
+        y, x = rng.integers(N - 5), 8 * column
+        field[y : y + 5, x : x + 5] = 1.005
     taken = np.zeros((N, N), bool)
     weakest = np.argsort(draw_friction(N, seed)[0], axis=None)
     singles, groups = 40, 4
@@ -105,13 +130,16 @@ def grooved(scene: Scene) -> np.ndarray:
 def record(scene: Scene, seed: int) -> Record:
     """A realisation whose force has Gaussian peaks."""
     rng = np.random.default_rng([seed, scene.n_p, scene.level])
-    t_max, friction, width, others = CURVES[scene]
+    t_max, friction, width, others = (CURVES | SHORTER_CURVES)[scene]
     time = np.arange(0.0, 500e-6, 1e-6)
     friction += 0.002 * rng.standard_normal()
     force = sum(
         height * np.exp(-(((1e6 * time - place) / width) ** 2))
         for place, height in [(t_max, friction), *others]
     )
+    if not scene.level:  # goes on to slide, more or less evenly
+        swing = 0.2 if scene == UNDAMPED else 0.02
+        force += 0.3 * (1.0 + swing * np.sin(0.3e6 * time)) * (1e6 * time > t_max + 10.0)
     t_det = 1e-6 * t_max * times(scene, seed, rng)
     detachments = counted(t_det, len(time))
     again = 250 * (1e6 * time == 250.0) * (scene.level > 1)
@@ -158,6 +186,11 @@ def evidence(records: Iterable[Record]) -> Evidence:
 
 def as_in_the_paper() -> list[Record]:
     return [record(scene, seed) for scene in CURVES for seed in SEEDS]
+
+
+def of_other_lengths() -> list[Record]:
+    """Grooved pillars that only statements on many lengths are tested on."""
+    return [record(scene, seed) for scene in SHORTER for seed in SEEDS]
 
 
 def summaries() -> dict[Scene, list[Row]]:

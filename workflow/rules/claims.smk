@@ -4,12 +4,12 @@
 CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
 if config["accuracy"]:
     CLAIM_TABLES["precision"] = rules.precision_table.output[0]
-#: Ensembles whose realisations and preludes claims rest on.
-CLAIM_ENSEMBLES = [
-    ensemble
-    for group in ("flat", "pillars", "grooves", "angles", "third_level")
-    for ensemble in ENSEMBLES.get(group, [])
-]
+#: Groups whose realisations and preludes claims rest on.
+CLAIM_GROUPS = ("flat", "loading", "pillars", "small_pillars", "grooves", "groove_lengths")
+CLAIM_GROUPS += ("angles", "third_level", "one_level")
+CLAIM_ENSEMBLES = list(
+    dict.fromkeys(ensemble for group in CLAIM_GROUPS for ensemble in ENSEMBLES.get(group, []))
+)
 
 
 rule claims:
@@ -19,7 +19,8 @@ rule claims:
         batches=batches(CLAIM_ENSEMBLES),
         preludes=[
             f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
-            for ensemble in dict.fromkeys(CLAIM_ENSEMBLES)
+            for ensemble in CLAIM_ENSEMBLES
+            if not ensemble.scene.varied
         ],
     output:
         table=f"{RESULTS}/tables/claims.parquet",
@@ -41,6 +42,7 @@ rule claims:
     message:
         "Testing the paper's statements"
     shell:
-        "springblock claims {input.batches:q} --realisations {input.table:q} {params.tables} {params.preludes} "
+        "springblock claims {input.batches:q} --realisations {input.table:q} "
+        "{params.tables} {params.preludes} "
         "--configuration {params.configuration} --output {output.table:q} --page {output.page:q} "
         "> {log:q} 2>&1"

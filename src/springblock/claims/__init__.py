@@ -4,9 +4,19 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the p
 words ("similar", "uniform", "the same"), the claimed range says how close is close enough.
 """
 
-from springblock.claims import correlation, flat, grooves, model, pillars, sizes, stress
+from springblock.claims import (
+    correlation,
+    flat,
+    grooves,
+    lengths,
+    loading,
+    model,
+    pillars,
+    sizes,
+    stress,
+)
 
-_CHAPTERS = (model, stress, flat, pillars, sizes, correlation, grooves)
+_CHAPTERS = (model, loading, stress, flat, pillars, sizes, correlation, grooves, lengths)
 
 #: By the section of the paper that makes them.
 CLAIMS = tuple(

@@ -34,9 +34,12 @@ ALONG = "x"  #: the paper's sliding direction
 
 
 def scenes_along_x(scenes: Iterable[Scene], level: int, smallest: int = 0) -> list[Scene]:
-    """Scenes of so many levels that slide along x, by N, n_s/n_p and n_p."""
-    found = [s for s in scenes if s.level == level and s.n_p >= smallest]
-    along = [s for s in found if s.direction == ALONG]
+    """Scenes of so many levels, the first pillars, that slide along x, by N, n_s/n_p and n_p.
+
+    Those with constants of their own are left out.
+    """
+    found = [s for s in scenes if s.level == level and s.n_p >= smallest and not s.varied]
+    along = [s for s in found if s.direction == ALONG and (s.n_p > 0) == (level > 0)]
     return sorted(along, key=lambda s: (s.n_blocks, ratio(s), s.n_p, s.n_p2, s.n_s2))
 
 
@@ -51,9 +54,9 @@ def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]
     return (list(family) for _, family in groups)
 
 
-def place(scene: Scene) -> dict[str, int]:
-    """Return the lengths that tell this scene from others."""
-    return {"N": scene.n_blocks, **scene.lengths}
+def place(scene: Scene) -> dict[str, int | str]:
+    """Return what tells this scene from others, but for its direction and constants."""
+    return {"N": scene.n_blocks, **scene.names}
 
 
 def family_place(scene: Scene) -> dict[str, int | str]:

@@ -22,21 +22,9 @@ UNTESTED = (
     ),
     (
         "2",
-        "Results are qualitatively the same for all larger Young's moduli, provided that the "
-        "pressure is also increased.",
-        "needs scenes of other materials",
-    ),
-    (
-        "2",
         "Runge-Kutta with h = 1e-8 s suffices, as one would first write it.",
         "how friction acts within its steps is not said; the error of the plainest reading is "
         "known of single runs on small surfaces, not as a bias of ensembles: see `accuracy.md`",
-    ),
-    (
-        "3.1",
-        "Slider velocity, pressure and scatter of the coefficients affect the number of wave "
-        "fronts.",
-        "needs scenes of other materials, and a count of fronts",
     ),
     (
         "3.1",
@@ -71,17 +59,6 @@ UNTESTED = (
         "Such a minimum of static friction is observed in experiments, and real precursors have a "
         "characteristic length.",
         "about experiments",
-    ),
-    (
-        "3.3",
-        "The interval between the load peaks is controlled by the difference between the length "
-        "scales.",
-        "needs grooved surfaces with other lengths",
-    ),
-    (
-        "3.3",
-        "Static friction can be manipulated by modifying the pillar length.",
-        "needs grooved surfaces with other lengths",
     ),
     (
         "3.3",

@@ -84,7 +84,7 @@ def claims(
             summaries=_by_scene(_rows(realisations), Scene.from_row),
             correlation=_by_scene(_rows(correlation), Scene.from_row),
             correlation_length=_by_scene(_rows(correlation_length), Scene.from_row),
-            stress=_stress(preludes, records),
+            stress=_stress(preludes, [scene for scene in records if not scene.varied]),
             precision=_rows(precision),
         )
         table = rows(CLAIMS, evidence)
