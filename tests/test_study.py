@@ -47,7 +47,7 @@ def test_a_group_is_a_grid_over_its_lists():
     assert [e.scene.n_p for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["n_p"]
     assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
     assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
-    assert groups["flat"][0] == Ensemble(Scene(120), range(20), 3e-4)
+    assert groups["flat"][0] == Ensemble(Scene(120), range(40), 3e-4)
 
 
 def test_a_group_may_be_a_list_of_grids():
