@@ -5,16 +5,19 @@ kernel       ns per block and step where all blocks move: both integrators, the 
              the core's peak that those reach whose operations are counted
 realisation  CPU seconds of whole runs, from zero and with the prelude
 scaling      the leapfrog over the size of the surface, and over the share of blocks that move
+cores        the leapfrog on one core and on all, by the clock on the wall
 peak         what that is a share of: the multiply-adds of one core, and the operations counted
 study        where the CPU time of the whole study goes, and what the pipeline adds to it
 
-No part uses threads. Peers that are not there, or fail, make rows that say so. What history.csv
-keeps of a release is printed at the end.
+No part but cores uses threads. Peers that are not there, or fail, make rows that say so. What
+history.csv keeps of a release is printed at the end.
 
 Call with `python -m benchmarks` from the repository, or `make bench`.
 """
 
+import os
 import platform
+import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -53,7 +56,7 @@ from springblock.commands.options import one_sentence
 from springblock.defaults import SAMPLE_INTERVAL
 from springblock.scene import Scene
 from springblock.setup import PAPER
-from springblock.solver import INTEGRATORS
+from springblock.solver import INTEGRATORS, on_cores
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.sources import code_version
 from springblock.tables import rows_to_table, write
@@ -81,6 +84,7 @@ FINE_STEP = 2.5e-9
 
 SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
+LARGE = (500, 2000)  #: surfaces that several cores may share
 SHARES = (0.0, 0.25, 0.5, 0.75)
 
 #: Floating-point operations per block and step that the methods ask for, counted in peers/loop.c
@@ -127,21 +131,21 @@ class Solver:
     """The compiled solver on a flat surface in motion, pulled along x."""
 
     def __init__(self, integrator: str, n: int, still: Flags | None = None) -> None:
-        self.method, self.n, self.taken = INTEGRATORS[integrator], n, 0
+        self.integrator, self.n, self.taken = integrator, n, 0
         contact, mu_static, mu_dynamic, velocity = in_motion(n)
         if still is not None:
             mu_static = np.where(still, NEVER, mu_static)
             velocity = np.where(still, 0.0, velocity)
-        how = (PAPER, (1.0, 0.0), self.method, PAPER_STEP)
+        how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
         self.state, self.constants = prepare(contact, mu_static, mu_dynamic, *how)
         for component, start in zip(self.velocity, velocity, strict=True):
             component[:] = start
         self.advance(min(WARM_UP, 1 + BLOCK_STEPS // n**2))
 
-    def advance(self, steps: int) -> None:
+    def advance(self, steps: int, cores: int = 1) -> None:
         """Take so many steps."""
-        samples = Samples.empty(1)
-        self.method.advance(self.state, self.constants, self.taken, steps, steps, samples)
+        advance, samples = on_cores(self.integrator, cores), Samples.empty(1)
+        advance(self.state, self.constants, self.taken, steps, steps, samples)
         self.taken += steps
 
     @property
@@ -346,6 +350,21 @@ def scaling() -> Iterator[Row]:
         yield row("scaling", name, BLOCK_STEP, each, *here, cost[reference], note)
 
 
+def cores() -> Iterator[Row]:
+    """Large surfaces on one core and on all there are; seconds of the wall."""
+    numbers = sorted({1, os.cpu_count() or 1})
+    for n in LARGE:
+        solver, steps = Solver("leapfrog", n), max(1, BLOCK_STEPS // n**2)
+        runs = {
+            f"leapfrog, N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers
+        }
+        seconds = interleaved(runs, FEW, time.perf_counter)
+        alone = next(iter(seconds.values()))
+        for name, each in seconds.items():
+            cost = 1e9 * each / steps / n**2
+            yield row("cores", name, BLOCK_STEP, cost, "flat", n, 1e9 * alone / steps / n**2)
+
+
 def peak() -> Iterator[Row]:
     """The most operations that one core does in a second, and those that the methods ask for."""
     for name, counted in OPERATIONS.items():
@@ -364,6 +383,7 @@ PARTS: dict[str, Callable[[], Iterator[Row]]] = {
     "kernel": kernel,
     "realisation": realisation,
     "scaling": scaling,
+    "cores": cores,
     "peak": peak,
     "study": study_cost.rows,
 }

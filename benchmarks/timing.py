@@ -1,9 +1,9 @@
 """How CPU time is measured for results/tables/benchmark.parquet, and what its rows hold.
 
-Only CPU time counts, never that of the clock on the wall. What is compared runs in turn, a
-repetition of each and then the next of each (A B A B ...), so that a machine that gets slower or
-busier does so for all. Values are medians over the repetitions; a ratio is the median of the ratios
-within them.
+CPU time counts, and that of the clock on the wall only where several cores share the work. What is
+compared runs in turn, a repetition of each and then the next of each (A B A B ...), so that a
+machine that gets slower or busier does so for all. Values are medians over the repetitions; a ratio
+is the median of the ratios within them.
 """
 
 import resource
@@ -20,12 +20,17 @@ from springblock.tables import column
 
 SCHEMA = pa.schema(
     [
-        column("part", pa.string(), "1", "kernel, realisation, scaling, peak or study"),
+        column("part", pa.string(), "1", "kernel, realisation, scaling, cores, peak or study"),
         column("name", pa.string(), "1", "what is measured"),
         column("scene", pa.string(), "1", "flat, pillars or grooves; empty where there is none"),
         column("n_blocks", pa.int32(), "blocks", "side N of the surface; 0 where there is none"),
         column("value", pa.float64(), "see unit", "median over the repetitions; NaN if missing"),
-        column("unit", pa.string(), "1", "unit of value, low and high; all times are CPU times"),
+        column(
+            "unit",
+            pa.string(),
+            "1",
+            "unit of value, low and high; times are CPU times but for those of cores",
+        ),
         column("low", pa.float64(), "see unit", "lower quartile of the repetitions"),
         column("high", pa.float64(), "see unit", "upper quartile"),
         column(
@@ -33,7 +38,7 @@ SCHEMA = pa.schema(
             pa.float64(),
             "1",
             "kernel: to a step of the leapfrog; realisation: to all steps by the C loop; scaling: "
-            "to N = 120, all moving; study: to the whole; NaN without one",
+            "to N = 120, all moving; cores: to one core; study: to the whole; NaN without one",
         ),
         column(
             "of_peak",
@@ -60,8 +65,12 @@ def clock() -> float:
     return time.process_time() + children.ru_utime + children.ru_stime
 
 
-def interleaved(runs: Mapping[str, Callable[[], object]], repetitions: int) -> dict[str, Array]:
-    """CPU seconds of every run, one number per repetition, taken in turn."""
+def interleaved(
+    runs: Mapping[str, Callable[[], object]],
+    repetitions: int,
+    clock: Callable[[], float] = clock,
+) -> dict[str, Array]:
+    """Seconds of every run by a clock, of the CPU, one number per repetition, taken in turn."""
     seconds = np.empty((repetitions, len(runs)))
     for repetition in seconds:
         for k, run in enumerate(runs.values()):

@@ -40,6 +40,7 @@ def in_small(monkeypatch):
         "SCENES": {"flat": Scene(8)},
         "PLAIN_N": 6,
         "SIZES": (4, 8),
+        "LARGE": (8,),
         "BLOCK_STEPS": 2000,
     }
     for name, value in small.items():
