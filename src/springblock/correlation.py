@@ -55,6 +55,31 @@ def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
     return times
 
 
+def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
+    """First detachment times along the edges of the grooves that run along x within pillars.
+
+    Returns
+    -------
+    (k, pillars, edges, n_p) s: for k runs, the rows on both sides of every groove.
+
+    Raises
+    ------
+    ValueError
+        Where no such groove divides the pillars, or a block of an edge never detached.
+    """
+    if len(pattern.levels) != 2 or pattern.levels[1].along != "x":
+        raise ValueError("the pillars have no grooves along x that nothing cuts")
+    size, first = pattern.levels[0].size, pattern.origins[0, 0]
+    pawls = [(start - first, n) for start, n in pattern.profile("y") if start < first + size]
+    beside = [edge for start, n in pawls for edge in (start, start + n - 1)][1:-1]
+    y, x = pattern.origins.T[:, :, None, None]
+    place = (y + np.array(beside)[:, None], x + np.arange(size))
+    times = np.stack([run.t_det[place] for run in runs])
+    if not np.isfinite(times).all():
+        raise ValueError("some block beside a groove never detached; run for longer")
+    return times
+
+
 def references(size: int) -> NDArray[np.intp]:
     """Blocks x₀ of a side that count as its middle: those within n_p/10 of it.
 

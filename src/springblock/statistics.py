@@ -225,3 +225,16 @@ def load_peak_number(curves: Array, seed: int = 0, resamples: int = 1000) -> Int
     scatters = np.sqrt(variances / (k - 1))
     counts = [len(load_peaks(m, scatter)) for m, scatter in zip(means, scatters, strict=True)]
     return Interval(np.array(number), *limits(np.array(counts)))
+
+
+def lesser_prominence(curve: Array) -> float:
+    """Prominence of the second most prominent peak under load, (n,), over the largest force.
+
+    How far the force falls between two load peaks, from the lower of them; 0 with one alone.
+    """
+    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
+
+    highest = float(curve.max())
+    _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
+    prominences = np.sort(found["prominences"])
+    return float(prominences[-2]) / highest if len(prominences) > 1 else 0.0
