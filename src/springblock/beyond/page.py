@@ -9,20 +9,19 @@ _PAGE = """# What goes beyond the paper
 Written by `snakemake beyond` from realisations, those that it simulates and those of the study.
 Lengths count blocks unless they have a unit; l is the spacing of the lattice, l_z the thickness of
 the layer, 10 µm each in the paper. Numbers stand with their 95 % intervals over realisations.
-{means} Exponents, correlation lengths, minima, variances, differences and
-shares of variance have bias-corrected and accelerated bootstrap intervals (BCa), with 1000
-resamples of every ensemble by itself. A sentence in bold follows from the intervals in it. An
-ensemble of one or two realisations has no interval.
+Exponents, correlation lengths, minima, variances, differences and shares of variance have
+bias-corrected and accelerated bootstrap intervals (BCa), with 1000 resamples of every ensemble by
+itself; those of means are bootstrap percentiles. What begins in bold follows from the intervals
+beside it by a rule that was fixed before. Fewer than three realisations have no interval.
 
 {sections}
 """
-_MEANS = "Those of means are bootstrap percentiles."
 
 
 def page(questions: Iterable[Question], ensembles: Ensembles) -> str:
     """Write the page: each question, its answer, and the numbers behind it."""
     sections = [_section(i, each, ensembles) for i, each in enumerate(questions, 1)]
-    return _PAGE.format(means=_MEANS, sections="\n\n".join(sections))
+    return _PAGE.format(sections="\n\n".join(sections))
 
 
 def _section(number: int, question: Question, ensembles: Ensembles) -> str:

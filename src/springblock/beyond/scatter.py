@@ -45,6 +45,11 @@ def shared(scatters: Mapping[float, Sizes]) -> dict[float, Sizes]:
     }
 
 
+def long_enough(scatters: Mapping[float, Sizes]) -> list[int]:
+    """Sizes on which l_c can be fitted."""
+    return [n_p for n_p in next(iter(scatters.values())) if n_p >= _SHORTEST]
+
+
 def fits(scatters: Mapping[float, Sizes], n_p: int) -> dict[float, FittedLength]:
     """l_c on pillars of one size by scatter."""
     found = {}
@@ -71,7 +76,7 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
     if len(scatters) < 3:
         return
     scatters = shared(scatters)
-    sizes = [n_p for n_p in next(iter(scatters.values())) if n_p >= _SHORTEST]
+    sizes = long_enough(scatters)
     lengths = {n_p: fits(scatters, n_p) for n_p in sizes}
     for n_p, fitted in lengths.items():
         yield (
