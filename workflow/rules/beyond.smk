@@ -7,9 +7,7 @@ BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles"]
 rule beyond_page:
     input:
         batches(ensembles("beyond/")),
-        batches(
-            ensemble for group in BEYOND_GROUPS for ensemble in ENSEMBLES.get(group, [])
-        ),
+        batches(ensemble for group in BEYOND_GROUPS for ensemble in ENSEMBLES.get(group, [])),
     output:
         f"{RESULTS}/beyond.md",
     log:

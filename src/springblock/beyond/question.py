@@ -9,6 +9,8 @@ from springblock.scene import Scene
 from springblock.statistics import Interval
 from springblock.tables import Record
 
+_DIGITS = 5  #: after the point, at most
+
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
 
 
@@ -35,7 +37,7 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     value, low, high = (factor * float(each) for each in interval)
     if not np.isfinite([low, high]).all() or high == low:
         return f"{value:.3g} [no interval]{unit}"
-    digits = max(0, 1 - int(np.floor(np.log10(high - low))))
+    digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
     return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]{unit}"
 
 

@@ -17,7 +17,11 @@ from springblock.statistics import Interval, bootstrap_weights
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
 Statistic = Callable[..., Array]  #: of samples, (..., k) each, and their axis: (...)
+Estimate = Callable[[Array, Array], Array]
 _RESAMPLES = 1000
+#: Realisations that a correlation needs here: no resample of so many is one of them alone.
+FEWEST = 10
+_NONE = 0.1  #: blocks, stands for no correlation
 
 
 def interval(samples: Sequence[Sample], statistic: Statistic) -> Interval:
@@ -89,16 +93,25 @@ def lowest_place(places: Array, samples: Sequence[Array]) -> Interval:
     return interval(samples, lambda *each, axis: lowest(places, means(each, axis)))
 
 
-class FittedLength:
-    """l_c of c(r) ~ A exp(-r/l_c) in one ensemble, fitted from r = 1 to `last`, in blocks.
+def area(curve: Array, error: Array) -> Array:
+    """Area below c(r), (b, r) from r = 1 on, and c(0) = 1, by the trapezoidal rule, blocks; (b,).
 
-    It takes numbers of realisations, as a bootstrap draws them, (..., k). Weights of the fit are
-    those of all realisations. `times` are those of `springblock.correlation.side_times`.
+    The length of an exponential that is resolved and at its end within the range; it needs no fit.
+    """
+    return np.maximum(0.5 + curve.sum(axis=-1) - 0.5 * curve[:, -1], _NONE)
+
+
+class SideLength:
+    """Correlation length along sides in one ensemble, from r = 1 to `last`, in blocks.
+
+    Called with numbers of realisations, as a bootstrap draws them, (..., k), it returns lengths,
+    (...). `estimate` takes c(r), (b, r), and its errors, (r,), which stay those of all
+    realisations. `times` are those of `springblock.correlation.side_times`.
     """
 
-    def __init__(self, times: Array, last: int) -> None:
+    def __init__(self, times: Array, last: int, estimate: Estimate = fit_tail) -> None:
         self.realisations = np.arange(len(times))
-        self._found, self._last = Correlation(times), last
+        self._found, self._last, self._estimate = Correlation(times), last, estimate
         self._error = self._curve(bootstrap_weights(len(times))).std(axis=0)
 
     def _curve(self, weights: Array) -> Array:
@@ -106,12 +119,12 @@ class FittedLength:
 
     def __call__(self, drawn: NDArray[np.intp]) -> Array:
         k = len(self.realisations)
-        flat, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
-        weights = np.stack([np.bincount(numbers, minlength=k) for numbers in flat])
-        weights = weights / flat.shape[1]
-        return fit_tail(self._curve(weights), self._error)[which].reshape(drawn.shape[:-1])
+        draws, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
+        weights = np.stack([np.bincount(numbers, minlength=k) for numbers in draws])
+        lengths = self._estimate(self._curve(weights / draws.shape[1]), self._error)
+        return lengths[which].reshape(drawn.shape[:-1])
 
     @property
     def interval(self) -> Interval:
-        """l_c with its 95 % interval, blocks."""
+        """The length with its 95 % interval, blocks."""
         return interval([self.realisations], lambda drawn, axis: self(drawn))

@@ -6,7 +6,7 @@ import numpy as np
 
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, number
-from springblock.beyond.resampling import FittedLength, Sample, interval, lowest_place, slopes
+from springblock.beyond.resampling import FEWEST, Sample, SideLength, interval, lowest_place, slopes
 from springblock.correlation import side_times
 from springblock.rows import markdown_table
 from springblock.run import Array
@@ -24,7 +24,7 @@ def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
     """Pillars by the standard deviation of their static coefficients, and by n_p."""
     found: dict[int, dict[float, dict[int, Sequence[Record]]]] = {}
     for scene, runs in ensembles.items():
-        if _is_one(scene):
+        if _is_one(scene) and len(runs) >= FEWEST:
             at = found.setdefault(scene.n_blocks, {})
             at.setdefault(runs[0].material.mu_static_std, {})[scene.n_p] = runs
     scatters = max(found.values(), key=len, default={})
@@ -50,17 +50,17 @@ def long_enough(scatters: Mapping[float, Sizes]) -> list[int]:
     return [n_p for n_p in next(iter(scatters.values())) if n_p >= _SHORTEST]
 
 
-def fits(scatters: Mapping[float, Sizes], n_p: int) -> dict[float, FittedLength]:
+def fits(scatters: Mapping[float, Sizes], n_p: int) -> dict[float, SideLength]:
     """l_c on pillars of one size by scatter."""
     found = {}
     for std, sizes in scatters.items():
         runs = sizes[n_p]
         times = side_times(runs, runs[0].scene.pattern, "x")
-        found[std] = FittedLength(times, min(LAST, n_p // 3))
+        found[std] = SideLength(times, min(LAST, n_p // 3))
     return found
 
 
-def exponent(fitted: Mapping[float, FittedLength]) -> Interval:
+def exponent(fitted: Mapping[float, SideLength]) -> Interval:
     """Exponent of l_c over the standard deviation."""
     (row,) = slopes(np.log(np.array(list(fitted)))[:, None])
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from springblock.beyond.peaks import angle
 from springblock.beyond.question import Ensembles, Question, number
-from springblock.beyond.resampling import FittedLength
+from springblock.beyond.resampling import FEWEST, SideLength
 from springblock.correlation import Correlation, groove_times, side_times
 from springblock.rows import markdown_table
 from springblock.run import Array
@@ -38,7 +38,7 @@ def at(times: Array, r: int) -> Interval:
 
 
 def _answers(ensembles: Ensembles) -> Iterator[str]:
-    found = {at: runs for at, runs in by_angle(ensembles).items() if len(runs) >= 3}
+    found = {at: runs for at, runs in by_angle(ensembles).items() if len(runs) >= FEWEST}
     if len(found) < 3:
         return
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "l_c (blocks)", "realisations"]
@@ -46,7 +46,7 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
     for edge in ("sides", "grooves"):
         for degrees, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
-            length = number(FittedLength(times[edge], LAST).interval)
+            length = number(SideLength(times[edge], LAST).interval)
             count = str(len(found[degrees]))
             lines.append([edge, f"{degrees:g}°", close, far, length, count])
     for edge in ("sides", "grooves"):

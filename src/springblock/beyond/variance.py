@@ -52,7 +52,7 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
         power = exponent(sizes)
         alike = "as" if power.low <= 1.0 <= power.high else "unlike"
         yield (
-            f"**{name(pattern).capitalize()}**: the variance goes with n^-x, n = N² blocks, "
+            f"**{name(pattern)}**: the variance goes with n^-x, n = N² blocks, "
             f"x = {number(power)}, {alike} that of independent blocks, x = 1."
         )
     if found:

@@ -5,15 +5,24 @@ Surfaces of Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.beyond.friction import static_friction
-from springblock.beyond.lattice import Layer, Sizes, fits, layers, minimum
+from springblock.beyond.lattice import (
+    Layer,
+    Surfaces,
+    evenly_disordered,
+    fits,
+    layers,
+    minimum,
+    refined,
+    usual,
+)
 from springblock.beyond.question import by_scene
+from springblock.beyond.resampling import FEWEST
 from springblock.correlation import Correlation, side_times
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Realisations
@@ -28,14 +37,14 @@ FIGURE = Declaration(
     category="Beyond",
     caption="""a) Correlation of detachment times along the sides of the largest pillars, sliding
     along x, on lattices of different spacing l, with the layer's thickness l_z and all sizes in
-    metres unchanged. b) Correlation length of A exp(-r/l_c), in µm, over l (filled) and over l_z
-    (open), on pillars of two sizes; grey lines have slope 0 and 1. Static friction over the size of
-    pillars for c) different l and d) different l_z; crosses at the foot: size of the
-    friction-minimising pillar. Bands and bars are 95 % intervals over realisations.""",
-    source=Realisations(groups=("lattice", "layer"), keys=("folder",)),
+    metres unchanged; bands are 95 % intervals over realisations. b) Correlation length of
+    A exp(-r/l_c) on these pillars over l, over l with the same disorder per area, and over l_z;
+    grey lines have slope 0 and 1. Static friction over the size of pillars for c) different l and
+    d) different l_z; crosses at the foot: size of the friction-minimising pillar. Bars are 95 %
+    intervals over realisations.""",
+    source=Realisations(groups=("lattice", "disorder", "layer"), keys=("folder",)),
 )
 
-Surfaces = Mapping[Layer, Sizes]
 _WIDTH, _HEIGHT = 76.0, 47.0  #: of a panel, mm
 _PLACES = {"a": (14.0, 68.0), "b": (110.0, 68.0), "c": (14.0, 10.0), "d": (110.0, 10.0)}
 
@@ -47,28 +56,18 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     `ensembles` holds realisations by folder.
     """
     surfaces = layers(by_scene(list(chain.from_iterable(ensembles.values()))))
-    usual = _usual(surfaces)
-    lattices = {at: sizes for at, sizes in surfaces.items() if at.thickness == usual.thickness}
-    thick = {at: sizes for at, sizes in surfaces.items() if at.spacing == usual.spacing}
+    common, alike = usual(surfaces), refined(surfaces)
+    lattices = {at: sizes for at, sizes in alike.items() if at.thickness == common.thickness}
+    thick = {at: sizes for at, sizes in alike.items() if at.spacing == common.spacing}
     picture = style.figure(style.DOUBLE, 119.0)
     panels = {x: style.axes(picture, *at, _WIDTH, _HEIGHT) for x, at in _PLACES.items()}
     for letter, ax in panels.items():
         style.panel_letter(ax, letter, left=11.0, above=1.0)
     _draw_correlation(panels["a"], lattices)
-    _draw_lengths(panels["b"], lattices, thick)
+    _draw_lengths(panels["b"], lattices, evenly_disordered(surfaces), thick)
     for letter, part, varied in (("c", lattices, "spacing"), ("d", thick, "thickness")):
         _draw_friction(panels[letter], part, varied)
     return picture
-
-
-def _usual(surfaces: Surfaces) -> Layer:
-    """The layer that lattices and thicknesses have in common."""
-
-    def family(at: Layer) -> int:
-        alike = [other for other in surfaces if at.spacing == other.spacing]
-        return len(alike) * sum(at.thickness == other.thickness for other in surfaces)
-
-    return max(surfaces, key=family)
 
 
 def _draw_correlation(ax: Axes, lattices: Surfaces) -> None:
@@ -76,7 +75,7 @@ def _draw_correlation(ax: Axes, lattices: Surfaces) -> None:
     colors = shades(at.spacing for at in lattices)
     for at, sizes in lattices.items():
         runs = list(sizes.values())[-1]
-        if "x" not in runs[0].scene.sides or len(runs) < 3:
+        if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
             continue
         found = Correlation(side_times(runs, runs[0].scene.pattern, "x"))
         r, color = at.spacing * np.arange(len(found.mean)), colors[at.spacing]
@@ -87,20 +86,20 @@ def _draw_correlation(ax: Axes, lattices: Surfaces) -> None:
     ax.legend(loc="upper right")
 
 
-def _draw_lengths(ax: Axes, lattices: Surfaces, thick: Surfaces) -> None:
-    """l_c over l and over l_z, with guides."""
+def _draw_lengths(ax: Axes, lattices: Surfaces, even: Surfaces, thick: Surfaces) -> None:
+    """l_c on the largest pillars over l and over l_z, with guides."""
     spots: list[float] = []
-    for part, place, face in ((lattices, _spacing, None), (thick, _thickness, "white")):
-        found = {at: fits(sizes) for at, sizes in part.items()}
-        sizes = sorted({size for each in found.values() for size in each})
-        for size, color in zip(sizes, (VERMILION, BLUE, BLACK), strict=False):
-            shown = [at for at in found if size in found[at]]
-            lengths = [_micro(at, found[at][size].interval) for at in shown]
-            spots += [place(at) for at in shown]
-            label = f"{size:g} µm pillars, over ${'l' if face is None else 'l_z'}$"
-            look: dict[str, Any] = {"marker": "o" if face is None else "s", "label": label}
-            look |= {"markerfacecolor": face or color, "linestyle": "-" if face is None else "--"}
-            draw_sweep(ax, [place(at) for at in shown], lengths, color, **look)
+    for part, place, color, marker, label in (
+        (lattices, _spacing, BLUE, "o", "over $l$"),
+        (even, _spacing, VERMILION, "s", "over $l$, same disorder per area"),
+        (thick, _thickness, BLACK, "^", "over $l_z$"),
+    ):
+        found = {at: list(fits(sizes).values())[-1:] for at, sizes in part.items()}
+        lengths = {at: _micro(at, last.interval) for at, each in found.items() for last in each}
+        if lengths:
+            places = [place(at) for at in lengths]
+            draw_sweep(ax, places, list(lengths.values()), color, marker=marker, label=label)
+            spots += places
     ax.set_yscale("log")
     ends = np.array([min(spots), max(spots)])
     height = float(np.exp(np.mean(np.log(ax.get_ylim()))))
