@@ -1,5 +1,6 @@
 """Static friction over the size of pillars and over their distance, at one total load."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
@@ -13,7 +14,6 @@ from springblock.statistics import Interval, mean_interval, standard_error
 
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
-_DEGREE = 4  #: of the polynomial in log(n_p)
 _FEWEST = 3  #: sizes with a minimum between them
 
 
@@ -38,11 +38,6 @@ def distance(pillars: Pillars) -> Fraction:
     return Fraction(pillars[1], pillars[0])
 
 
-def contact(pillars: Pillars) -> float:
-    """Share of the surface in contact, (n_p/(n_p + n_s))²."""
-    return (pillars[0] / sum(pillars)) ** 2
-
-
 def families(found: Map) -> dict[Fraction, dict[int, Array]]:
     """Static friction by n_s/n_p and n_p, where three sizes or more are as far apart."""
     by_distance: dict[Fraction, dict[int, Array]] = {}
@@ -53,15 +48,27 @@ def families(found: Map) -> dict[Fraction, dict[int, Array]]:
     }
 
 
+def crossed(found: Map) -> dict[Pillars, Array]:
+    """Pillars of sizes that several contact fractions have, and the other way round."""
+    kept = dict(found)
+    while True:
+        sizes = Counter(n_p for n_p, _ in kept)
+        kinds = Counter(distance(pillars) for pillars in kept)
+        fewer = {p: v for p, v in kept.items() if sizes[p[0]] > 1 and kinds[distance(p)] > 1}
+        if len(fewer) == len(kept):
+            return kept
+        kept = fewer
+
+
 def designs(pillars: Sequence[Pillars]) -> dict[str, Array]:
-    """Columns of linear models, (pillars, unknowns): of size, of contact, of both added."""
-    logs = np.log([n_p for n_p, _ in pillars])
-    size = np.vander(logs / logs.max(), _DEGREE + 1)
-    kinds = sorted({distance(each) for each in pillars})
-    contact = np.array(
-        [[distance(each) == kind for kind in kinds] for each in pillars], dtype=float
-    )
-    return {"size": size, "contact": contact, "both": np.hstack([size[:, :-1], contact])}
+    """Columns of models, (pillars, unknowns): a number for each size, each contact, both added."""
+
+    def levels(values: list[float]) -> Array:
+        return np.equal.outer(values, sorted(set(values))).astype(np.float64)
+
+    size = levels([float(n_p) for n_p, _ in pillars])
+    contact = levels([float(distance(each)) for each in pillars])
+    return {"size": size, "contact": contact, "both": np.hstack([size, contact])}
 
 
 def explained(found: Map) -> dict[str, Interval]:
@@ -87,24 +94,23 @@ def residuals(found: Map) -> dict[Pillars, float]:
 
 
 def _answers(ensembles: Ensembles) -> Iterator[str]:
-    found = friction_map(ensembles)
-    alike = families(found)
-    if len(alike) < 2:
+    whole = friction_map(ensembles)
+    found = crossed(whole)
+    freedom = len(found) - np.linalg.matrix_rank(designs(list(found))["both"]) if found else 0
+    if freedom < 1:
         return
-    found = {p: values for p, values in found.items() if distance(p) in alike}
     shares, left = explained(found), np.array(list(residuals(found).values()))
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
-    unknowns = np.linalg.matrix_rank(designs(list(found))["both"])
-    rms = np.sqrt((left**2).sum() / (len(left) - unknowns))
+    rms = np.sqrt((left**2).sum() / freedom)
     yield (
         f"**Size and contact fraction**: of the variance of static friction over {len(found)} "
         f"surfaces, size alone explains {number(shares['size'], ' %', 100.0)}, contact fraction "
         f"alone {number(shares['contact'], ' %', 100.0)}, both added "
         f"{number(shares['both'], ' %', 100.0)}. They leave {rms:.4f} root mean square "
-        f"(by degrees of freedom), where means have a standard error of {scatter:.4f}."
+        f"(over {freedom} degrees of freedom), where means have a standard error of {scatter:.4f}."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
-    yield markdown_table(header, [_cells(kind, sizes) for kind, sizes in alike.items()])
+    yield markdown_table(header, [_cells(kind, sizes) for kind, sizes in families(whole).items()])
 
 
 def _cells(kind: Fraction, sizes: Mapping[int, Array]) -> list[str]:
@@ -119,11 +125,11 @@ QUESTION = Question(
     "Size of pillars or contact fraction?",
     """The paper varies n_p with n_s, so that size alone changes; pillars further apart carry more
 load each, and cover less. Here both vary at the same total load. Contact fraction is
-(n_p/(n_p + n_s))². Two factors describe static friction if it is a function of size, a polynomial
-of degree 4 in log(n_p), plus one of contact fraction, a number for each. What they
-leave is held against the standard error of the means: more than that is what size and contact
-fraction do only together. The friction-minimising n_p is the lowest point of the parabola through
-the lowest mean and its neighbours over log(n_p).""",
+(n_p/(n_p + n_s))². Two factors describe static friction if it is a number for each size plus one
+for each contact fraction, fitted to the mean of every surface whose size and whose contact fraction
+others have, too. What they leave is held against the standard error of the means: more than that
+is what size and contact fraction do only together. The friction-minimising n_p is the lowest point
+of the parabola through the lowest mean and its neighbours over log(n_p).""",
     "group friction",
     _answers,
 )

@@ -11,8 +11,9 @@ Lengths count blocks unless they have a unit; l is the spacing of the lattice, l
 the layer, 10 µm each in the paper. Numbers stand with their 95 % intervals over realisations.
 Exponents, correlation lengths, minima, variances, differences and shares of variance have
 bias-corrected and accelerated bootstrap intervals (BCa), with 1000 resamples of every ensemble by
-itself; those of means are bootstrap percentiles. What begins in bold follows from the intervals
-beside it by a rule that was fixed before. Fewer than three realisations have no interval, fewer than ten no correlation.
+itself; those of means and of c(r) are what `docs/claims.md` says of means and of c(r). What begins
+in bold follows from the intervals beside it by a rule that was fixed before. Fewer than three
+realisations have no interval, fewer than ten no correlation.
 
 {sections}
 """

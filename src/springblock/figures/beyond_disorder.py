@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, by_scene
 from springblock.beyond.scatter import by_scatter, fits, long_enough, shared
-from springblock.beyond.variance import by_pattern, exponent, name, variance
+from springblock.beyond.variance import by_pattern, exponent, variance
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import FRICTION
@@ -40,10 +40,10 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     `ensembles` holds realisations by folder.
     """
     found = by_scene(list(chain.from_iterable(ensembles.values())))
-    picture = style.figure(style.DOUBLE, 62.0)
+    picture = style.figure(style.DOUBLE, 64.0)
     panels = [style.axes(picture, left, 11.0, 47.0, 46.0) for left in (12.0, 77.0, 140.0)]
     for ax, letter in zip(panels, "abc", strict=True):
-        style.panel_letter(ax, letter, left=10.0, above=1.0)
+        style.panel_letter(ax, letter, left=10.0, above=2.5)
     _draw_lengths(panels[0], found)
     _draw_friction(panels[1], found)
     _draw_variance(panels[2], found)
@@ -59,7 +59,7 @@ def _draw_lengths(ax: Axes, ensembles: Ensembles) -> None:
         places = [std * (1.0 + 0.03 * (sizes.index(int(n_p)) - 1)) for std in fitted]
         draw_sweep(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
     powers(ax, list(scatters), "scatter of static coefficients")
-    ax.set_ylim(0.0, None)
+    ax.set_yscale("log")
     ax.set_ylabel("correlation length $l_c$ (blocks)")
     ax.legend(loc="best")
 
@@ -80,7 +80,8 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
     ):
         blocks = [float(n**2) for n in sizes]
         spread = [variance(values) for values in sizes.values()]
-        label = f"{name(pattern)}: $x$ = {float(exponent(sizes).mean):.2f}"
+        named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
+        label = f"{named}: $x$ = {float(exponent(sizes).mean):.2f}"
         draw_sweep(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
         products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
         independent = np.exp(np.mean(np.log(products))) / np.array(blocks)

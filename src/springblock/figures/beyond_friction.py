@@ -5,13 +5,14 @@ Surfaces of Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 
 from collections.abc import Mapping, Sequence
 from itertools import chain
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from springblock.beyond.friction import Map, distance, families, friction_map, residuals
+from springblock.beyond.friction import Map, crossed, families, friction_map, residuals
 from springblock.beyond.question import by_scene
 from springblock.figures import style
 from springblock.figures.declaration import Declaration, Realisations
@@ -26,7 +27,7 @@ FIGURE = Declaration(
     category="Beyond",
     caption="""Static friction at one total load. a) Over size n_p and distance n_s of pillars; on
     grey lines the contact fraction is the same. b) Over n_p for each contact fraction, with 95 %
-    intervals over realisations; dotted: the sum of a function of size and one of contact
+    intervals over realisations; dashes: the sum of a number for each size and one for each contact
     fraction.""",
     source=Realisations(groups=("friction",), keys=("folder",)),
 )
@@ -41,11 +42,11 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     `ensembles` holds realisations by folder.
     """
     found = friction_map(by_scene(list(chain.from_iterable(ensembles.values()))))
-    picture = style.figure(style.DOUBLE, 78.0)
+    picture = style.figure(style.DOUBLE, 80.0)
     left = style.axes(picture, 13.0, 11.0, 62.0, 62.0)
     right = style.axes(picture, 112.0, 11.0, 75.0, 62.0)
     for ax, letter, aside in ((left, "a", 10.0), (right, "b", 11.0)):
-        style.panel_letter(ax, letter, left=aside, above=1.0)
+        style.panel_letter(ax, letter, left=aside, above=2.5)
     _draw_map(picture, left, found)
     _draw_lines(right, found)
     return picture
@@ -72,16 +73,16 @@ def _draw_map(picture: Figure, ax: Axes, found: Map) -> None:
 
 def _draw_lines(ax: Axes, found: Map) -> None:
     alike = families(found)
-    kept = {at: values for at, values in found.items() if distance(at) in alike}
-    left, colors = residuals(kept), shades(float(kind) for kind in alike)
+    left, colors = residuals(crossed(found)), shades(float(kind) for kind in alike)
     for kind, sizes in alike.items():
         color, places = colors[float(kind)], list(sizes)
         means = [mean_interval(values) for values in sizes.values()]
         label = f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
         draw_sweep(ax, places, means, color, marker="o", label=label)
-        rest = [left[at] for at in kept if distance(at) == kind]
-        model = [float(each.mean) - more for each, more in zip(means, rest, strict=True)]
-        ax.plot(places, model, color=color, linestyle=":", linewidth=0.8)
+        here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
+        model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
+        look: dict[str, Any] = {"linestyle": "none", "marker": "_", "markersize": 7.0}
+        ax.plot(list(model), list(model.values()), color=color, **look)
     powers(ax, _TICKS, "size $n_p$ (blocks)")
     ax.set_ylabel(FRICTION)
     ax.legend(loc="best")

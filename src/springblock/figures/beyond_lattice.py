@@ -46,7 +46,7 @@ FIGURE = Declaration(
 )
 
 _WIDTH, _HEIGHT = 76.0, 47.0  #: of a panel, mm
-_PLACES = {"a": (14.0, 68.0), "b": (110.0, 68.0), "c": (14.0, 10.0), "d": (110.0, 10.0)}
+_PLACES = {"a": (14.0, 70.0), "b": (110.0, 70.0), "c": (14.0, 10.0), "d": (110.0, 10.0)}
 
 
 @journal
@@ -59,10 +59,10 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     common, alike = usual(surfaces), refined(surfaces)
     lattices = {at: sizes for at, sizes in alike.items() if at.thickness == common.thickness}
     thick = {at: sizes for at, sizes in alike.items() if at.spacing == common.spacing}
-    picture = style.figure(style.DOUBLE, 119.0)
+    picture = style.figure(style.DOUBLE, 122.0)
     panels = {x: style.axes(picture, *at, _WIDTH, _HEIGHT) for x, at in _PLACES.items()}
     for letter, ax in panels.items():
-        style.panel_letter(ax, letter, left=11.0, above=1.0)
+        style.panel_letter(ax, letter, left=11.0, above=2.0)
     _draw_correlation(panels["a"], lattices)
     _draw_lengths(panels["b"], lattices, evenly_disordered(surfaces), thick)
     for letter, part, varied in (("c", lattices, "spacing"), ("d", thick, "thickness")):
@@ -108,7 +108,8 @@ def _draw_lengths(ax: Axes, lattices: Surfaces, even: Surfaces, thick: Surfaces)
         ax.plot(ends, guide, color=GREY, linewidth=0.5, linestyle=":", zorder=0)
     powers(ax, spots, "spacing $l$ or thickness $l_z$ (µm)")
     ax.set_ylabel("correlation length $l_c$ (µm)")
-    ax.legend(loc="best")
+    ax.set_ylim(None, 8.0 * ax.get_ylim()[1])
+    ax.legend(loc="upper left")
 
 
 def _spacing(at: Layer) -> float:
@@ -141,7 +142,7 @@ def _draw_friction(ax: Axes, part: Surfaces, varied: str) -> None:
         foot = low - 0.06 * i * (high - low)
         bars = np.nan_to_num([[place - left], [right - place]])
         ax.errorbar([place], [foot], xerr=bars, marker="x", color=colors[value(at)], linewidth=0.8)
-    ax.set_ylim(low - 0.06 * (len(part) + 1) * (high - low), high)
+    ax.set_ylim(low - 0.06 * (len(part) + 1) * (high - low), high + 0.25 * (high - low))
     powers(ax, places, "size of pillars (µm)")
     ax.set_ylabel(FRICTION)
-    ax.legend(loc="best", ncols=2)
+    ax.legend(loc="upper right", ncols=2)

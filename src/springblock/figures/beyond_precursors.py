@@ -51,10 +51,10 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     `ensembles` holds realisations by folder.
     """
     found = by_scene(list(chain.from_iterable(ensembles.values())))
-    picture = style.figure(style.DOUBLE, 72.0)
+    picture = style.figure(style.DOUBLE, 73.0)
     left, right = (style.axes(picture, x, 11.0, 78.0, 56.0) for x in (13.0, 108.0))
     for ax, letter in ((left, "a"), (right, "b")):
-        style.panel_letter(ax, letter, left=10.0, above=1.0)
+        style.panel_letter(ax, letter, left=10.0, above=2.0)
     _draw_clusters(left, found)
     _draw_angles(right, found)
     return picture
