@@ -1,7 +1,9 @@
 """The page has every question, answered or not."""
 
+import pytest
+
 from beyond.made_up import lean
-from springblock.beyond import QUESTIONS
+from springblock.beyond import QUESTIONS, clusters, friction, lattice, scatter, variance
 from springblock.beyond.page import page
 from springblock.beyond.question import by_scene
 from springblock.scene import Scene
@@ -15,6 +17,18 @@ def test_questions_without_realisations_say_what_they_need():
 
 def test_lines_fit_a_screen_but_for_tables_and_answers():
     assert all(len(line) <= 100 for line in page(QUESTIONS, {}).splitlines())
+
+
+@pytest.mark.parametrize("surfaces", [friction.friction_map, lattice.layers, scatter.by_scatter])
+def test_grooves_without_pillars_are_no_pillars(surfaces):
+    grooved = Scene(120, n_p2=8, n_s2=2)
+    assert not surfaces({grooved: lean(grooved, 0.7, runs=10)})
+
+
+def test_grooves_without_pillars_are_no_flat_surface():
+    made = {(scene := Scene(n, n_p2=8, n_s2=2)): lean(scene, 0.7) for n in (20, 40, 60)}
+    assert not variance.by_pattern(made)
+    assert not clusters.surfaces(made)
 
 
 def test_realisations_are_sorted_by_scene():

@@ -117,8 +117,7 @@ def test_cells_hold_the_prominence_of_their_surface():
 def test_two_factors_that_add_up_describe_friction():
     """Dashes lie on the means of sizes that several contact fractions have."""
     ax = drawn("beyond_friction").axes[1]
-    dashes = [line.get_xydata() for line in ax.get_lines() if line.get_marker() == "_"]
-    dashes = [line for line in dashes if len(line) and line.shape[0] >= 3]
+    dashes = [line.get_xydata() for line in ax.get_lines() if line.get_markersize() == 7.0]
     assert len(dashes) == 3
     for model, means in zip(dashes, bars(ax).values(), strict=True):
         shown = np.isin(means[:, 0], model[:, 0])

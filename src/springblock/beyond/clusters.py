@@ -1,12 +1,13 @@
 """Clusters of precursors: what has let go together before the force maximum."""
 
 from collections.abc import Iterator, Sequence
+from statistics import mode
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.rows import markdown_table
 from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval
@@ -14,6 +15,7 @@ from springblock.tables import Record
 
 Mask = NDArray[np.bool_]
 _SHUFFLES = 20
+_GROOVED = (58, 8, 0)  #: n_p, n_p2 and n_p3 of the paper's grooved pillars
 
 
 def cluster_sizes(detached: Mask) -> NDArray[np.intp]:
@@ -76,15 +78,20 @@ def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
 
 
 def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
-    """Flat surfaces, pillars and grooves of the size of surface that the paper has."""
-    kinds = [scene for scene in ensembles if not scene.varied and scene.direction in ("x", "y")]
-    kinds = [s for s in kinds if s.level == 0 or (s.n_p == s.n_s) or (s.n_p and s.n_p2 == 8)]
-    kinds = [s for s in kinds if not s.n_p3 and len(ensembles[s]) >= 2]
-    size = max(
-        ({s.n_blocks for s in kinds}), key=lambda n: sum(s.n_blocks == n for s in kinds), default=0
-    )
-    found = [s for s in kinds if s.n_blocks == size]
+    """Flat surfaces, pillars with n_s = n_p and grooved ones, of the size that most of them have."""
+    kinds = [scene for scene, runs in ensembles.items() if _is_one(scene) and len(runs) >= 2]
+    if not kinds:
+        return {}
+    size = mode(scene.n_blocks for scene in kinds)
+    found = [scene for scene in kinds if scene.n_blocks == size]
     return {s: ensembles[s] for s in sorted(found, key=lambda s: (s.level, s.n_p, s.direction))}
+
+
+def _is_one(scene: Scene) -> bool:
+    if scene.varied or scene.direction not in ("x", "y"):
+        return False
+    pillars = has_pillars_alone(scene) and scene.n_p == scene.n_s
+    return not scene.level or pillars or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
 
 
 def _answers(ensembles: Ensembles) -> Iterator[str]:

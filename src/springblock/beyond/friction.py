@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import interval, lowest_place, means
 from springblock.rows import markdown_table
 from springblock.run import Array, Run
@@ -21,7 +21,7 @@ def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
     """Static friction by pillars, on the size of surface that has most of them."""
     found: dict[int, dict[Pillars, Array]] = {}
     for scene, runs in ensembles.items():
-        if scene.level == 1 and scene.direction == "x" and not scene.varied:
+        if has_pillars_alone(scene) and not scene.varied:
             at = found.setdefault(scene.n_blocks, {})
             at[scene.n_p, scene.n_s] = static_friction(runs)
     most = max(found.values(), key=len, default={})

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, number, power
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number, power
 from springblock.beyond.resampling import (
     FEWEST,
     Estimate,
@@ -64,7 +64,7 @@ def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
 
 
 def _is_one(scene: Scene) -> bool:
-    alike = scene.level == 1 and scene.n_p == scene.n_s and scene.direction == "x"
+    alike = has_pillars_alone(scene) and scene.n_p == scene.n_s
     return alike and set(dict(scene.varied)) <= _VARIED
 
 

@@ -32,6 +32,11 @@ def by_scene(records: Sequence[Record]) -> dict[Scene, list[Record]]:
     return found
 
 
+def has_pillars_alone(scene: Scene) -> bool:
+    """Whether it has pillars without grooves, and slides along x."""
+    return scene.lengths.keys() == {"n_p", "n_s"} and scene.direction == "x"
+
+
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     """Write a value with its 95 % interval, to the digits that the interval leaves."""
     value, low, high = (factor * float(each) for each in interval)

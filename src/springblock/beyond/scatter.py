@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import FEWEST, Sample, SideLength, interval, lowest_place, slopes
 from springblock.correlation import side_times
 from springblock.rows import markdown_table
@@ -32,7 +32,7 @@ def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
 
 
 def _is_one(scene: Scene) -> bool:
-    alike = scene.level == 1 and scene.n_p == scene.n_s and scene.direction == "x"
+    alike = has_pillars_alone(scene) and scene.n_p == scene.n_s
     return alike and set(dict(scene.varied)) <= {"mu_static_std"}
 
 

@@ -5,10 +5,11 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import interval, slopes
 from springblock.rows import markdown_table
 from springblock.run import Array
+from springblock.scene import Scene
 from springblock.statistics import Interval, mean_interval
 
 Pattern = tuple[int, int]  #: n_p and n_s, blocks; zeros on flat surfaces
@@ -18,7 +19,7 @@ def by_pattern(ensembles: Ensembles) -> dict[Pattern, dict[int, Array]]:
     """Static friction by pattern and N, where there are three sizes of surface or more."""
     found: dict[Pattern, dict[int, Array]] = {}
     for scene, runs in ensembles.items():
-        if scene.level < 2 and not scene.n_p2 and scene.direction == "x" and not scene.varied:
+        if (scene == Scene(scene.n_blocks) or has_pillars_alone(scene)) and not scene.varied:
             sizes = found.setdefault((scene.n_p, scene.n_s), {})
             sizes[scene.n_blocks] = static_friction(runs)
     kept = {pattern: sizes for pattern, sizes in sorted(found.items()) if len(sizes) >= 3}
