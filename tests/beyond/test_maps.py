@@ -20,9 +20,10 @@ def test_prominence_is_the_depth_between_two_hills():
 
 def test_the_page_counts_surfaces_with_more_along_than_across():
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
-    pillars, whole, table = peaks.QUESTION.answers(made)
+    pillars, whole, hierarchy, table = peaks.QUESTION.answers(made)
     assert "on 0 of 1 surfaces, less on 1" in pillars
     assert "on 1 of 1 surfaces, less on 0" in whole
+    assert "in 0 of 1 cases, less in 1" in hierarchy
     assert len(table.splitlines()) == 4
 
 

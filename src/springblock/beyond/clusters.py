@@ -78,7 +78,7 @@ def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
 
 
 def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
-    """Flat surfaces, pillars with n_s = n_p and grooved ones, of the size that most of them have."""
+    """Flat surfaces, pillars with n_s = n_p and grooved ones, of the size that most have."""
     kinds = [scene for scene, runs in ensembles.items() if _is_one(scene) and len(runs) >= 2]
     if not kinds:
         return {}

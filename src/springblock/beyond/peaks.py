@@ -72,12 +72,26 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
             f"**Grooves {words}**: the lesser load peak is more prominent along the grooves than "
             f"across them on {more} of {len(keys)} surfaces, less on {less}."
         )
+    yield from _hierarchy(found)
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
     for key, angles in found.items():
         values = [number(mean_interval(angles[angle])) for angle in shown]
         lines.append([*map(str, key), *values, number(contrasts[key])])
     yield markdown_table(header, lines)
+
+
+def _hierarchy(found: Mapping[Grooves, Mapping[float, Array]]) -> Iterator[str]:
+    """What pillars do to the same grooves, when sliding along them."""
+    pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
+    contrasts = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
+    if contrasts:
+        more = sum(bool(each.low > 0.0) for each in contrasts)
+        less = sum(bool(each.high < 0.0) for each in contrasts)
+        yield (
+            f"**Hierarchy**: along the same grooves it is more prominent on pillars than over the whole "
+            f"surface in {more} of {len(contrasts)} cases, less in {less}."
+        )
 
 
 QUESTION = Question(
