@@ -89,8 +89,8 @@ def _hierarchy(found: Mapping[Grooves, Mapping[float, Array]]) -> Iterator[str]:
         more = sum(bool(each.low > 0.0) for each in contrasts)
         less = sum(bool(each.high < 0.0) for each in contrasts)
         yield (
-            f"**Hierarchy**: along the same grooves it is more prominent on pillars than over the whole "
-            f"surface in {more} of {len(contrasts)} cases, less in {less}."
+            "**Hierarchy**: along the same grooves it is more prominent on pillars than over the "
+            f"whole surface in {more} of {len(contrasts)} cases, less in {less}."
         )
 
 
