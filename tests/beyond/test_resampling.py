@@ -81,7 +81,7 @@ def test_numbers_are_written_to_what_the_interval_leaves():
         ((0.8, 1.2), "proportional"),
         ((0.2, 0.8), "in part"),
         ((-0.5, 1.5), "unchanged or proportional, which is not settled"),
-        ((-0.8, -0.2), "by another power"),
+        ((-0.8, -0.2), "the other way"),
         ((1.1, 1.4), "by another power"),
         ((0.5, 1.0), "proportional"),
     ],

@@ -53,4 +53,6 @@ def power(exponent: Interval) -> str:
         return "unchanged or proportional, which is not settled"
     if none or whole:
         return "unchanged" if none else "proportional"
+    if exponent.high < 0.0:
+        return "the other way"
     return "in part" if exponent.low > 0.0 and exponent.high < 1.0 else "by another power"

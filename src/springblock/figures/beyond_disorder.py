@@ -41,7 +41,7 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     """
     found = by_scene(list(chain.from_iterable(ensembles.values())))
     picture = style.figure(style.DOUBLE, 64.0)
-    panels = [style.axes(picture, left, 11.0, 47.0, 46.0) for left in (12.0, 77.0, 140.0)]
+    panels = [style.axes(picture, left, 11.0, 44.0, 46.0) for left in (15.0, 80.0, 144.0)]
     for ax, letter in zip(panels, "abc", strict=True):
         style.panel_letter(ax, letter, left=10.0, above=2.5)
     _draw_lengths(panels[0], found)
