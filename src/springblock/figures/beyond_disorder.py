@@ -9,6 +9,7 @@ from itertools import chain
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, by_scene
@@ -60,6 +61,7 @@ def _draw_lengths(ax: Axes, ensembles: Ensembles) -> None:
         draw_sweep(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
     powers(ax, list(scatters), "scatter of static coefficients")
     ax.set_yscale("log")
+    ax.yaxis.set_minor_formatter(NullFormatter())
     ax.set_ylabel("correlation length $l_c$ (blocks)")
     ax.legend(loc="best")
 
