@@ -111,7 +111,8 @@ def test_figures_need_no_more_tables_than_they_show():
 def batch(path: Path, run: Record) -> Path:
     """A file that holds one run; what figures do not read is zero in it."""
     row = {name: getattr(run, name, 0) for name in BATCH.names} | run.scene.row
-    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1], "integrator": "leapfrog"}
+    row |= dict(run.material.items()) | {"integrator": "leapfrog"}
+    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1]}
     write(rows_to_table([row], BATCH), path, {})
     return path
 
