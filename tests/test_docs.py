@@ -6,6 +6,8 @@ from pathlib import Path
 from precision import precision_rows, production_rows
 from springblock.accuracy.page import page as accuracy_page
 from springblock.accuracy.stability.table import all_cases
+from springblock.beyond import QUESTIONS
+from springblock.beyond.page import page as beyond_page
 from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
 from springblock.claims.rule import Evidence
@@ -29,6 +31,11 @@ def unmeasured(text):
     return [line for line in text.splitlines() if line and not line.startswith(measured)]
 
 
+def unanswered(text):
+    """Lines of the page beyond the paper that hold for any study."""
+    return [line for line in text.splitlines() if line and not line.startswith(("|", "**"))]
+
+
 def test_the_page_on_errors_is_what_the_code_writes():
     stability = [{"family": case.family, "expected": "", "outcome": ""} for case in all_cases()]
     text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}], production_rows())
@@ -38,3 +45,9 @@ def test_the_page_on_errors_is_what_the_code_writes():
 def test_the_page_on_statements_is_what_the_code_writes():
     text = claims_page(rows(CLAIMS, Evidence()))
     assert unmeasured((DOCS / "claims.md").read_text()) == unmeasured(text)
+
+
+def test_the_page_beyond_the_paper_is_what_the_code_writes():
+    text = (DOCS / "beyond.md").read_text()
+    assert unanswered(text) == unanswered(beyond_page(QUESTIONS, {}))
+    assert "**Not answered**" not in text

@@ -173,9 +173,13 @@ def test_the_whole_study_can_be_planned(study):
     """With all its groups of scenes and its comparisons, from nothing."""
     jobs = planned(study, "--config", "results=elsewhere", **WHOLE)
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
-    upon_request = {name for name, figure in declarations().items() if figure.upon_request}
-    assert {*tables, *declarations()} - upon_request <= set(jobs)
-    assert not {*upon_request, "production_scene"} & set(jobs)
+    figures = declarations()
+    upon_request = {name for name, figure in figures.items() if figure.upon_request}
+    further = {name for name, figure in figures.items() if figure.category == "Beyond"}
+    assert {*tables, *figures} - upon_request - further <= set(jobs)
+    assert not {*upon_request, *further, "production_scene"} & set(jobs)
+    beyond = planned(study, "--config", "results=elsewhere", "--", "beyond", **WHOLE)
+    assert {"beyond_page", *further} <= set(beyond)
     assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
     sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **WHOLE)
     assert set(sizes) == {
@@ -213,7 +217,9 @@ def test_every_step_can_be_planned_by_its_name(study):
     assert {rule.rpartition("_")[0] for rule in rules - steps} <= steps
     assert steps <= set(planned(study, "--config", "results=elsewhere", "--", *steps, **WHOLE))
     named = set(re.findall(r"`(\w+)`", (ROOT / "README.md").read_text()))
-    assert {step for step in steps if not step.startswith(("figure", "supplement"))} <= named
+    assert {
+        step for step in steps if not step.startswith(("figure", "supplement", "beyond_"))
+    } <= named
 
 
 def test_the_linter_finds_only_what_is_meant_to_be(study):

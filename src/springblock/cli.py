@@ -16,6 +16,7 @@ COMMANDS = {
     "try": "springblock.commands.stability:try_cases",
     "accuracy": "springblock.commands.accuracy:write_page",
     "claims": "springblock.commands.claims:claims",
+    "beyond": "springblock.commands.beyond:beyond",
     "figure": "springblock.commands.figure:figure",
 }
 

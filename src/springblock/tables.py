@@ -1,7 +1,7 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from springblock.files import whole_file
+from springblock.material import Material
 from springblock.scene import Scene
 
 if TYPE_CHECKING:  # read here by those who draw, and only then
@@ -80,6 +81,8 @@ SUMMARY = pa.schema(
         column("steps", pa.int64(), "1", "integration steps"),
     ]
 )
+
+_CONSTANTS = [name for name, _ in Material().items()]
 
 _SIDE = [
     *SCENE,
@@ -234,6 +237,7 @@ class Record:
     t_max: float
     t_avg: float
     static_friction: float
+    material: Material = field(default_factory=Material)
 
 
 def read_frame(path: Path) -> "pd.DataFrame":
@@ -262,6 +266,7 @@ def read_records(paths: Iterable[Path]) -> list[Record]:
                 t_max=row["t_max"][0].as_py(),
                 t_avg=row["t_avg"][0].as_py(),
                 static_friction=row["static_friction"][0].as_py(),
+                material=Material(**row.select(_CONSTANTS).to_pylist()[0]),
             )
         )
     return sorted(records, key=lambda record: record.seed)

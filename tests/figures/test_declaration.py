@@ -192,7 +192,8 @@ def test_a_picture_keeps_its_caption(suffix, tmp_path):
 def batch(path: Path, run: Record) -> Path:
     """A file that holds one run; what figures do not read is zero in it."""
     row = {name: getattr(run, name, 0) for name in BATCH.names} | run.scene.row
-    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1], "integrator": "leapfrog"}
+    row |= dict(run.material.items()) | {"integrator": "leapfrog"}
+    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1]}
     write(rows_to_table([row], BATCH), path, {})
     return path
 

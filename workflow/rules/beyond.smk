@@ -1,5 +1,29 @@
 # What goes beyond the paper: maps and sweeps, which take longer than the paper itself.
 
+#: Groups of the study that its questions look at, too.
+BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles"]
+
+
+rule beyond_page:
+    input:
+        batches(ensembles("beyond/")),
+        batches(ensemble for group in BEYOND_GROUPS for ensemble in ENSEMBLES.get(group, [])),
+    output:
+        f"{RESULTS}/beyond.md",
+    log:
+        f"{RESULTS}/logs/beyond_page.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/beyond_page.tsv"
+    resources:
+        mem_mb=2500,
+        runtime=10,
+    params:
+        code=sources.digest("springblock.commands.beyond"),
+    message:
+        "Answering questions beyond the paper"
+    shell:
+        "springblock beyond {input:q} --output {output:q} > {log:q} 2>&1"
+
 
 rule beyond:
     input:
@@ -7,6 +31,12 @@ rule beyond:
             f"{RESULTS}/tables/beyond/{{table}}.parquet",
             table=["realisations", "correlation", "correlation_length"],
         ),
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[name for name, figure in FIGURES.items() if figure.category == "Beyond"],
+            suffix=["pdf", "png"],
+        ),
+        rules.beyond_page.output,
     localrule: True
     message:
-        f"What goes beyond the paper is in {RESULTS}/tables/beyond"
+        f"What goes beyond the paper is in {RESULTS}: tables/beyond, figures/beyond_*, beyond.md"

@@ -1,0 +1,147 @@
+"""Clusters of precursors: what has let go together before the force maximum."""
+
+from collections.abc import Iterator, Sequence
+from statistics import mode
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
+from springblock.rows import markdown_table
+from springblock.scene import Scene
+from springblock.statistics import Interval, mean_interval
+from springblock.tables import Record
+
+Mask = NDArray[np.bool_]
+_SHUFFLES = 20
+_GROOVED = (58, 8, 0)  #: n_p, n_p2 and n_p3 of the paper's grooved pillars
+
+
+def cluster_sizes(detached: Mask) -> NDArray[np.intp]:
+    """Sizes of the clusters of a mask, (N, N), in blocks: 4 neighbours belong together."""
+    from scipy.ndimage import label  # slow to load
+
+    return np.bincount(label(detached)[0].ravel())[1:]
+
+
+def mean_size(detached: Mask) -> float:
+    """Size of the cluster that a detached block belongs to, averaged over these blocks."""
+    sizes = cluster_sizes(detached)
+    return float((sizes**2).sum() / sizes.sum()) if sizes.size else np.nan
+
+
+def precursors(run: Record) -> Mask:
+    """Blocks that detach before the force maximum, (N, N)."""
+    return run.t_det < run.t_max
+
+
+def shuffled(detached: Mask, contact: Mask, rng: np.random.Generator) -> Mask:
+    """As many blocks in contact, anywhere."""
+    drawn = np.zeros_like(detached)
+    drawn[contact] = rng.permutation(detached[contact])
+    return drawn
+
+
+def mixed(masks: Sequence[Mask], rng: np.random.Generator) -> list[Mask]:
+    """Each block's states dealt anew to the realisations: places stay, company does not."""
+    return list(rng.permuted(np.stack(masks), axis=0))
+
+
+class Clusters(NamedTuple):
+    """Clusters of precursors of an ensemble; mean sizes in blocks."""
+
+    share: Interval  #: of the blocks in contact that detach before t_max
+    observed: Interval
+    shuffled: Interval  #: of as many blocks anywhere in contact
+    mixed: Interval  #: of blocks in the same places, each from another realisation
+    ratio: Interval  #: observed over shuffled
+    ratio_mixed: Interval  #: observed over mixed
+
+
+def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
+    """Sizes of clusters of precursors, and of what chance would make of them."""
+    rng, contact = np.random.default_rng(seed), runs[0].scene.pattern.contact
+    masks = [precursors(run) for run in runs]
+    observed = np.array([mean_size(mask) for mask in masks])
+    anywhere = np.array(
+        [
+            np.mean([mean_size(shuffled(mask, contact, rng)) for _ in range(_SHUFFLES)])
+            for mask in masks
+        ]
+    )
+    deals = [[mean_size(mask) for mask in mixed(masks, rng)] for _ in range(_SHUFFLES)]
+    in_place = np.mean(deals, axis=0)
+    share = np.array([mask[contact].mean() for mask in masks])
+    found = (share, observed, anywhere, in_place, observed / anywhere, observed / in_place)
+    return Clusters(*(mean_interval(values) for values in found))
+
+
+def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
+    """Flat surfaces, pillars with n_s = n_p and grooved ones, of the size that most have."""
+    kinds = [scene for scene, runs in ensembles.items() if _is_one(scene) and len(runs) >= 2]
+    if not kinds:
+        return {}
+    size = mode(scene.n_blocks for scene in kinds)
+    found = [scene for scene in kinds if scene.n_blocks == size]
+    return {s: ensembles[s] for s in sorted(found, key=lambda s: (s.level, s.n_p, s.direction))}
+
+
+def _is_one(scene: Scene) -> bool:
+    if scene.varied or scene.direction not in ("x", "y"):
+        return False
+    pillars = has_pillars_alone(scene) and scene.n_p == scene.n_s
+    return not scene.level or pillars or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
+
+
+def _answers(ensembles: Ensembles) -> Iterator[str]:
+    found = {scene: clusters(runs) for scene, runs in surfaces(ensembles).items()}
+    if not found:
+        return
+    for words, which in (
+        ("as many blocks anywhere", "ratio"),
+        ("blocks of the same places", "ratio_mixed"),
+    ):
+        above = sum(bool(getattr(each, which).low > 1.0) for each in found.values())
+        yield (
+            f"**Larger than by chance**, of {words}, are clusters on {above} of {len(found)} "
+            "surfaces."
+        )
+    header = [
+        "surface",
+        "detached before t_max",
+        "mean cluster (blocks)",
+        "over anywhere",
+        "over same places",
+    ]
+    lines = [
+        [
+            name(scene),
+            number(each.share, " %", 100.0),
+            number(each.observed),
+            number(each.ratio),
+            number(each.ratio_mixed),
+        ]
+        for scene, each in found.items()
+    ]
+    yield markdown_table(header, lines)
+
+
+def name(scene: Scene) -> str:
+    """Name a surface for readers."""
+    lengths = ", ".join(f"{key} = {length}" for key, length in scene.lengths.items())
+    return f"{lengths or 'flat'}, {scene.direction}" if scene.n_p2 else lengths or "flat"
+
+
+QUESTION = Question(
+    "Do precursors come in clusters?",
+    f"""Precursors are blocks that detach for the first time before the force maximum; those next to
+each other along x or y, 4 neighbours, belong to one cluster. The mean size is that of the cluster
+that a precursor belongs to. Chance has two meanings. Anywhere: as many blocks, shuffled over all
+that are in contact. Same places: every block keeps how often it is a precursor, but in each
+realisation its state is that of another realisation, so that only company is lost; edges of
+pillars, which always let go first, make clusters that way, too. Both are averaged over
+{_SHUFFLES} shuffles, and ratios are taken run by run.""",
+    "groups flat, pillars and grooves",
+    _answers,
+)

@@ -1,0 +1,135 @@
+"""Static friction over the size of pillars and over their distance, at one total load."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
+from springblock.beyond.resampling import interval, lowest_place, means
+from springblock.rows import markdown_table
+from springblock.run import Array, Run
+from springblock.statistics import Interval, mean_interval, standard_error
+
+Pillars = tuple[int, int]  #: n_p and n_s, blocks
+Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
+_FEWEST = 3  #: sizes with a minimum between them
+
+
+def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
+    """Static friction by pillars, on the size of surface that has most of them."""
+    found: dict[int, dict[Pillars, Array]] = {}
+    for scene, runs in ensembles.items():
+        if has_pillars_alone(scene) and not scene.varied:
+            at = found.setdefault(scene.n_blocks, {})
+            at[scene.n_p, scene.n_s] = static_friction(runs)
+    most = max(found.values(), key=len, default={})
+    return dict(sorted(most.items()))
+
+
+def static_friction(runs: Sequence[Run]) -> Array:
+    """Static friction of each realisation, (k,)."""
+    return np.array([run.static_friction for run in runs])
+
+
+def distance(pillars: Pillars) -> Fraction:
+    """n_s/n_p, which sets the contact fraction."""
+    return Fraction(pillars[1], pillars[0])
+
+
+def families(found: Map) -> dict[Fraction, dict[int, Array]]:
+    """Static friction by n_s/n_p and n_p, where three sizes or more are as far apart."""
+    by_distance: dict[Fraction, dict[int, Array]] = {}
+    for pillars, values in sorted(found.items()):
+        by_distance.setdefault(distance(pillars), {})[pillars[0]] = values
+    return {
+        key: by_distance[key] for key in sorted(by_distance) if len(by_distance[key]) >= _FEWEST
+    }
+
+
+def crossed(found: Map) -> dict[Pillars, Array]:
+    """Pillars of sizes that several contact fractions have, and the other way round."""
+    kept = dict(found)
+    while True:
+        sizes = Counter(n_p for n_p, _ in kept)
+        kinds = Counter(distance(pillars) for pillars in kept)
+        fewer = {p: v for p, v in kept.items() if sizes[p[0]] > 1 and kinds[distance(p)] > 1}
+        if len(fewer) == len(kept):
+            return kept
+        kept = fewer
+
+
+def designs(pillars: Sequence[Pillars]) -> dict[str, Array]:
+    """Columns of models, (pillars, unknowns): a number for each size, each contact, both added."""
+
+    def levels(values: list[float]) -> Array:
+        return np.equal.outer(values, sorted(set(values))).astype(np.float64)
+
+    size = levels([float(n_p) for n_p, _ in pillars])
+    contact = levels([float(distance(each)) for each in pillars])
+    return {"size": size, "contact": contact, "both": np.hstack([size, contact])}
+
+
+def explained(found: Map) -> dict[str, Interval]:
+    """Share of the variance of mean static friction over the map that each model explains."""
+    shares = {}
+    for name, design in designs(list(found)).items():
+        left = np.eye(len(design)) - design @ np.linalg.pinv(design)
+
+        def share(*drawn: Array, axis: int, left: Array = left) -> Array:
+            values = means(drawn, axis)
+            return 1.0 - ((values @ left) ** 2).mean(axis=-1) / values.var(axis=-1)
+
+        shares[name] = interval(list(found.values()), share)
+    return shares
+
+
+def residuals(found: Map) -> dict[Pillars, float]:
+    """Mean static friction minus the model of size and contact added."""
+    design = designs(list(found))["both"]
+    values = means(list(found.values()), axis=-1)
+    left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
+    return dict(zip(found, left.tolist(), strict=True))
+
+
+def _answers(ensembles: Ensembles) -> Iterator[str]:
+    whole = friction_map(ensembles)
+    found = crossed(whole)
+    freedom = len(found) - np.linalg.matrix_rank(designs(list(found))["both"]) if found else 0
+    if freedom < 1:
+        return
+    shares, left = explained(found), np.array(list(residuals(found).values()))
+    scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
+    rms = np.sqrt((left**2).sum() / freedom)
+    yield (
+        f"**Size and contact fraction**: of the variance of static friction over {len(found)} "
+        f"surfaces, size alone explains {number(shares['size'], ' %', 100.0)}, contact fraction "
+        f"alone {number(shares['contact'], ' %', 100.0)}, both added "
+        f"{number(shares['both'], ' %', 100.0)}. They leave {rms:.4f} root mean square "
+        f"(over {freedom} degrees of freedom), where means have a standard error of {scatter:.4f}."
+    )
+    header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
+    yield markdown_table(header, [_cells(kind, sizes) for kind, sizes in families(whole).items()])
+
+
+def _cells(kind: Fraction, sizes: Mapping[int, Array]) -> list[str]:
+    share = 1.0 / float(1 + kind) ** 2
+    lowest = min(sizes.values(), key=lambda values: float(values.mean()))
+    place = lowest_place(np.array(list(sizes)), list(sizes.values()))
+    counted = f"{min(sizes)} to {max(sizes)}"
+    return [str(kind), f"{share:.1%}", counted, number(place), number(mean_interval(lowest))]
+
+
+QUESTION = Question(
+    "Size of pillars or contact fraction?",
+    """The paper varies n_p with n_s, so that size alone changes; pillars further apart carry more
+load each, and cover less. Here both vary at the same total load. Contact fraction is
+(n_p/(n_p + n_s))². Two factors describe static friction if it is a number for each size plus one
+for each contact fraction, fitted to the mean of every surface whose size and whose contact fraction
+others have, too. What they leave is held against the standard error of the means: more than that
+is what size and contact fraction do only together. The friction-minimising n_p is the lowest point
+of the parabola through the lowest mean and its neighbours over log(n_p).""",
+    "group friction",
+    _answers,
+)

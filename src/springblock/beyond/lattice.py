@@ -1,0 +1,245 @@
+"""Lattice or layer: what sets the lengths that the paper finds?"""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
+from statistics import mode
+from typing import NamedTuple
+
+import numpy as np
+
+from springblock.beyond.friction import static_friction
+from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number, power
+from springblock.beyond.resampling import (
+    FEWEST,
+    Estimate,
+    Sample,
+    SideLength,
+    Statistic,
+    area,
+    interval,
+    lowest,
+    lowest_place,
+    means,
+    slopes,
+)
+from springblock.correlation import fit_tail, side_times
+from springblock.rows import markdown_table
+from springblock.run import Array
+from springblock.scene import Scene
+from springblock.statistics import Interval
+from springblock.tables import Record
+
+MICRO = 1e6  #: µm per m
+_VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "step"}
+_SHORTEST = 3  #: distances that a fit of two unknowns needs
+
+
+class Layer(NamedTuple):
+    """A lattice, its layer and its disorder."""
+
+    spacing: float  #: l, µm
+    thickness: float  #: l_z, µm
+    scatter: float  #: standard deviation of the static coefficients
+
+
+Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
+Surfaces = Mapping[Layer, Sizes]
+
+
+def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
+    """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer."""
+    found: dict[float, dict[Layer, dict[float, Sequence[Record]]]] = {}
+    for scene, runs in ensembles.items():
+        if not _is_one(scene):
+            continue
+        material = runs[0].material
+        spacing, thickness = (
+            round(MICRO * length, 6) for length in (material.spacing, material.thickness)
+        )
+        side = found.setdefault(round(scene.n_blocks * spacing, 6), {})
+        at = Layer(spacing, thickness, material.mu_static_std)
+        side.setdefault(at, {})[scene.n_p * spacing] = runs
+    most = max(found.values(), key=len, default={})
+    return {at: dict(sorted(most[at].items())) for at in sorted(most)}
+
+
+def _is_one(scene: Scene) -> bool:
+    alike = has_pillars_alone(scene) and scene.n_p == scene.n_s
+    return alike and set(dict(scene.varied)) <= _VARIED
+
+
+def usual(surfaces: Surfaces) -> Layer:
+    """What most surfaces have."""
+    return Layer(*map(mode, zip(*surfaces, strict=True)))
+
+
+def refined(surfaces: Surfaces) -> dict[Layer, Sizes]:
+    """Lattices and layers with the usual scatter of each block."""
+    scatter = usual(surfaces).scatter
+    return {at: sizes for at, sizes in surfaces.items() if at.scatter == scatter}
+
+
+def evenly_disordered(surfaces: Surfaces) -> dict[Layer, Sizes]:
+    """Lattices with the usual layer whose blocks scatter with 1/l: the same disorder per area."""
+    common = usual(surfaces)
+    product = common.spacing * common.scatter
+    return {
+        at: sizes
+        for at, sizes in surfaces.items()
+        if at.thickness == common.thickness and np.isclose(at.spacing * at.scatter, product)
+    }
+
+
+def fits(sizes: Sizes, estimate: Estimate = fit_tail) -> dict[float, SideLength]:
+    """l_c on pillars that are long enough, by their size in µm: from r = 1 to a third of a side."""
+    found = {}
+    for size, runs in sizes.items():
+        scene = runs[0].scene
+        if "x" in scene.sides and scene.n_p // 3 >= _SHORTEST and len(runs) >= FEWEST:
+            times = side_times(runs, scene.pattern, "x")
+            found[size] = SideLength(times, scene.n_p // 3, estimate)
+    return found
+
+
+Samples = Sequence[Sequence[Sample]]  #: one after another, of each surface together
+
+
+def exponents(rates: Array, samples: Samples, lengths: Statistic) -> list[Interval]:
+    """Exponents of a length that goes with powers of what varies, of which `rates` are logarithms.
+
+    `rates` are (surfaces, exponents). `lengths` takes all samples and returns (..., surfaces).
+    """
+    matrix = slopes(rates)
+    flat = [sample for group in samples for sample in group]
+
+    def exponent(*drawn: Sample, axis: int, row: int) -> Array:
+        return np.log(lengths(*drawn, axis=axis)) @ matrix[row]
+
+    return [interval(flat, partial(exponent, row=row)) for row in range(len(matrix))]
+
+
+def length_exponents(rates: Array, fitted: Mapping[Layer, SideLength]) -> list[Interval]:
+    """Exponents of a correlation length in metres."""
+    found, spacings = list(fitted.values()), [layer.spacing for layer in fitted]
+
+    def lengths(*drawn: Sample, axis: int) -> Array:
+        each = [fit(numbers) for fit, numbers in zip(found, drawn, strict=True)]
+        return np.stack(each, axis=-1) * spacings
+
+    return exponents(rates, [[fit.realisations] for fit in found], lengths)
+
+
+def minimum_exponents(rates: Array, surfaces: Surfaces) -> list[Interval]:
+    """Exponents of the size of the pillars with the lowest static friction.
+
+    It must lie inside the sizes of each surface.
+    """
+    samples = [[static_friction(runs) for runs in sizes.values()] for sizes in surfaces.values()]
+    ends = np.cumsum([len(group) for group in samples])[:-1]
+
+    def lengths(*drawn: Sample, axis: int) -> Array:
+        parts = np.split(means(drawn, axis), ends, axis=-1)
+        found = zip(surfaces.values(), parts, strict=True)
+        return np.stack([lowest(np.array(list(sizes)), part) for sizes, part in found], axis=-1)
+
+    return exponents(rates, samples, lengths)
+
+
+def _inside(sizes: Sizes) -> bool:
+    at = int(np.argmin([static_friction(runs).mean() for runs in sizes.values()]))
+    return 0 < at < len(sizes) - 1
+
+
+def minimum(sizes: Sizes) -> Interval:
+    """Size of the pillars with the lowest static friction, µm, with its 95 % interval."""
+    return lowest_place(np.array(list(sizes)), [static_friction(runs) for runs in sizes.values()])
+
+
+#: Lengths along the sides of pillars, by what they are called.
+_LENGTHS: dict[str, Estimate] = {"l_c": fit_tail, "area below c(r)": area}
+_MINIMUM = "friction-minimising pillar"
+
+
+def _answers(ensembles: Ensembles) -> Iterator[str]:
+    surfaces = {at: sizes for at, sizes in layers(ensembles).items() if len(sizes) >= _SHORTEST}
+    if not surfaces:
+        return
+    lengths = _by_name(surfaces)
+    answers = list(_laws(refined(surfaces), lengths, 2))
+    answers += _laws(evenly_disordered(surfaces), lengths, 1)
+    if not answers:
+        return
+    yield from answers
+    header = ["l (µm)", "l_z (µm)", "scatter"]
+    header += [*(f"{name} (µm)" for name in (*lengths, _MINIMUM)), "realisations, at least"]
+    yield markdown_table(header, [_cells(at, surfaces[at], lengths) for at in surfaces])
+
+
+def _by_name(surfaces: Surfaces) -> dict[str, dict[Layer, SideLength]]:
+    """Lengths on pillars of each size that three lattices or more resolve."""
+    named: dict[str, dict[Layer, SideLength]] = {}
+    for name, estimate in _LENGTHS.items():
+        for at, sizes in surfaces.items():
+            for size, length in fits(sizes, estimate).items():
+                named.setdefault(f"{name} on pillars of {size:g} µm", {})[at] = length
+    return {name: found for name, found in named.items() if len({a.spacing for a in found}) >= 3}
+
+
+def _laws(
+    surfaces: Surfaces, lengths: Mapping[str, Mapping[Layer, SideLength]], unknowns: int
+) -> Iterator[str]:
+    """Powers of l and l_z of each length, or of l alone at the same disorder per area."""
+    for name, found in lengths.items():
+        here = {at: length for at, length in found.items() if at in surfaces}
+        if _suffice(here, unknowns):
+            yield _law(name, length_exponents(_rates(here, unknowns), here))
+    inside = {at: sizes for at, sizes in surfaces.items() if _inside(sizes)}
+    if _suffice(inside, unknowns):
+        yield _law(_MINIMUM, minimum_exponents(_rates(inside, unknowns), inside))
+
+
+def _suffice(places: Collection[Layer], unknowns: int) -> bool:
+    """Whether there are three spacings and, where it is varied, three thicknesses."""
+    varied = list(zip(*places, strict=True))[:unknowns]
+    return bool(varied) and all(len(set(values)) >= 3 for values in varied)
+
+
+def _rates(places: Collection[Layer], unknowns: int) -> Array:
+    return np.log([at[:unknowns] for at in places])
+
+
+def _law(name: str, found: Sequence[Interval]) -> str:
+    with_lattice = f"a = {number(found[0])}, with the lattice {power(found[0])}"
+    if len(found) == 1:
+        return f"**{name}** at the same disorder per area ~ l^a: {with_lattice}."
+    return (
+        f"**{name}** ~ l^a l_z^b: {with_lattice}; "
+        f"b = {number(found[1])}, with the layer {power(found[1])}."
+    )
+
+
+def _cells(at: Layer, sizes: Sizes, lengths: Mapping[str, Mapping[Layer, SideLength]]) -> list[str]:
+    each = [found.get(at) for found in lengths.values()]
+    cells = [number(length.interval, factor=at.spacing) if length else "" for length in each]
+    fewest = min(len(runs) for runs in sizes.values())
+    return [*(f"{value:g}" for value in at), *cells, number(minimum(sizes)), str(fewest)]
+
+
+QUESTION = Question(
+    "Lattice or layer?",
+    """The lattice is refined at one size in metres and one load, 0.6 mm wide, with pillars of 20 to
+300 µm, n_s = n_p; then the layer's thickness l_z is varied on the paper's lattice. A length of
+physics follows l_z, the only other length of the layer; one that follows the spacing l predicts
+nothing. Thresholds are drawn block by block, so that the correlation length of the disorder is l
+itself: a refined lattice is a finer disorder, too, and less of it over a length l_z. It is refined
+a second time with the same disorder per area: over a square of side l_z the mean of independent
+thresholds scatters with their scatter times l/l_z, so that scatter goes with 1/l. l_c is that
+of A exp(-r/l_c), fitted to c_x(r) from one block to a third of the side, in metres the same on
+every lattice. The area below c_x(r) over the same range is a length that needs no fit, but it holds
+c(0) = 1, one block wide. The friction-minimising pillar is where the parabola through the lowest
+mean static friction and its neighbours, over the logarithm of size, is lowest: sizes are few, and
+what lies between them is interpolated. Where friction is lowest at an end of the sizes it is only
+bounded, and left out of the exponents.""",
+    "groups lattice, disorder and layer",
+    _answers,
+)

@@ -1,0 +1,57 @@
+"""Maps of load peaks and of static friction."""
+
+import numpy as np
+import pytest
+
+from beyond.made_up import grooves, sizes_and_distances
+from springblock.beyond import friction, peaks
+from springblock.beyond.peaks import Grooves
+
+
+def test_prominence_is_the_depth_between_two_hills():
+    """Hills of widths of 5 µs, 40 µs apart, have nothing between them; 95 % is the lesser."""
+    found = peaks.by_grooves(grooves({"x": 0.95, "30": 0.92, "y": 0.0}))
+    assert list(found) == [Grooves(0, 2, 4)]
+    angles = found[Grooves(0, 2, 4)]
+    assert list(angles) == [0.0, 30.0, 90.0]
+    for angle, expected in ((0.0, 95.0), (30.0, 92.0), (90.0, 0.0)):
+        np.testing.assert_allclose(angles[angle], expected, atol=0.1)
+
+
+def test_the_page_counts_surfaces_with_more_along_than_across():
+    made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
+    pillars, whole, hierarchy, table = peaks.QUESTION.answers(made)
+    assert "on 0 of 1 surfaces, less on 1" in pillars
+    assert "on 1 of 1 surfaces, less on 0" in whole
+    assert "in 0 of 1 cases, less in 1" in hierarchy
+    assert len(table.splitlines()) == 4
+
+
+def added(n_p, ratio):
+    return 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.02 * ratio
+
+
+def together(n_p, ratio):
+    return 0.6 + 0.05 * np.log(n_p / (6.0 * ratio)) ** 2
+
+
+def test_size_and_contact_that_add_up_leave_nothing():
+    found = friction.friction_map(sizes_and_distances(added))
+    shares = friction.explained(found)
+    assert shares["both"].mean == pytest.approx(1.0, abs=1e-4)
+    assert shares["size"].high < 0.999
+    assert shares["contact"].high < 0.9
+    assert max(map(abs, friction.residuals(found).values())) < 3e-4
+
+
+def test_what_size_and_contact_do_only_together_is_left():
+    found = friction.friction_map(sizes_and_distances(together))
+    assert friction.explained(found)["both"].high < 0.99
+    assert max(map(abs, friction.residuals(found).values())) > 1e-2
+
+
+def test_the_page_has_the_lowest_friction_of_each_contact_fraction():
+    sentence, table = friction.QUESTION.answers(sizes_and_distances(together))
+    assert "both added" in sentence
+    places = [float(line.split("|")[4].split("[")[0]) for line in table.splitlines()[2:]]
+    np.testing.assert_allclose(places, (3.0, 6.0, 12.0), rtol=0.05)

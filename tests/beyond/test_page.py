@@ -1,0 +1,39 @@
+"""The page has every question, answered or not."""
+
+import pytest
+
+from beyond.made_up import lean
+from springblock.beyond import QUESTIONS, clusters, friction, lattice, scatter, variance
+from springblock.beyond.page import page
+from springblock.beyond.question import by_scene
+from springblock.scene import Scene
+
+
+def test_questions_without_realisations_say_what_they_need():
+    text = page(QUESTIONS, {})
+    assert text.count("**Not answered**: this needs the group") == len(QUESTIONS)
+    assert all(f"## {i}. {each.title}\n" in text for i, each in enumerate(QUESTIONS, 1))
+
+
+def test_lines_fit_a_screen_but_for_tables_and_answers():
+    assert all(len(line) <= 100 for line in page(QUESTIONS, {}).splitlines())
+
+
+@pytest.mark.parametrize("surfaces", [friction.friction_map, lattice.layers, scatter.by_scatter])
+def test_grooves_without_pillars_are_no_pillars(surfaces):
+    grooved = Scene(120, n_p2=8, n_s2=2)
+    assert not surfaces({grooved: lean(grooved, 0.7, runs=10)})
+
+
+def test_grooves_without_pillars_are_no_flat_surface():
+    made = {(scene := Scene(n, n_p2=8, n_s2=2)): lean(scene, 0.7) for n in (20, 40, 60)}
+    assert not variance.by_pattern(made)
+    assert not clusters.surfaces(made)
+
+
+def test_realisations_are_sorted_by_scene():
+    first, second = Scene(10), Scene(20)
+    mixed = [*lean(first, 0.7), *lean(second, 0.8), *lean(first, 0.6)]
+    found = by_scene(mixed)
+    assert list(found) == [first, second]
+    assert [len(runs) for runs in found.values()] == [10, 5]

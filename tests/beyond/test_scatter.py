@@ -1,0 +1,145 @@
+"""Clusters, the direction of sliding, scatter of thresholds, and variance."""
+
+import numpy as np
+import pytest
+
+from beyond.made_up import T_MAX, ensemble, lean, record
+from springblock.beyond import clusters, scatter, sliding, variance
+from springblock.scene import Scene
+
+FLAT = Scene(40)
+
+
+def before(mask, seed=0, scene=FLAT):
+    """A run in which these blocks detach before the force maximum."""
+    return record(scene, seed, np.where(mask, 0.9, 1.1) * T_MAX, 0.7)
+
+
+def test_neighbours_along_the_axes_are_one_cluster():
+    mask = np.zeros((40, 40), bool)
+    mask[3, 3:7] = mask[4, 6] = True  # five, round a corner
+    mask[10, 10] = mask[11, 11] = True  # two, which touch at a corner only
+    assert sorted(clusters.cluster_sizes(mask)) == [1, 1, 5]
+    assert clusters.mean_size(mask) == pytest.approx((25 + 1 + 1) / 7)
+    assert np.isnan(clusters.mean_size(np.zeros_like(mask)))
+
+
+def test_blocks_strewn_anywhere_cluster_as_chance_has_it(rng):
+    found = clusters.clusters([before(rng.random((40, 40)) < 0.3, seed) for seed in range(30)])
+    for ratio in (found.ratio, found.ratio_mixed):
+        assert abs(ratio.mean - 1.0) < 2.0 * (ratio.high - ratio.low)
+        assert ratio.high - ratio.low < 0.15
+
+
+def clumps(rng):
+    """Squares of 2 x 2 blocks at random."""
+    return np.kron(rng.random((20, 20)) < 0.1, np.ones((2, 2))).astype(bool)
+
+
+def test_clumps_at_random_places_are_larger_than_by_chance(rng):
+    found = clusters.clusters([before(clumps(rng), seed) for seed in range(20)])
+    assert found.ratio.low > 1.5
+    assert found.ratio_mixed.low > 1.5
+
+
+def test_clumps_that_never_move_are_no_company(rng):
+    """They cluster more than blocks anywhere, but no more than these places do."""
+    always = clumps(rng)
+    found = clusters.clusters([before(always, seed) for seed in range(20)])
+    assert found.ratio.low > 1.5
+    np.testing.assert_allclose(found.ratio_mixed, 1.0)
+
+
+def test_the_page_counts_surfaces_with_larger_clusters(rng):
+    made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
+    anywhere, places, table = clusters.QUESTION.answers(made)
+    assert "on 1 of 1 surfaces" in anywhere
+    assert "on 1 of 1 surfaces" in places
+    assert "| flat |" in table
+
+
+def along_grooves(lengths):
+    """Grooved pillars whose times are correlated as far as given, by sliding direction."""
+    found = {}
+    for direction, length in lengths.items():
+        scene = (
+            Scene(60, 28, 32, 5, 2, direction=direction)
+            if False
+            else Scene(60, 28, 32, 8, 2, direction=direction)
+        )
+        found[scene] = ensemble(scene, length=length, runs=30)
+    return found
+
+
+def test_correlation_is_found_by_direction():
+    found = sliding.by_angle(along_grooves({"y": 0.3, "x": 5.0, "45": 2.0}))
+    assert list(found) == [0.0, 45.0, 90.0]
+    for angle, length in ((0.0, 5.0), (45.0, 2.0), (90.0, 0.3)):
+        for times in sliding.edges(found[angle]).values():
+            close, far = (sliding.at(times, r) for r in (1, 3))
+            assert close.low < np.exp(-1.0 / length) < close.high
+            assert far.low - 0.05 < np.exp(-3.0 / length) < far.high + 0.05
+
+
+def test_the_page_tells_along_from_across():
+    sides, grooves, table = sliding.QUESTION.answers(along_grooves({"x": 5.0, "45": 2.0, "y": 0.3}))
+    assert ", below " in sides
+    assert ", below " in grooves
+    assert len(table.splitlines()) == 8
+    same = along_grooves({"x": 2.0, "45": 2.0, "y": 2.0})
+    assert all(
+        "not told apart" in sentence for sentence in list(sliding.QUESTION.answers(same))[:2]
+    )
+
+
+def scattered(length, best=lambda std: 10.0):
+    """Pillars whose l_c and whose friction-minimising n_p follow the scatter."""
+    found = {}
+    for std in (0.05, 0.1, 0.2):
+        varied = () if std == 0.1 else (("mu_static_std", std),)
+        for n_p in (4, 10, 20):
+            scene = Scene(80, n_p, n_p, varied=varied)
+            height = 0.7 + 0.02 * np.log(n_p / best(std)) ** 2
+            found[scene] = ensemble(scene, height, length(std), runs=25)
+    return found
+
+
+@pytest.mark.parametrize("exponent", [-0.5, 0.0])
+def test_the_power_of_the_scatter_is_found_again(exponent):
+    made = scatter.by_scatter(scattered(lambda std: 3.0 * (std / 0.1) ** exponent))
+    assert scatter.long_enough(made) == [10, 20]
+    found = scatter.exponent(scatter.fits(made, 20))
+    assert found.low <= exponent <= found.high
+    assert found.high - found.low < 0.8
+
+
+def test_the_page_has_a_row_for_each_scatter():
+    first, second, table = scatter.QUESTION.answers(scattered(lambda std: 3.0))
+    assert first.startswith("**l_c on pillars with n_p = 10**")
+    assert second.startswith("**l_c on pillars with n_p = 20**")
+    places = [float(line.split("|")[4].split("[")[0]) for line in table.splitlines()[2:]]
+    np.testing.assert_allclose(places, 10.0, rtol=0.1)
+
+
+def of_sizes(power, runs=200):
+    """Flat surfaces whose variance goes with n^-power."""
+    found = {}
+    for n in (10, 20, 40):
+        scatter = 0.1 * float(n**2) ** (-power / 2.0)
+        found[Scene(n)] = lean(Scene(n), 0.7, runs, scatter)
+    return found
+
+
+@pytest.mark.parametrize("power", [1.0, 0.5])
+def test_the_exponent_of_the_variance_is_found_again(power):
+    """With 200 runs a variance has an error of a tenth, the exponent one of 0.05."""
+    sizes = variance.by_pattern(of_sizes(power))[0, 0]
+    found = variance.exponent(sizes)
+    assert found.low <= power <= found.high
+    assert found.high - found.low < 0.3
+
+
+def test_the_page_says_whether_blocks_are_independent():
+    assert ", as that of independent" in next(variance.QUESTION.answers(of_sizes(1.0)))
+    assert ", unlike that of independent" in next(variance.QUESTION.answers(of_sizes(0.4)))
+    assert not list(variance.QUESTION.answers({Scene(10): lean(Scene(10), 0.7)}))
