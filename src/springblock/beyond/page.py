@@ -12,9 +12,9 @@ the layer, 10 µm each in the paper. Numbers stand with their 95 % intervals ove
 Exponents, correlation lengths, minima, variances, differences and shares of variance have
 bias-corrected and accelerated bootstrap intervals (BCa), with 1000 resamples of every ensemble by
 itself; those of means and of c(r) are what `docs/claims.md` says of means and of c(r). What begins
-in bold follows from the intervals beside it, read one by one. Questions and methods took shape while
-results came in: these are findings for others to test, not verdicts. Fewer than three realisations
-have no interval, fewer than ten no correlation.
+in bold follows from the intervals beside it, read one by one. Questions and methods took shape
+while results came in: these are findings for others to test, not verdicts. Fewer than three
+realisations have no interval, fewer than ten no correlation.
 
 {sections}
 """

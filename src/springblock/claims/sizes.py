@@ -43,7 +43,7 @@ _RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relev
 _EXAMPLE = 20  #: n_p of the paper's example of a pillar, figure 5
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _BOTH = "realisations of the flat surface and of pillars with n_p of 6 or more"
-_SIZES = "realisations of pillars of three sizes or more"
+_SIZES = "realisations of pillars of three sizes or more, from n_p = 3 or less on"
 
 
 def warning(run: Run) -> float:
@@ -125,8 +125,9 @@ def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _of_several_sizes(scenes: Iterable[Scene]) -> list[list[Scene]]:
-    """Families of three sizes or more."""
-    return [family for family in families(scenes) if len(family) >= 3]
+    """Families of three sizes or more, the smallest of which the paper takes for flat surfaces."""
+    found = [family for family in families(scenes) if len(family) >= 3]
+    return [family for family in found if family[0].n_p < SMALLEST]
 
 
 def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
