@@ -41,7 +41,8 @@ bench bench-release: setup
 docs: setup
 	$(BIN)/snakemake production
 	$(BIN)/snakemake accuracy claims beyond
-	cp results/accuracy.md results/claims.md results/beyond.md docs
+	$(BIN)/snakemake figure_6
+	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
 
 setup: $(VENV)/installed
 
