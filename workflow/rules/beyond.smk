@@ -4,13 +4,6 @@
 BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles"]
 
 
-def simulated_beyond(wildcards):
-    """Realisations beyond the paper; there must be some."""
-    if not ensembles("beyond/"):
-        raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
-    return batches(ensembles("beyond/"))
-
-
 rule beyond_page:
     input:
         simulated_beyond,

@@ -55,6 +55,13 @@ def ensembles(part):
     return list(dict.fromkeys(chain.from_iterable(ENSEMBLES[group] for group in PARTS[part])))
 
 
+def simulated_beyond(wildcards):
+    """Realisations beyond the paper; there must be some."""
+    if not ensembles("beyond/"):
+        raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
+    return batches(ensembles("beyond/"))
+
+
 def scene(wildcards):
     """The scene of a job, as options of its command."""
     return ENSEMBLE[wildcards.scene].scene.arguments
