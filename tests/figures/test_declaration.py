@@ -149,7 +149,7 @@ def test_captions_say_what_a_study_draws(config, groups):
                 assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
             if need.scene:
                 size = rf"N = [\d, ]*\b{need.scene.n_blocks}\b"
-                    assert re.search(size, caption), (name, need.scene.n_blocks)
+                assert re.search(size, caption), (name, need.scene.n_blocks)
                 assert "Material of the paper." in caption
 
 
