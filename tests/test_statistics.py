@@ -10,6 +10,7 @@ from springblock import Pattern
 from springblock.statistics import (
     bootstrap_interval,
     bootstrap_weights,
+    cluster_sizes,
     common_curve,
     difference_interval,
     half_widths,
@@ -305,3 +306,10 @@ def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
     wider = students_t(9) / students_t(39)
     assert widths[10] / widths[40] == pytest.approx(2.0 * wider, rel=0.1)
     assert widths[40] == pytest.approx(students_t(39) / 40**0.5, rel=0.1)
+
+
+def test_clusters_hold_neighbours_and_corners_if_asked():
+    blocks = np.array([[1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0], [1, 0, 0, 0]], bool)
+    assert sorted(cluster_sizes(blocks)) == [1, 1, 2]
+    assert sorted(cluster_sizes(blocks, by_corners=True)) == [1, 3]
+    assert not cluster_sizes(np.zeros((3, 3), bool)).size

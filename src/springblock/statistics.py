@@ -317,6 +317,17 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
     }
 
 
+def cluster_sizes(blocks: NDArray[np.bool_], by_corners: bool = False) -> NDArray[np.intp]:
+    """Sizes of the clusters of a mask, (N, N), in blocks: those side by side belong together.
+
+    Those that touch `by_corners` do as well, if asked.
+    """
+    from scipy.ndimage import label  # slow to load, and most jobs do without
+
+    places, _ = label(blocks, structure=np.ones((3, 3)) if by_corners else None)
+    return np.bincount(places.ravel())[1:]
+
+
 def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray[np.intp]:
     """Find the peaks of a force curve, (n,), under load; their indices.
 

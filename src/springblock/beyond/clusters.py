@@ -10,19 +10,12 @@ from numpy.typing import NDArray
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.rows import markdown_table
 from springblock.scene import Scene
-from springblock.statistics import Interval, mean_interval
+from springblock.statistics import Interval, cluster_sizes, mean_interval
 from springblock.tables import Record
 
 Mask = NDArray[np.bool_]
 _SHUFFLES = 20
 _GROOVED = (58, 8, 0)  #: n_p, n_p2 and n_p3 of the paper's grooved pillars
-
-
-def cluster_sizes(detached: Mask) -> NDArray[np.intp]:
-    """Sizes of the clusters of a mask, (N, N), in blocks: 4 neighbours belong together."""
-    from scipy.ndimage import label  # slow to load
-
-    return np.bincount(label(detached)[0].ravel())[1:]
 
 
 def mean_size(detached: Mask) -> float:

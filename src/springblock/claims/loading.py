@@ -20,6 +20,7 @@ from springblock.claims.samples import (
 )
 from springblock.run import Run
 from springblock.scene import Scene
+from springblock.statistics import cluster_sizes
 
 _FRONT = 20  #: blocks that detach side by side before they count as a front
 _LATE = 1e-6  #: s after t_max at which fronts are counted
@@ -31,18 +32,10 @@ _LOADED = "flat surfaces with other constants"
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 
 
-def clusters(run: Run, time: float) -> list[int]:
-    """Sizes of the clusters of blocks detached by a time in s, side by side or by their corners."""
-    from scipy.ndimage import label  # slow to load, and few claims need it
-
-    places, _ = label(run.t_det <= time, structure=np.ones((3, 3)))  # NaN: never
-    sizes: list[int] = np.bincount(places.ravel())[1:].tolist()
-    return sizes
-
-
 def fronts(run: Run) -> float:
     """Number of fronts just after t_max."""
-    return float(sum(size > _FRONT for size in clusters(run, run.t_max + _LATE)))
+    sizes = cluster_sizes(run.t_det <= run.t_max + _LATE, by_corners=True)  # NaN: never
+    return float(np.count_nonzero(sizes > _FRONT))
 
 
 def first_front(run: Run) -> float:
@@ -51,7 +44,7 @@ def first_front(run: Run) -> float:
     low, high = 0, len(times) - 1
     while low < high:
         middle = (low + high) // 2
-        if max(clusters(run, times[middle])) > _FRONT:
+        if cluster_sizes(run.t_det <= times[middle], by_corners=True).max() > _FRONT:
             high = middle
         else:
             low = middle + 1
@@ -66,7 +59,8 @@ def swing(run: Run) -> float:
 
 def varied(evidence: Evidence, *names: str) -> list[Scene]:
     """Flat surfaces with these constants, and no others but the step, of their own; in order."""
-    found = [s for s in evidence.records if not s.level and s.n_blocks == _paper(evidence)]
+    size = _paper(evidence)
+    found = [s for s in evidence.records if not s.level and s.n_blocks == size]
     alike = [s for s in found if {name for name, _ in s.varied} - {"step"} == set(names)]
     return sorted(alike, key=lambda scene: scene.varied)
 

@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 
 from springblock.beyond.clusters import (
     Mask,
-    cluster_sizes,
     mixed,
     precursors,
     shuffled,
@@ -27,6 +26,7 @@ from springblock.figures.declaration import Declaration, Realisations
 from springblock.figures.ensembles import pillar_look, pillar_name
 from springblock.figures.style import GREY, journal
 from springblock.figures.sweeps import shades
+from springblock.statistics import cluster_sizes
 from springblock.tables import Record
 
 FIGURE = Declaration(
