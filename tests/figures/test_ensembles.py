@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 
 from springblock import Pattern
 from springblock.figures import figure_5, figure_6, figure_9
-from springblock.figures.ensembles import pillar_look
+from springblock.figures.ensembles import SINGLE, draw_runs, pillar_look
 from springblock.scene import Scene
+from springblock.statistics import whole_curve
 from springblock.tables import Record
 
 SIZE = 6
@@ -155,6 +156,12 @@ def test_figure_9_shows_every_single_run():
             ended = np.isnan(line[:, 1])
             assert len(run.time) == np.count_nonzero(~ended)
             np.testing.assert_allclose(line[~ended, 1], run.force / NORMAL_FORCE)
+
+
+def test_no_more_single_runs_are_shown_than_can_be_told_apart():
+    ax = Figure().subplots()
+    draw_runs(ax, whole_curve(ensemble(100e-6) * 6), "black")  # 24 runs
+    assert len(ax.get_lines()) == SINGLE == 20
 
 
 def test_curves_go_on_past_the_shortest_run():

@@ -23,6 +23,7 @@ from springblock.statistics import (
 )
 
 _BAND = 0.25  #: opacity of the intervals
+SINGLE = 20  #: runs of an ensemble that are shown one by one, at most
 _BIN = 2e-6  #: s, width of the bins of detachments
 #: Bars over intervals.
 BAR: dict[str, Any] = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8}
@@ -70,9 +71,9 @@ def _length_of_all(curve: Curve) -> int:
 
 
 def draw_runs(ax: Axes, curve: Curve, color: Any) -> None:
-    """Draw the force of every single run, up to its own end."""
+    """Draw the force of single runs, up to their own end: of the first `SINGLE`, lest they blot."""
     thin: Look = {"linewidth": 0.3, "alpha": 0.4, "zorder": 1.0}
-    ax.plot(MICRO * curve.time, curve.friction.T, color=color, **thin)
+    ax.plot(MICRO * curve.time, curve.friction[:SINGLE].T, color=color, **thin)
 
 
 def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> None:

@@ -14,6 +14,7 @@ from springblock.figures.declaration import INTERVALS, Declaration, Realisations
 from springblock.figures.ensembles import (
     ENDS,
     FORCE,
+    SINGLE,
     Runs,
     direction_color,
     draw_detachments,
@@ -33,10 +34,11 @@ FIGURE = Declaration(
     category="Figures",
     caption=f"""Friction force over the normal force, at the left, and share of first detachments in
     each bin, at the right, on pillars with grooves, for each sliding direction; a row for each
-    width of pawls and grooves, n_p2/n_s2. Thin lines: single runs; thick ones: means with
-    {INTERVALS}. The panels begin where a force has reached 80 % of its maximum; before, it grows
-    with time. {ENDS} Triangles are load peaks of the mean as long as all runs go on: those that
-    stand out by more than two standard errors and 1 % of the largest force, and reach 90 % of it.
+    width of pawls and grooves, n_p2/n_s2. Thin lines: single runs, the first {SINGLE};
+    thick ones: means with {INTERVALS}. The panels begin where a force has reached 80 % of its
+    maximum; before, it grows with time. {ENDS} Triangles are load peaks of the mean as long as
+    all runs go on: those that stand out by more than two standard errors and 1 % of the largest
+    force, and reach 90 % of it.
     Figure 9 of the paper, which does not give its sizes.""",
     source=Realisations(groups=("grooves",), keys=("n_p2", "n_s2", "direction")),
 )
