@@ -87,20 +87,21 @@ def test_each_size_of_pillars_may_have_its_own_number_of_seeds():
 
 def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
     both = {"n_p": [6, 20], "n_s": [20, "n_p"], "direction": ["x"], "seeds": [500, 7]}
-    groups = ensembles(changed("scenes", "more", to=both))
-    assert len(groups["more"]) == 3  # n_s = n_p = 20 occurs twice
-    shared = set(groups["more"]) & set(groups["pillars"])
+    groups = ensembles(changed("scenes", "both", to=both))
+    assert len(groups["both"]) == 3  # n_s = n_p = 20 occurs twice
+    shared = set(groups["both"]) & set(groups["pillars"])
     assert {(e.scene.n_p, len(e.seeds)) for e in shared} == {(6, 500), (20, 60)}
     whole, decimal = ({"direction": [angle], "seeds": 1} for angle in (15, 15.0))
     assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
 
 
-def test_a_scene_of_the_study_is_not_changed_by_what_goes_beyond_it():
-    small = {"n_p": [10], "n_s": [10], "direction": ["x"], "seeds": 3}
-    large = small | {"n_p": [20, 10], "seeds": 500}
-    groups = ensembles(PAPER | {"scenes": {"few": small}, "beyond": {"many": large}})
-    assert [len(e.seeds) for e in groups["many"]] == [500, 3]
-    assert groups["many"][1] == groups["few"][0]
+def test_a_scene_of_the_study_may_be_pulled_more_often_beyond_it_and_never_less():
+    few = {"n_p": [10, 6], "n_s": [10], "direction": ["x"], "seeds": [3, 30], "duration": 3e-4}
+    many = {"n_p": [20, 10, 6], "n_s": [10], "direction": ["x"], "seeds": [5, 500, 4]}
+    groups = ensembles(PAPER | {"scenes": {"few": few}, "beyond": {"many": many}})
+    assert [len(e.seeds) for e in groups["few"]] == [3, 30]  # whatever goes beyond
+    assert [len(e.seeds) for e in groups["many"]] == [5, 500, 30]
+    assert [e.duration for e in groups["many"]] == [None, 3e-4, 3e-4]
 
 
 def test_a_group_may_be_left_out():
@@ -162,10 +163,10 @@ def test_any_change_changes_the_digest():
         (("scenes", "third_level", 0, "n_p3"), [9], "third_level: pawls of 9 .* do not fill"),
         (("scenes", "third_level", 0, "np"), [9], "third_level.0 has the unknown key 'np'"),
         (("scenes", "third_level", 1, "along_3"), "z", "third_level.1.along_3 is not valid: 'z'"),
-        (("scenes", "loading"), [], "scenes.loading is not valid"),
-        (("scenes", "loading", 0, "material", "speed"), [1.0], "material has the unknown key"),
-        (("scenes", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
-        (("scenes", "loading", 0, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
+        (("beyond", "loading"), [], "beyond.loading is not valid"),
+        (("beyond", "loading", 0, "material", "speed"), [1.0], "material has the unknown key"),
+        (("beyond", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
+        (("beyond", "loading", 4, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
         (("beyond", "flat"), {"direction": ["x"], "seeds": 1}, "beyond.flat: scenes has a group"),
         (
             ("beyond", "more"),

@@ -208,6 +208,19 @@ def test_errors_at_full_size_belong_to_the_study_once_they_are_there(study):
     assert "realisations.parquet --production measured/tables/production.parquet" in commands
 
 
+def test_claims_rest_on_what_goes_beyond_the_paper_once_it_is_there(study):
+    table = study / "simulated/tables/beyond/realisations.parquet"
+    options = ("--config", "results=simulated", "--printshellcmds")
+    alone = planned(study, *options, **WHOLE)
+    table.parent.mkdir(parents=True)
+    table.touch()
+    assert planned(study, *options, **WHOLE)["simulate_batch"] > alone["simulate_batch"]
+    commands = snakemake(study, "--dry-run", *options, **WHOLE).stdout
+    for option in ("realisations", "correlation"):
+        tables = [f"--{option} simulated/tables/{part}{option}.parquet" for part in ("", "beyond/")]
+        assert " ".join(tables) in commands
+
+
 def test_every_step_can_be_planned_by_its_name(study):
     """Where many jobs share a step, they are named after it and one of them: simulate_batch."""
     rules, steps = (

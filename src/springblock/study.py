@@ -1,8 +1,8 @@
 """The study's configuration: checked, and expanded into scenes and batches of seeds."""
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -106,38 +106,37 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """Expand each group of scenes into its grids, by the group's name; those beyond the paper last.
 
-    A scene that several of them hold is one ensemble, with the largest number of seeds; but what
-    goes beyond the study takes a scene of the study as it is.
+    A scene that several of them hold is one ensemble, with the largest number of seeds. What goes
+    beyond the study may pull a scene of it more often, never less, and changes nothing in it.
 
     Raises
     ------
     ValueError
         With the name of the group, where its lists do not fit together.
     """
-    groups: dict[str, list[Ensemble]] = {}
+    found: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
     for part in ("scenes", "beyond"):
-        study = frozenset(largest)
+        study, groups = dict(largest), dict[str, list[Ensemble]]()
         for group, grids in configuration[part].items():
-            if group in groups:
+            if group in found:
                 raise ValueError(f"{part}.{group}: scenes has a group of this name")
             with _named(configuration, group):
                 parts = grids if isinstance(grids, list) else [grids or {}]
                 groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
             for ensemble in groups[group]:
                 _keep_largest(largest, ensemble, study)
-    return {
-        group: list(dict.fromkeys(largest[ensemble.scene] for ensemble in members))
-        for group, members in groups.items()
-    }
+        for group, members in groups.items():
+            found[group] = list(dict.fromkeys(largest[each.scene] for each in members))
+    return found
 
 
 def _keep_largest(
-    largest: dict[Scene, Ensemble], ensemble: Ensemble, untouched: Container[Scene]
+    largest: dict[Scene, Ensemble], ensemble: Ensemble, study: Mapping[Scene, Ensemble]
 ) -> None:
     scene = ensemble.scene
-    if scene in untouched:
-        return
+    if scene in study:
+        ensemble = replace(ensemble, duration=study[scene].duration)
     known = largest.setdefault(scene, ensemble)
     if known.duration != ensemble.duration:
         raise ValueError(f"scenes: {scene.folder} is given two durations")

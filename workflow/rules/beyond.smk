@@ -6,8 +6,7 @@ BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles"]
 
 rule beyond_page:
     input:
-        simulated_beyond,
-        batches(ensemble for group in BEYOND_GROUPS for ensemble in ENSEMBLES.get(group, [])),
+        lambda wildcards: simulated_beyond(BEYOND_GROUPS),
     output:
         f"{RESULTS}/beyond.md",
     log:

@@ -1,21 +1,29 @@
 # What becomes of the paper's statements.
 
-#: Tables that claims rest on beside the realisations, by the option that takes them.
-CLAIM_TABLES = dict(zip(("correlation", "correlation-length"), CORRELATIONS, strict=True))
+#: What goes beyond the paper decides claims, too, once it has been simulated.
+SIMULATED = Path(f"{RESULTS}/tables/beyond/realisations.parquet").exists()
+CLAIM_PARTS = ["", "beyond/"] if SIMULATED and ensembles("beyond/") else [""]
+#: Tables that claims rest on, by the option that takes them.
+CLAIM_TABLES = {
+    option: expand(f"{RESULTS}/tables/{{part}}{table}.parquet", part=CLAIM_PARTS)
+    for option, table in {
+        "realisations": "realisations",
+        "correlation": "correlation",
+        "correlation-length": "correlation_length",
+    }.items()
+}
 if config["accuracy"]:
-    CLAIM_TABLES["precision"] = rules.precision_table.output[0]
+    CLAIM_TABLES["precision"] = rules.precision_table.output
 #: Groups whose realisations and preludes claims rest on.
-CLAIM_GROUPS = ("flat", "loading", "pillars", "small_pillars", "grooves", "groove_lengths")
-CLAIM_GROUPS += ("angles", "third_level", "one_level")
-CLAIM_ENSEMBLES = list(
-    dict.fromkeys(ensemble for group in CLAIM_GROUPS for ensemble in ENSEMBLES.get(group, []))
-)
+CLAIM_GROUPS = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
+if "beyond/" in CLAIM_PARTS:
+    CLAIM_GROUPS += ["loading", "groove_lengths", "one_level", "more"]
+CLAIM_ENSEMBLES = ensembles(CLAIM_PARTS[-1], CLAIM_GROUPS)
 
 
 rule claims:
     input:
         *CLAIM_TABLES.values(),
-        table=rules.aggregate.input,
         batches=batches(CLAIM_ENSEMBLES),
         preludes=[
             f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
@@ -38,11 +46,14 @@ rule claims:
         preludes=lambda wildcards, input: " ".join(
             f"--prelude {quote(file)}" for file in input.preludes
         ),
-        tables=" ".join(f"--{option} {quote(table)}" for option, table in CLAIM_TABLES.items()),
+        tables=" ".join(
+            f"--{option} {quote(table)}"
+            for option, tables in CLAIM_TABLES.items()
+            for table in tables
+        ),
     message:
         "Testing the paper's statements"
     shell:
-        "springblock claims {input.batches:q} --realisations {input.table:q} "
-        "{params.tables} {params.preludes} "
+        "springblock claims {input.batches:q} {params.tables} {params.preludes} "
         "--configuration {params.configuration} --output {output.table:q} --page {output.page:q} "
         "> {log:q} 2>&1"

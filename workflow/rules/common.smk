@@ -28,8 +28,12 @@ CORRELATIONS = expand(
 ENSEMBLES = study.ensembles(config)
 #: Groups of the study and of what goes beyond the paper, by the folder of their tables.
 PARTS = {"": config["scenes"], "beyond/": config["beyond"]}
-#: The ensemble in each folder of realisations.
-ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
+#: The ensemble in each folder of realisations; what goes beyond the paper also draws on the study.
+ENSEMBLE = {
+    part: {each.scene.folder: each for group in groups for each in ENSEMBLES[group]}
+    for part, groups in {"": config["scenes"], "beyond/": ENSEMBLES}.items()
+}
+EVERY = ENSEMBLE["beyond/"]
 #: Scenes by group.
 SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
 #: What figures declare whose groups of scenes the configuration simulates.
@@ -42,63 +46,72 @@ os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.ge
 
 
 def batches(members):
-    """Files that hold the realisations of these ensembles, each once."""
+    """Files that hold the realisations of these ensembles."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
-        for ensemble in dict.fromkeys(members)
+        for ensemble in members
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
 
 
-def ensembles(part):
-    """Ensembles of a part of the study, each once."""
-    return list(dict.fromkeys(chain.from_iterable(ENSEMBLES[group] for group in PARTS[part])))
+def ensembles(part, groups=None):
+    """Ensembles of a part of the study, each once: of its own groups, or of these."""
+    members = chain.from_iterable(ENSEMBLES.get(group, []) for group in groups or PARTS[part])
+    return list(dict.fromkeys(ENSEMBLE[part][each.scene.folder] for each in members))
 
 
-def simulated_beyond(wildcards):
-    """Realisations beyond the paper; there must be some."""
+def simulated_beyond(groups):
+    """Realisations beyond the paper, of which there must be some, and of these groups."""
     if not ensembles("beyond/"):
         raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
-    return batches(ensembles("beyond/"))
+    return batches(ensembles("beyond/", [*groups, *PARTS["beyond/"]]))
 
 
 def scene(wildcards):
     """The scene of a job, as options of its command."""
-    return ENSEMBLE[wildcards.scene].scene.arguments
+    return EVERY[wildcards.scene].scene.arguments
 
 
 def duration(wildcards):
-    seconds = ENSEMBLE[wildcards.scene].duration
+    seconds = EVERY[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
 
 
 def memory(wildcards):
     """MB, measured with a margin: a part that is always there and one for the lattice."""
-    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
+    return 300 + (EVERY[wildcards.scene].scene.n_blocks // 12) ** 2
 
 
 def correlations(table, part):
     """Files that hold a table of correlations for each ensemble of a part that has sides."""
     scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
-    return [f"{RESULTS}/correlations/{scene.folder}/{table}.parquet" for scene in scenes]
+    return [f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet" for scene in scenes]
+
+
+def part_of(figure):
+    """The part of the study that a figure shows."""
+    return "beyond/" if FIGURES[figure].category == "Beyond" else ""
 
 
 def needed(figure):
     """Files that a figure is drawn from."""
-    lengths = config["figures"].get(figure, {})
+    lengths, part = config["figures"].get(figure, {}), part_of(figure)
     for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
         if scene is None:
             yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
-            yield from batches([ENSEMBLE[scene.folder]])[:number]
+            yield from batches([ENSEMBLE[part][scene.folder]])[:number]
         else:
-            yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
+            yield f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet"
 
 
 def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
-    lengths = config["figures"].get(figure, {})
-    return FIGURES[figure].caption_in(ENSEMBLES, lengths, Material(**config["material"]))
+    lengths, part = config["figures"].get(figure, {}), part_of(figure)
+    members = {
+        group: ensembles(part, [group]) for group in ENSEMBLES if part or group in PARTS[part]
+    }
+    return FIGURES[figure].caption_in(members, lengths, Material(**config["material"]))
 
 
 def is_part_of_all(figure):

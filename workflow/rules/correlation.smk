@@ -1,20 +1,20 @@
 rule correlation_scene:
     input:
-        lambda wildcards: batches([ENSEMBLE[wildcards.scene]]),
+        lambda wildcards: batches([ENSEMBLE[wildcards.part][wildcards.scene]]),
     output:
-        correlation=f"{RESULTS}/correlations/{{scene}}/correlation.parquet",
-        length=f"{RESULTS}/correlations/{{scene}}/correlation_length.parquet",
+        correlation=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation.parquet",
+        length=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation_length.parquet",
     log:
-        f"{RESULTS}/logs/{{scene}}/correlation.log",
+        f"{RESULTS}/logs/{{part}}{{scene}}/correlation.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/correlation.tsv"
+        f"{RESULTS}/benchmarks/{{part}}{{scene}}/correlation.tsv"
     resources:
         mem_mb=800,
         runtime=5,
     params:
         code=sources.digest("springblock.commands.correlation"),
     message:
-        "Correlating detachment times along the sides of {wildcards.scene}"
+        "Correlating detachment times along the sides of {wildcards.part}{wildcards.scene}"
     shell:
         "springblock correlation {input:q} --output-correlation {output.correlation:q} "
         "--output-length {output.length:q} > {log:q} 2>&1"

@@ -12,7 +12,7 @@ HOW = " ".join(
 
 
 wildcard_constraints:
-    scene="|".join(map(re.escape, ENSEMBLE)),
+    scene="|".join(map(re.escape, EVERY)),
     part="|".join(map(re.escape, PARTS)),
 
 

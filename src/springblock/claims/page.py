@@ -27,10 +27,11 @@ and grooved surfaces and on their preludes. Units are SI, lengths count blocks.
 
 ## The rule
 
-Every statement claims a range for some statistic, in one or several cases. The ranges were fixed
-before the numbers. Where the paper has words, all statements take them alike: what it says without
-exception means more than nine tenths, "most" more than half, "negligible" less than a tenth,
-"comparable" within a factor of two.
+Every statement claims a range for some statistic, in one or several cases. These are surfaces with
+twenty realisations or more: some are the study's, others `snakemake beyond` simulates, and the page
+takes up what is there. The ranges were fixed before the numbers. Where the paper has words, all
+statements take them alike: what it says without exception means more than nine tenths, "most" more
+than half, "negligible" less than a tenth, "comparable" within a factor of two.
 
 A finding *holds* where the interval of the statistic lies within the claimed range, *fails* where
 it lies wholly outside, and is *open* where it lies across an edge. Intervals that decide together
@@ -52,7 +53,7 @@ underpowered leaves it so. The statement, which is made of all its cases,
 - is **reproduced** where cases hold, none fails, and those still open are underpowered and fewer,
 - is **not settled** otherwise: nothing fails, and a case that could decide is open, or too many
   cannot,
-- is **not tested** where what it needs was not simulated or measured.
+- is **not tested** where what it needs was not simulated or measured, or not often enough.
 
 ## The intervals
 

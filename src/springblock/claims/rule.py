@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from statistics import median
+from typing import Any
 
 from springblock.rows import Row
 from springblock.run import Array
@@ -16,6 +17,7 @@ Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
 
+ENOUGH = 20  #: realisations from which on a surface is looked at by itself
 _DOUBT = 0.05  #: chance that one of the intervals of a statement misses its true value
 _POWER = 0.84  #: standard errors that four in five estimates stay below
 _MANY = 10**6  #: realisations beyond which nobody would go
@@ -32,6 +34,17 @@ class Evidence:
     #: Tangential force on each block before the first lets go, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
+
+
+def enough(found: Mapping[Scene, Sequence[Any]]) -> dict[Scene, Sequence[Any]]:
+    """Leave out scenes with less than 20 realisations, each one item or counted in a row."""
+    runs = {scene: _runs(items) for scene, items in found.items()}
+    return {scene: items for scene, items in found.items() if runs[scene] >= ENOUGH}
+
+
+def _runs(items: Sequence[Any]) -> int:
+    counted = isinstance(items[0], Mapping) and "realisations" in items[0]
+    return int(items[0]["realisations"]) if counted else len(items)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """springblock claims: what becomes of the paper's statements, as a table and as a page."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Container, Iterable
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
-from springblock.claims.rule import Evidence
+from springblock.claims.rule import Evidence, enough
 from springblock.claims.table import SCHEMA, rows
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.direction import heading
@@ -31,8 +31,20 @@ def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Sc
     return found
 
 
-def _rows(table: Path | None) -> list[Row]:
-    return [] if table is None else pq.read_table(table, partitioning=None).to_pylist()
+def _rows(table: Path) -> list[Row]:
+    return pq.read_table(table, partitioning=None).to_pylist()
+
+
+def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
+    """Rows of tables by scene: all of the first, of others those of the scenes of `records`.
+
+    A scene of two tables has the rows of the later one.
+    """
+    found: dict[Scene, list[Row]] = {}
+    for i, file in enumerate(files):
+        rows = _by_scene(_rows(file), Scene.from_row)
+        found |= {scene: rows[scene] for scene in rows if i == 0 or scene in records}
+    return found
 
 
 def _stress(preludes: Iterable[Path], scenes: Iterable[Scene]) -> dict[Scene, Array]:
@@ -49,29 +61,27 @@ def _stress(preludes: Iterable[Path], scenes: Iterable[Scene]) -> dict[Scene, Ar
     return found
 
 
+def _files(option: str, what: str, **more: Any) -> Callable[..., Any]:
+    return click.option(option, type=INPUT, multiple=True, help=f"{what} Can be repeated.", **more)
+
+
 @click.command("claims")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
-@click.option("--realisations", type=INPUT, required=True, help="Table of all realisations.")
-@click.option("--correlation", type=INPUT, help="Table of correlation functions.")
-@click.option("--correlation-length", type=INPUT, help="Table of correlation lengths.")
-@click.option(
-    "--prelude",
-    "preludes",
-    type=INPUT,
-    multiple=True,
-    help="Prelude of a scene of the realisations; can be repeated.",
-)
-@click.option("--precision", type=INPUT, help="Table of work and precision.")
+@_files("--realisations", "Table of all realisations of a part of the study.", required=True)
+@_files("--correlation", "Table of correlation functions.")
+@_files("--correlation-length", "Table of correlation lengths.")
+@_files("--prelude", "Prelude of a scene of the realisations.")
+@_files("--precision", "Table of work and precision.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 @click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
 def claims(
     batches: tuple[Path, ...],
-    realisations: Path,
-    correlation: Path | None,
-    correlation_length: Path | None,
-    preludes: tuple[Path, ...],
-    precision: Path | None,
+    realisations: tuple[Path, ...],
+    correlation: tuple[Path, ...],
+    correlation_length: tuple[Path, ...],
+    prelude: tuple[Path, ...],
+    precision: tuple[Path, ...],
     configuration: str,
     output: Path,
     text: Path,
@@ -80,12 +90,12 @@ def claims(
     with one_sentence():
         records = _by_scene(read_records(batches), attrgetter("scene"))
         evidence = Evidence(
-            records=records,
-            summaries=_by_scene(_rows(realisations), Scene.from_row),
-            correlation=_by_scene(_rows(correlation), Scene.from_row),
-            correlation_length=_by_scene(_rows(correlation_length), Scene.from_row),
-            stress=_stress(preludes, [scene for scene in records if not scene.varied]),
-            precision=_rows(precision),
+            records=enough(records),
+            summaries=enough(_tables(realisations, records)),
+            correlation=enough(_tables(correlation, records)),
+            correlation_length=enough(_tables(correlation_length, records)),
+            stress=_stress(prelude, [scene for scene in records if not scene.varied]),
+            precision=[row for table in precision for row in _rows(table)],
         )
         table = rows(CLAIMS, evidence)
         origin = {"code_version": code_version(__name__), "configuration_digest": configuration}
