@@ -60,6 +60,11 @@ class Prelude:
         n, mask, _, towards, *_ = json.loads(self.conditions)
         return json.dumps([n, mask, towards])
 
+    @property
+    def constants(self) -> dict[str, Any]:
+        """Constants of the material that was loaded, by name."""
+        return dict(json.loads(self.conditions)[2])
+
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
         parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}

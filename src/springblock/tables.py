@@ -86,6 +86,7 @@ _CONSTANTS = [name for name, _ in Material().items()]
 
 _SIDE = [
     *SCENE,
+    *SETUP,
     column(
         "side",
         pa.string(),
@@ -205,21 +206,53 @@ def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Ta
 
 
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
-    """Read the columns of `schema` from several files, one after another.
+    """Read the columns of `schema` from several files of one study, one after another.
 
     Raises
     ------
     ValueError
-        Where a file lacks a column, naming both.
+        Where a file lacks a column, naming both; or where two were computed differently.
     """
-    tables = []
+    tables, paths = [], list(paths)
     for path in paths:
         present = pq.read_schema(path)
         missing = [name for name in schema.names if name not in present.names]
         if missing:
             raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present.names}")
         tables.append(pq.read_table(path, columns=schema.names, partitioning=None).cast(schema))
+    refuse_mixture(zip(paths, tables, strict=True))
     return pa.concat_tables(tables)
+
+
+def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    """Refuse tables that were computed with different constants, given with the file of each.
+
+    Constants that a scene has of its own are part of the scene, and may differ.
+
+    Raises
+    ------
+    ValueError
+        With the name of the constant, both values and both files.
+    """
+    known: dict[str, tuple[Any, Path]] = {}
+    for path, table in tables:
+        for row in _constants(table):
+            own = {pair.partition("=")[0] for pair in row.pop("varied").split(", ")}
+            for name in [name for name in row if name not in own]:
+                value, (before, first) = row[name], known.setdefault(name, (row[name], path))
+                if value != before:
+                    raise ValueError(
+                        f"{name} is {before!r} in {first} and {value!r} in {path}: runs of "
+                        "different studies do not belong together"
+                    )
+
+
+def _constants(table: pa.Table) -> list[dict[str, Any]]:
+    """Each combination of constants in a table of scenes, and which are a scene's own."""
+    names = ["varied", *SETUP.names]
+    if not set(names) <= set(table.column_names):
+        return []
+    return table.group_by(names).aggregate([]).to_pylist()
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,7 +270,12 @@ class Record:
     t_max: float
     t_avg: float
     static_friction: float
-    material: Material = field(default_factory=Material)
+    constants: Mapping[str, Any] = field(default_factory=lambda: dict(Material().items()))
+
+    @property
+    def material(self) -> Material:
+        """The layer that was pulled."""
+        return Material(**{name: self.constants[name] for name in _CONSTANTS})
 
 
 def read_frame(path: Path) -> "pd.DataFrame":
@@ -266,7 +304,7 @@ def read_records(paths: Iterable[Path]) -> list[Record]:
                 t_max=row["t_max"][0].as_py(),
                 t_avg=row["t_avg"][0].as_py(),
                 static_friction=row["static_friction"][0].as_py(),
-                material=Material(**row.select(_CONSTANTS).to_pylist()[0]),
+                constants=row.select(SETUP.names).to_pylist()[0],
             )
         )
     return sorted(records, key=lambda record: record.seed)

@@ -1,7 +1,6 @@
 """Realisations made up so that the answer to each question is known."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from scipy.signal import lfilter
@@ -32,7 +31,7 @@ def record(scene: Scene, seed: int, t_det: np.ndarray, friction: float, hills=()
         t_max=T_MAX,
         t_avg=T_MAX,
         static_friction=friction,
-        material=replace(Material(), **dict(scene.varied)),
+        constants=dict(Material().items()) | dict(scene.varied),
     )
 
 

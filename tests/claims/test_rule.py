@@ -5,6 +5,7 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
+from beyond.made_up import record
 from springblock import compute_prelude
 from springblock.claims.page import page
 from springblock.claims.rule import (
@@ -221,7 +222,9 @@ def test_the_command_finds_the_scene_of_a_prelude(tmp_path):
     scenes = [Scene(12, 4, 2), Scene(12, 4, 2, direction="y")]
     file = tmp_path / "prelude.npz"
     compute_prelude(scenes[1].pattern.contact, direction="y").save(file)
-    found = _stress([file], scenes)
+    found = _stress(
+        [file], {scene: [record(scene, 0, np.zeros((12, 12)), 0.7)] for scene in scenes}
+    )
     assert list(found) == scenes[1:]
     field, contact = found[scenes[1]], scenes[1].pattern.contact
     assert np.isnan(field[~contact]).all()

@@ -1,12 +1,13 @@
 """springblock claims: what becomes of the paper's statements, as a table and as a page."""
 
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.claims import CLAIMS
@@ -21,7 +22,9 @@ from springblock.rows import Row
 from springblock.run import Array
 from springblock.scene import Scene
 from springblock.sources import code_version
-from springblock.tables import read_records, rows_to_table, write
+from springblock.tables import Record, read_records, refuse_mixture, rows_to_table, write
+
+Records = Mapping[Scene, Sequence[Record]]
 
 
 def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Scene, list[Any]]:
@@ -31,8 +34,8 @@ def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Sc
     return found
 
 
-def _rows(table: Path) -> list[Row]:
-    return pq.read_table(table, partitioning=None).to_pylist()
+def _read(file: Path) -> pa.Table:
+    return pq.read_table(file, partitioning=None)
 
 
 def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
@@ -42,22 +45,27 @@ def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, lis
     """
     found: dict[Scene, list[Row]] = {}
     for i, file in enumerate(files):
-        rows = _by_scene(_rows(file), Scene.from_row)
+        rows = _by_scene(_read(file).to_pylist(), Scene.from_row)
         found |= {scene: rows[scene] for scene in rows if i == 0 or scene in records}
     return found
 
 
-def _stress(preludes: Iterable[Path], scenes: Iterable[Scene]) -> dict[Scene, Array]:
+def _stress(preludes: Iterable[Path], records: Records) -> dict[Scene, Array]:
     """Tangential force on each block in the last state of a prelude, over its mean, by scene."""
     loaded = {prelude.surface: prelude for prelude in map(Prelude.read, preludes)}
     found = {}
-    for scene in scenes:
+    for scene, runs in records.items():
         contact = scene.pattern.contact
         prelude = loaded.get(surface(contact, heading(scene.direction)))
-        if prelude is not None:
-            found[scene] = np.full(contact.shape, np.nan)
-            force = np.sqrt(prelude.peak[-1])
-            found[scene][contact] = force / force.mean()
+        if prelude is None or scene.varied:
+            continue
+        for name, value in prelude.constants.items():
+            if runs[0].constants[name] != value:
+                ours = f"{runs[0].constants[name]!r} in its realisations"
+                raise ValueError(f"{name} is {value!r} in the prelude of {scene.folder}, {ours}")
+        found[scene] = np.full(contact.shape, np.nan)
+        force = np.sqrt(prelude.peak[-1])
+        found[scene][contact] = force / force.mean()
     return found
 
 
@@ -89,13 +97,15 @@ def claims(
     """Test the claims on BATCHES of realisations and on tables; a missing table tests none."""
     with one_sentence():
         records = _by_scene(read_records(batches), attrgetter("scene"))
+        tables = *realisations, *correlation, *correlation_length
+        refuse_mixture((file, _read(file)) for file in (batches[0], *tables))
         evidence = Evidence(
             records=enough(records),
             summaries=enough(_tables(realisations, records)),
             correlation=enough(_tables(correlation, records)),
             correlation_length=enough(_tables(correlation_length, records)),
-            stress=_stress(prelude, [scene for scene in records if not scene.varied]),
-            precision=[row for table in precision for row in _rows(table)],
+            stress=_stress(prelude, records),
+            precision=[row for table in precision for row in _read(table).to_pylist()],
         )
         table = rows(CLAIMS, evidence)
         origin = {"code_version": code_version(__name__), "configuration_digest": configuration}

@@ -50,7 +50,7 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
         raise ValueError(f"one scene is correlated, not {scene.folder} and {others.pop()}")
     if not scene.sides:
         raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
-    columns = scene.row | {"realisations": len(records)}
+    columns = {**scene.row, **records[0].constants, "realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
     if scene.level == 2 and scene.sides:

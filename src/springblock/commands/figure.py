@@ -20,6 +20,7 @@ from springblock.tables import (
     read,
     read_frame,
     read_records,
+    refuse_mixture,
 )
 
 Paths = tuple[Path, ...]
@@ -49,6 +50,7 @@ def _realisations(source: Realisations, batches: Paths) -> list[Any]:
 
 def _correlations(source: Correlations, correlation: Path, lengths: Paths) -> list[Any]:
     tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
+    refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
     return [table.to_pandas() for table in tables]
 
 

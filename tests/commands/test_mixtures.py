@@ -1,0 +1,73 @@
+"""Runs of different studies are refused by every command that reads several."""
+
+import pyarrow.parquet as pq
+import pytest
+
+FASTER = ("--material", "slider_velocity=1e-3")
+FINER = ("--step", 1e-8)
+OUTPUT = ("--output", "{here}/a.png")
+CONFIGURATION = ("--configuration", "0123")
+PAGE = (*CONFIGURATION, "--output", "{here}/a", "--page", "{here}/a.md")
+TABLES = ("--realisations", "{table0}", "--correlation", "{c0}")
+#: Commands that read files of two studies, 0 and 1.
+COMMANDS = {
+    "aggregate": ("aggregate", "{batch0}", "{batch1}", *CONFIGURATION, "--output", "{here}/a"),
+    "collect": ("collect", "{c0}", "{c1}", "--output", "{here}/a"),
+    "collect realisations": ("collect", "{table0}", "{table1}", "--output", "{here}/a"),
+    "correlation": (
+        *("correlation", "{batch0}", "{batch1}"),
+        *("--output-correlation", "{here}/a", "--output-length", "{here}/b"),
+    ),
+    "beyond": ("beyond", "{batch0}", "{batch1}", "--output", "{here}/a.md"),
+    "figure_3": ("figure", "figure_3", "{batch0}", "{batch1}", *OUTPUT),
+    "figure_6": ("figure", "figure_6", "{batch0}", "{batch1}", *OUTPUT),
+    "figure_7": ("figure", "figure_7", "{c0}", "{l1}", *OUTPUT),
+    "claims": ("claims", "{batch0}", "{batch1}", "--realisations", "{table0}", *PAGE),
+    "claims, table": ("claims", "{batch0}", "--realisations", "{table1}", *PAGE),
+    "claims, tables": ("claims", "{batch0}", *TABLES, "--correlation-length", "{l1}", *PAGE),
+    "claims, prelude": ("claims", "{batch0}", *TABLES, "--prelude", "{prelude1}", *PAGE),
+}
+PILLARS = ("--n-blocks", 12, "--n-p", 6, "--n-s", 6)
+
+
+@pytest.fixture(scope="module", params=[FASTER, FINER], ids=["material", "step"])
+def studies(request, springblock, tmp_path_factory):
+    """Files of two studies that differ in one constant: batches, tables, preludes."""
+    folder, files = tmp_path_factory.mktemp("studies"), {}
+    for i, other in enumerate(((), request.param)):
+        files |= {name + str(i): folder / f"{name}{i}" for name in ("table", "c", "l")}
+        batch, files[f"prelude{i}"] = folder / f"batch{i}.parquet", folder / f"{i}.npz"
+        seeds = ("--first-seed", 3 * i, "--last-seed", 3 * i + 2)
+        springblock("simulate", *PILLARS, *other, *seeds, "--output", batch)
+        springblock("prelude", *PILLARS, *other, "--output", files[f"prelude{i}"])
+        springblock("aggregate", batch, *CONFIGURATION, "--output", files[f"table{i}"])
+        outputs = ("--output-correlation", files[f"c{i}"], "--output-length", files[f"l{i}"])
+        springblock("correlation", batch, *outputs)
+        files[f"batch{i}"] = batch
+    name = request.param[1].split("=")[0] if request.param is FASTER else "step"
+    return files, name
+
+
+@pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
+def test_a_mixture_is_refused(springblock, studies, command, tmp_path):
+    files, name = studies
+    if name == "step" and "{prelude1}" in command:
+        pytest.skip("stress before the first detachment is that of any step")
+    words = [str(word).format(here=tmp_path, **files) for word in command]
+    refusal = springblock(*words, refused=True)
+    values = {"slider_velocity": ("0.0005", "0.001"), "step": ("2e-08", "1e-08")}[name]
+    assert f"{name} is " in refusal
+    assert all(value in refusal for value in values)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_scenes_with_constants_of_their_own_belong_together(springblock, studies, tmp_path):
+    """They say themselves in what they differ."""
+    files, name = studies
+    own = tmp_path / "own.parquet"
+    value = {"slider_velocity": 1e-3, "step": 1e-8}[name]
+    seeds = ("--first-seed", 0, "--last-seed", 2)
+    springblock("simulate", *PILLARS, "--vary", f"{name}={value}", *seeds, "--output", own)
+    table = tmp_path / "table"
+    springblock("aggregate", files["batch0"], own, *CONFIGURATION, "--output", table)
+    assert pq.read_table(table).num_rows == 6
