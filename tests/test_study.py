@@ -8,7 +8,7 @@ import yaml
 
 from springblock.scene import Scene
 from springblock.sources import configuration_digest
-from springblock.study import Ensemble, check, ensembles
+from springblock.study import Ensemble, check, completed, ensembles
 
 ROOT = Path(__file__).parents[1]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -110,6 +110,31 @@ def test_a_group_may_be_left_out():
     assert ensembles(left_out)["spacing"] == []
 
 
+def test_numbers_that_come_as_text_are_numbers():
+    """YAML takes 1e-8 for text, and Snakemake all within an option."""
+    given = {
+        "step": "1e-8",
+        "results": "2024",
+        "scenes": {"flat": {"seeds": "3", "spacing": "null"}},
+    }
+    read = {"step": 1e-8, "results": "2024", "scenes": {"flat": {"seeds": 3, "spacing": None}}}
+    assert completed(given) == read
+    ways = {"direction": ["x", "15"], "n_s": ["2n_p", "n_p"], "accuracy": "true"}
+    assert completed(ways) == {"direction": ["x", 15], "n_s": ["2n_p", "n_p"], "accuracy": True}
+    assert completed(PAPER) == PAPER
+
+
+def test_lists_can_be_continued_without_being_said_again():
+    further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
+    whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
+    check(whole, SCHEMA)
+    sizes = {e.scene.n_p: len(e.seeds) for e in ensembles(whole)["pillars"]}
+    assert sizes == {e.scene.n_p: len(e.seeds) for e in ensembles(PAPER)["pillars"]} | {15: 7}
+    assert len(ensembles(whole)["grooves"]) == len(ensembles(PAPER)["grooves"]) + 5
+    assert (whole["step"], whole["scenes"]["flat"]) == (1e-8, PAPER["scenes"]["flat"])
+    assert completed(PAPER) == PAPER
+
+
 @pytest.mark.parametrize("count", [1, 4, 5, 7, 20])
 def test_batches_hold_each_seed_once(count):
     batches = list(Ensemble(Scene(4), range(3, 3 + count), None).batches(5))
@@ -144,7 +169,7 @@ def test_any_change_changes_the_digest():
     [
         (("realisations_per_job",), 0, "realisations_per_job is not valid: 0 .* minimum of 1"),
         (("integrator",), "euler", "integrator is not valid: 'euler'.*leapfrog"),
-        (("step",), "1e-8", r"step is not valid: '1e-8'.*with its point"),
+        (("step",), "fast", r"step is not valid: 'fast'"),
         (("step",), 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
         (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
         (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
@@ -179,8 +204,6 @@ def test_any_change_changes_the_digest():
         (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
         (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
         (("scenes", "pillars"), None, "scenes.pillars is not valid: None"),
-        (("figures", "figure_5", "n_p"), 40, "figure_5.n_p is 40, which scenes.pillars.n_p"),
-        (("figures", "figure_7", "n_p"), 40, "figure_7.n_p is 40, which scenes.pillars.n_p"),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
     ],

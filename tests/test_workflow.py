@@ -221,6 +221,14 @@ def test_claims_rest_on_what_goes_beyond_the_paper_once_it_is_there(study):
         assert " ".join(tables) in commands
 
 
+def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
+    options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
+    assert "figure_6" in planned(study, *options, "figure_6", **WHOLE)
+    refused = snakemake(study, "--dry-run", *options, "figure_5", **WHOLE)
+    assert refused.returncode != 0
+    assert "figures.figure_5 shows n_p = 7, which no scene of pillars has." in refused.stdout
+
+
 def test_every_step_can_be_planned_by_its_name(study):
     """Where many jobs share a step, they are named after it and one of them: simulate_batch."""
     rules, steps = (

@@ -1,7 +1,7 @@
 """The study's configuration: checked, and expanded into scenes and batches of seeds."""
 
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -14,6 +14,8 @@ from springblock.setup import Setup
 
 Configuration = Mapping[str, Any]
 
+#: What YAML means by these words.
+_YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
 #: Realisations below which a correlation has no interval.
@@ -38,6 +40,37 @@ class Ensemble:
         yield from (range(seed, seed + 1) for seed in self.seeds[len(whole) :])
 
 
+def completed(configuration: Configuration) -> dict[str, Any]:
+    """Read numbers that came as text, and continue lists by what `add` holds in their places.
+
+    YAML takes 1e-3, which has no point, for text, and Snakemake all that `--config` holds deeper
+    than its first level.
+    """
+    whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
+    return _continued(whole, whole.pop("add", {}))
+
+
+def _with_numbers(value: Any, key: str = "") -> Any:
+    if isinstance(value, dict):
+        return {name: _with_numbers(inner) for name, inner in value.items()}
+    if isinstance(value, list):
+        return [_with_numbers(inner) for inner in value]
+    if not isinstance(value, str) or key == "results":
+        return value
+    for read in (int, float, _YAML_WORDS.__getitem__):
+        with suppress(ValueError, KeyError):
+            return read(value)
+    return value
+
+
+def _continued(node: Any, more: Any) -> Any:
+    """Merge dictionaries, append lists, and take whatever else is new."""
+    if isinstance(node, dict) and isinstance(more, dict):
+        inner = {key: _continued(node.get(key), value) for key, value in more.items()}
+        return {**node, **inner}
+    return [*node, *more] if isinstance(node, list) and isinstance(more, list) else more
+
+
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     """Refuse a configuration that could not be computed, before anything is.
 
@@ -56,12 +89,6 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
         for ensemble in members:
             with _named(configuration, group):
                 _check_ensemble(ensemble, group, setup)
-    for figure in ("figure_5", "figure_7"):
-        shown = configuration["figures"][figure]["n_p"]
-        if shown not in configuration["scenes"]["pillars"]["n_p"]:
-            raise ValueError(
-                f"figures.{figure}.n_p is {shown}, which scenes.pillars.n_p does not hold"
-            )
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from springblock.figures import declarations
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
 
+config = study.completed(config)
 try:
     study.check(config, SCHEMA)
 except (TypeError, ValueError) as error:
@@ -94,8 +95,16 @@ def part_of(figure):
 
 
 def needed(figure):
-    """Files that a figure is drawn from."""
+    """Files that a figure is drawn from; there must be surfaces with the lengths that it shows."""
     lengths, part = config["figures"].get(figure, {}), part_of(figure)
+    shown = lengths.items() if FIGURES[figure].source.groups else ()
+    scenes = chain.from_iterable(SCENES[group] for group in FIGURES[figure].source.groups)
+    if shown and not any(shown <= scene.lengths.items() for scene in scenes):
+        wanted = ", ".join(f"{name} = {length}" for name, length in shown)
+        raise WorkflowError(
+            f"figures.{figure} shows {wanted}, which no scene of "
+            f"{' or '.join(FIGURES[figure].source.groups)} has."
+        )
     for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
         if scene is None:
             yield f"{RESULTS}/tables/{table}.parquet"

@@ -6,7 +6,7 @@ for figure, declared in FIGURES.items():
         name:
             figure
         input:
-            list(needed(figure)),
+            lambda wildcards, figure=figure: list(needed(figure)),
         output:
             pdf=f"{RESULTS}/figures/{figure}.pdf",
             png=report(
@@ -26,7 +26,7 @@ for figure, declared in FIGURES.items():
             code=sources.digest("springblock.commands.figure", f"springblock.figures.{figure}"),
             figure=figure,
             options=declared.source.options(config["n_blocks"], config["figures"].get(figure, {})),
-            caption=caption(figure),
+            caption=lambda wildcards, figure=figure: caption(figure),
         message:
             f"Drawing {figure}: {declared.title}"
         shell:
