@@ -41,6 +41,7 @@ bench bench-release: setup
 docs: setup
 	$(BIN)/snakemake production beyond
 	$(BIN)/snakemake accuracy claims figure_6
+	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
 
 setup: $(VENV)/installed

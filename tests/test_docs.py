@@ -12,6 +12,8 @@ from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
+from springblock.dictionary import page as dictionary
+from springblock.dictionary import tables
 
 DOCS = Path(__file__).parents[1] / "docs"
 
@@ -51,3 +53,7 @@ def test_the_page_beyond_the_paper_is_what_the_code_writes():
     text = (DOCS / "beyond.md").read_text()
     assert unanswered(text) == unanswered(beyond_page(QUESTIONS, {}))
     assert "**Not answered**" not in text
+
+
+def test_the_dictionary_of_tables_is_what_the_code_writes():
+    assert (DOCS / "tables.md").read_text() == dictionary(tables())

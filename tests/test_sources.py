@@ -30,7 +30,7 @@ def test_the_error_study_depends_on_each_of_its_own_modules():
     kinds = names("springblock.commands.stability")
     assert {"block.py", "cases.py", "load.py", "overflow.py", "pull.py", "reference.py"} <= kinds
     assert {"rest.py", "schemes.py", "size.py", "step.py", "surface.py", "table.py"} <= kinds
-    compared = names("springblock.commands.compare")
+    compared = names("springblock.commands.measure")
     assert {"work_precision.py", "reference.py", "plain_rk4.py", "leapfrog.py"} <= compared
     assert not {"page.py", "block.py"} & compared
 

@@ -11,13 +11,16 @@ COMMANDS = {
     "aggregate": "springblock.commands.aggregate:aggregate",
     "correlation": "springblock.commands.correlation:correlation",
     "collect": "springblock.commands.collect:collect",
-    "compare": "springblock.commands.compare:compare",
+    "measure": "springblock.commands.measure:measure",
     "production": "springblock.commands.production:production",
     "try": "springblock.commands.stability:try_cases",
     "accuracy": "springblock.commands.accuracy:write_page",
     "claims": "springblock.commands.claims:claims",
     "beyond": "springblock.commands.beyond:beyond",
     "figure": "springblock.commands.figure:figure",
+    "info": "springblock.commands.files:info",
+    "compare": "springblock.commands.files:compare",
+    "dictionary": "springblock.commands.files:dictionary",
 }
 
 

@@ -23,11 +23,11 @@ rule compare_scene:
         mem_mb=600,
         runtime=20,
     params:
-        code=sources.digest("springblock.commands.compare"),
+        code=sources.digest("springblock.commands.measure"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "springblock compare --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "springblock measure --comparison {wildcards.comparison} --scene {wildcards.scene} "
         "--output {output:q} > {log:q} 2>&1"
 
 

@@ -1,4 +1,4 @@
-"""springblock compare: errors of integrators, in one comparison on one scene."""
+"""springblock measure: errors of integrators, in one comparison on one scene."""
 
 from pathlib import Path
 
@@ -11,11 +11,11 @@ from springblock.sources import code_version
 from springblock.tables import rows_to_table, write
 
 
-@click.command("compare")
+@click.command("measure")
 @click.option("--comparison", type=click.Choice(COMPARISONS), required=True)
 @click.option("--scene", type=click.Choice(SCENES), required=True)
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
-def compare(comparison: str, scene: str, output: Path) -> None:
+def measure(comparison: str, scene: str, output: Path) -> None:
     """Measure errors and run times in one comparison on one scene."""
     with one_sentence():
         table = rows_to_table(list(ROWS[comparison](scene)), SCHEMA)
