@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
@@ -28,11 +28,18 @@ def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[
     """
     coefficients = b"".join(mu.tobytes() for mu in friction)
     return {
-        "scene, material, integrator, step or sample_interval": _digest(surface.encode()),
+        "scene or setup": _digest(surface.encode()),
         "friction coefficients": _digest(coefficients),
         **{name: repr(value) for name, value in asked.items()},
         "code": digest("springblock.simulation"),
     }
+
+
+def check_belonging(path: Path, theirs: dict[str, Any], ours: dict[str, Any]) -> None:
+    """Refuse a file that was kept for another run, naming what differs."""
+    other = ", ".join(name for name in ours | theirs if theirs.get(name) != ours.get(name))
+    if other:
+        raise ValueError(f"{path} belongs to a run of other {other}; remove it first")
 
 
 @dataclass
@@ -47,7 +54,7 @@ class Checkpoint:
 
     path: Path
     interval: float  #: s of the clock on the wall
-    belongs: Mapping[str, str]  #: see `belonging`
+    belongs: dict[str, str]  #: see `belonging`
     written: float = field(default_factory=monotonic)  #: s, the last time
 
     def __post_init__(self) -> None:
@@ -80,10 +87,7 @@ class Checkpoint:
             Where the file keeps another run, naming what differs, or is none.
         """
         kept = _read(self.path)
-        theirs = json.loads(str(kept["belongs"]))
-        other = [name for name, value in self.belongs.items() if theirs.get(name) != value]
-        if other:
-            raise ValueError(f"the checkpoint {self.path} belongs to other {', '.join(other)}")
+        check_belonging(self.path, json.loads(str(kept["belongs"])), self.belongs)
         for i, values in enumerate(_fields(state)):
             values[:] = kept[f"field_{i}"]
         return Samples(*(kept[name] for name in Samples._fields)), list(kept["snapshots"])
@@ -91,7 +95,7 @@ class Checkpoint:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        with np.load(path) as stored:
+        with path.open("rb") as file, np.load(file) as stored:
             kept = dict(stored)
     except (BadZipFile, EOFError, OSError, TypeError, ValueError) as error:
         raise ValueError(f"{path} is no checkpoint: {error}") from error
