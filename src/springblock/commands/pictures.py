@@ -29,12 +29,9 @@ def _chosen(path: Path, seed: int | None) -> Record:
     if seed is None:
         return next(iter(runs.values()))
     if seed not in runs:
-        raise ValueError(f"--seed must be one that {path} holds, {_listed(runs)}, not {seed}")
+        held = ", ".join(map(str, runs))
+        raise ValueError(f"{path} holds no run of seed {seed}; there are {held}")
     return runs[seed]
-
-
-def _listed(seeds: dict[int, Any]) -> str:
-    return ", ".join(map(str, seeds))
 
 
 @click.command("plot")

@@ -182,8 +182,8 @@ def simulate_batch(
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
             row = partial(row, checkpoint_interval=60.0 * minutes)
             row = partial(_kept_row, folder, belongs, row)
-        bar = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
-        rows = [row(seed=seed) for seed in bar]
+        with tqdm(seeds, desc=scene.folder, unit="realisation", disable=single) as bar:
+            rows = [row(seed=seed) for seed in bar]
         write(_table(rows), output, metadata)
         if minutes is not None:
             shutil.rmtree(folder)

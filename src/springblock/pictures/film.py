@@ -93,7 +93,7 @@ def span(run: Run) -> tuple[float, float]:
 def scenery(run: Run) -> tuple[Figure, Update]:
     """Draw what stands still, and return it with the function that moves the rest."""
     kept = len(run.snapshots) > 0
-    curves = _MAP + _SIDE + (_SIDE + 32.0 if kept else 19.0)
+    curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
     picture = style.figure(curves + 84.0, _HEIGHT)
     picture.set_dpi(_PIXELS / style.MM)
     title = picture.text(0.5, 0.975, run.name, ha="center", va="top")
@@ -155,9 +155,8 @@ def _displacement(picture: Figure, run: Run) -> Update:
 
     def update(now: float, before: float) -> list[Artist]:
         latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
-        if latest >= 0:
-            image.set_data(fields[latest])
-            title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs")
+        image.set_data(fields[latest] if latest >= 0 else np.full_like(fields[0], np.nan))
+        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
         return [image, title]
 
     return update

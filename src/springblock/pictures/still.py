@@ -26,7 +26,7 @@ the run has kept snapshots."""
 
 _SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
 # Layout in mm, above the row of snapshots.
-_LEFT, _WIDTH = 17.0, 82.0
+_LEFT, _WIDTH = 20.0, 79.0
 _MAP, _SIDE = 118.0, 65.0
 _HEIGHT, _ROW = 97.0, 55.0
 
