@@ -205,7 +205,8 @@ def array(value, dtype=float, shape=(2, 2)):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"contact": array(1, int)}, "contact must be an array of bool"),
+        ({"contact": array(1.0)}, "contact must be an array of bool, or of 0 and 1, not of float"),
+        ({"contact": array("1", str)}, "contact must be an array of bool, or of 0 and 1, not of"),
         ({"mu_static": array(1, bool)}, "mu_static must be an array of real numbers"),
         ({"mu_static": array("1", str)}, "mu_static must be an array of real numbers"),
         ({"mu_dynamic": array(1j, complex)}, "mu_dynamic must be an array of real numbers"),
@@ -231,7 +232,10 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
         ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N, N\)"),
         ({"contact": array(False, bool)}, "contact is False everywhere"),
         ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape \(2, 2\)"),
-        ({"mu_dynamic": array(0.6, shape=())}, r"mu_dynamic must have the shape \(2, 2\)"),
+        ({"mu_dynamic": array(0.6, shape=(1,))}, r"mu_dynamic must have the shape \(2, 2\)"),
+        ({"contact": array(2, int)}, "contact must hold bool, or 0 and 1, not 2"),
+        ({"contact": [[0, 1], [1, -1]]}, "contact must hold bool, or 0 and 1, not -1"),
+        ({"mu_static": math.nan}, "mu_static must be finite and not negative"),
         ({"mu_static": [[1, 1], [1, math.nan]]}, "mu_static must be finite and not negative"),
         ({"mu_dynamic": array(math.inf)}, "mu_dynamic must be finite and not negative"),
         ({"mu_dynamic": array(-0.1)}, "mu_dynamic must be finite and not negative"),
@@ -294,9 +298,38 @@ def test_snapshots_do_not_change_when_a_run_ends():
     assert len(watched.snapshots) == 3
 
 
-def test_a_snapshot_after_the_end_is_not_lost_in_silence():
-    with pytest.raises(ValueError, match=r"ended by itself at t = .* before the last of snapshot"):
-        simulate(*drawn(PILLARS, seed=1), snapshot_times=[1e-3])
+def test_a_run_goes_on_until_its_last_snapshot():
+    scene = drawn(PILLARS, seed=1)
+    plain = simulate(*scene)
+    late = round(plain.time[-1] / 2e-7 + 3 * PAUSE + 1) * 2e-7
+    watched = simulate(*scene, snapshot_times=[1e-4, late])
+    assert watched.snapshot_times == pytest.approx([1e-4, late], rel=1e-14)
+    assert late <= watched.time[-1] < late + (PAUSE + 1) * 2e-7
+    assert same(watched, plain, samples=len(plain.time))
+    shorter = simulate(*scene, duration=late)
+    assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
+
+
+def test_a_mask_of_0_and_1_and_single_numbers_are_taken():
+    contact, mu_static, _ = drawn(PILLARS, seed=1)
+    fields = simulate(contact, mu_static, np.full((N, N), 0.6), duration=1.5e-4)
+    numbers = simulate(contact.astype(np.uint8), mu_static, 0.6, duration=1.5e-4)
+    assert same(fields, numbers)
+    assert (numbers.contact == contact).all()
+
+
+def test_a_run_says_what_it_is_in_one_line(run):
+    said = f"static friction {run.static_friction:.4f}, t_max {1e6 * run.t_max:.1f} µs"
+    assert repr(run) == f"<12 x 12 blocks: {said}, t_avg {1e6 * run.t_avg:.1f} µs>"
+    assert repr(pull()).endswith("t_max 2.0 µs, nothing has detached>")
+
+
+def test_progress_counts_samples_on_stderr_where_asked_to(capsys):
+    plain, counted = pull(), pull(progress=True)
+    said = capsys.readouterr()
+    assert "10/10" in said.err
+    assert said.out == ""
+    assert same(plain, counted)
 
 
 def test_coefficients_of_any_real_type_are_taken():

@@ -14,6 +14,7 @@ from springblock.realisation import Realisation
 
 if TYPE_CHECKING:
     from springblock.prelude import Prelude, compute_prelude
+    from springblock.reading import read
     from springblock.simulation import SimulationError, simulate
 
 __all__ = [
@@ -24,21 +25,23 @@ __all__ = [
     "SimulationError",
     "compute_prelude",
     "draw_friction",
+    "read",
     "simulate",
 ]
 
-#: Where those names are at home that take the solver along.
+#: Where those names are at home that take the solver or Parquet along.
 _HOMES = {
     "Prelude": "prelude",
     "SimulationError": "simulation",
     "compute_prelude": "prelude",
+    "read": "reading",
     "simulate": "simulation",
 }
 
 if not TYPE_CHECKING:  # mypy would accept any name if it saw this
 
     def __getattr__(name: str) -> object:
-        """Import the solver, and with it numba, for those alone who ask for it (PEP 562)."""
+        """Import the solver with numba, or Parquet, for those alone who ask for it (PEP 562)."""
         if name not in _HOMES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return getattr(import_module(f"springblock.{_HOMES[name]}"), name)

@@ -17,14 +17,14 @@ def checked_surface(
 ) -> tuple[NDArray[np.bool_], Array, Array]:
     """Return contact and coefficients, (N, N) each, the latter zero outside the contact.
 
+    A contact may be given as 0 and 1, a coefficient as one number for all blocks.
+
     Raises
     ------
     TypeError, ValueError
         With a sentence on what is wrong with them.
     """
-    mask = np.asarray(contact)
-    if mask.dtype != np.bool_:
-        raise TypeError(f"contact must be an array of bool, not of {mask.dtype}")
+    mask = _as_mask(contact)
     if mask.ndim != 2 or mask.shape[0] != mask.shape[1]:
         raise ValueError(f"contact must have the shape (N, N), not {mask.shape}")
     if mask.shape[0] > MAX_BLOCKS:
@@ -36,6 +36,8 @@ def checked_surface(
         mu = np.asarray(values)
         if mu.dtype.kind not in "iuf":
             raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
+        if mu.ndim == 0:
+            mu = np.broadcast_to(mu, mask.shape)
         if mu.shape != mask.shape:
             raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
         in_contact = mu[mask]
@@ -43,6 +45,19 @@ def checked_surface(
             raise ValueError(f"{name} must be finite and not negative wherever there is contact")
         fields.append(np.where(mask, mu, 0.0).astype(float))
     return mask, fields[0], fields[1]
+
+
+def _as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
+    """Contact as it is, or made of the whole numbers 0 and 1."""
+    mask = np.asarray(contact)
+    if mask.dtype == np.bool_:
+        return mask
+    if mask.dtype.kind not in "iu":
+        raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")
+    other = mask[(mask != 0) & (mask != 1)]
+    if other.size:
+        raise ValueError(f"contact must hold bool, or 0 and 1, not {other[0]}")
+    return mask.astype(bool)
 
 
 def check_positive(name: str, value: Any) -> None:

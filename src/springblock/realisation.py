@@ -1,12 +1,13 @@
 """What one run yields."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springblock.energy import Energy
+from springblock.run import Visible
 
 Array = NDArray[np.float64]
 
@@ -15,8 +16,8 @@ Array = NDArray[np.float64]
 _REBOUND = 0.1
 
 
-@dataclass(frozen=True, eq=False)
-class Realisation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Realisation(Visible):
     """What one run yields, in SI units. Fields over blocks are indexed [y, x]."""
 
     time: Array  #: (n,) s, multiples of the sample interval, from zero
@@ -29,7 +30,9 @@ class Realisation:
     steps: int  #: of the integrator
     displacement: Array  #: (2, N, N) m, components x and y, at the end
     velocity: Array  #: (2, N, N) m/s, at the end
-    snapshots: Array = field(repr=False)  #: (k, 2, N, N) m, displacement at the times asked for
+    snapshots: Array  #: (k, 2, N, N) m, displacement at the times asked for
+    snapshot_times: Array  #: (k,) s, these times
+    contact: NDArray[np.bool_]  #: (N, N) blocks in contact with the substrate
 
     @property
     def t_max(self) -> float:

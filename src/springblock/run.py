@@ -1,9 +1,14 @@
-"""What statistics and figures need to know of a run."""
+"""What statistics and figures need to know of a run, and how one looks at it."""
 
-from typing import Any, Protocol
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.integer[Any]]
@@ -23,6 +28,10 @@ class Run(Protocol):
     @property
     def normal_force(self) -> float:
         """P l² N², N."""
+
+    @property
+    def contact(self) -> NDArray[np.bool_]:
+        """(N, N), [y, x], blocks in contact with the substrate."""
 
     @property
     def detachments(self) -> Counts:
@@ -47,6 +56,56 @@ class Run(Protocol):
     @property
     def static_friction(self) -> float:
         """Maximum of the force over P l² N²."""
+
+    @property
+    def snapshot_times(self) -> Array:
+        """(k,) s, when displacements were kept."""
+
+    @property
+    def snapshots(self) -> Array:
+        """(k, 2, N, N) m, [time, component, y, x], displacements at these times."""
+
+    @property
+    def name(self) -> str:
+        """What it is a run of."""
+
+
+class Visible:
+    """A run that can be looked at.
+
+    Pictures are imported by their names when they are asked for: they take no part in a result,
+    whose digest (`sources`) follows imports, and would slow down those who draw nothing.
+    """
+
+    @property
+    def name(self: Run) -> str:
+        """What it is a run of."""
+        rows, columns = self.t_det.shape
+        return f"{columns} x {rows} blocks"
+
+    def __repr__(self: Run) -> str:
+        detached = np.count_nonzero(np.isfinite(self.t_det))
+        times = f"t_max {1e6 * self.t_max:.1f} µs, " + (
+            f"t_avg {1e6 * self.t_avg:.1f} µs" if detached else "nothing has detached"
+        )
+        return f"<{self.name}: static friction {self.static_friction:.4f}, {times}>"
+
+    def plot(self: Run) -> "Figure":
+        """Draw force, detachments, the map of first detachment times, and snapshots if any.
+
+        A matplotlib figure without pyplot: `run.plot().savefig("run.png")`; notebooks show it.
+        """
+        return import_module("springblock.pictures.still").draw(self)
+
+    def animate(self: Run, path: str | Path) -> None:
+        """Write a film of the blocks that let go, beside the force: .gif or .mp4.
+
+        Raises
+        ------
+        ValueError
+            Where the suffix is another one.
+        """
+        import_module("springblock.pictures.film").write(self, Path(path))
 
 
 def friction(run: Run) -> Array:

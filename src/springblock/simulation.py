@@ -3,11 +3,15 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from tqdm import tqdm
 
+from springblock.checkpoint import Checkpoint, belonging
 from springblock.checks import checked_surface, count_samples, whole_multiple
+from springblock.compiling import announce
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
 from springblock.energy import Energy, elastic_energy
@@ -55,6 +59,9 @@ def simulate(
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
     cores: int = 1,
+    progress: bool = False,
+    checkpoint: str | Path | None = None,
+    checkpoint_interval: float = 300.0,
 ) -> Realisation:
     """Pull one surface from rest and record how it lets go.
 
@@ -62,9 +69,9 @@ def simulate(
 
     Parameters
     ----------
-    contact : (N, N) bool, [y, x]
+    contact : (N, N) bool, or 0 and 1, [y, x]
         Blocks in contact with the substrate, as `Pattern.contact`.
-    mu_static, mu_dynamic : (N, N) float
+    mu_static, mu_dynamic : (N, N) float, or one number for all blocks
         Microscopic friction coefficients; not read outside the contact.
     material : Material
     direction : "x", "y" or an angle from x in degrees
@@ -80,16 +87,25 @@ def simulate(
         Between entries of the force curve; a multiple of the step.
     snapshot_times : s
         Multiples of the sample interval at which the displacements are kept, in rising order.
+        A run without duration goes on until the last of them, if it would end before.
     prelude : Prelude
         States of this very scene before its first detachment, see `compute_prelude`. They
         save time and change nothing.
     cores : int
         On which the leapfrog follows one large surface, to the bit as on one.
+    progress : bool
+        Whether to count samples on stderr.
+    checkpoint : Path
+        File that keeps the run while it is not finished. Where it is there, the run goes on from
+        it, to the bit; it is removed at the end.
+    checkpoint_interval : s
+        Of the clock on the wall, between two times that it is written.
 
     Raises
     ------
     TypeError, ValueError
-        For arguments that make no sense, an unstable step among them.
+        For arguments that make no sense, an unstable step among them, and for the prelude or the
+        checkpoint of another run.
     SimulationError
         Where a spring collapses, bursts or becomes NaN, with time and block; or where a run
         without duration does not come to its end.
@@ -110,23 +126,30 @@ def simulate(
 
     surface = contact, mu_static, mu_dynamic
     motion = _Motion(setup, advance, *prepare(*surface, material, towards, setup.method, step))
+    here = conditions(contact, setup, towards)
+    kept, snapshots = None, list[Array]()
+    if checkpoint is not None:
+        belongs = belonging(here, surface[1:], duration=end, snapshot_times=stops)
+        kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
+        snapshots = motion.resume(kept)
     if prelude is not None:
-        here = conditions(contact, setup, towards)
         motion.skip(prelude, here, min([*stops, math.inf if end is None else end]) - 1)
-    snapshots = []
-    while not motion.is_over(end, limit):
-        pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
-        pause = pause if end is None else min(pause, end)
-        for stop in [stop for stop in stops if motion.samples < stop <= pause]:
-            motion.proceed(stop)
-            snapshots.append(motion.displacement())
-        motion.proceed(pause)
-    if len(snapshots) < len(stops):
-        raise ValueError(
-            f"the run ended by itself at t = {motion.samples * sample_interval:.4g} s, before the "
-            f"last of snapshot_times; give it a duration"
-        )
-    return motion.result(snapshots)
+    announce(integrator, cores)
+    with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
+        while len(snapshots) < len(stops) or not motion.is_over(end, limit):
+            pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
+            pause = pause if end is None else min(pause, end)
+            for stop in [stop for stop in stops if motion.samples < stop <= pause]:
+                motion.proceed(stop)
+                snapshots.append(motion.displacement())
+            motion.proceed(pause)
+            bar.update(motion.samples - bar.n)
+            if kept is not None and kept.is_due:
+                kept.save(motion.state, motion.record, snapshots)
+    run = motion.result(snapshots, stops)
+    if kept is not None:
+        kept.path.unlink(missing_ok=True)
+    return run
 
 
 @dataclass
@@ -152,8 +175,17 @@ class _Motion:
                 "this prelude belongs to another scene, material, integrator, step or "
                 "sample_interval"
             )
-        self.samples, taken = prelude.start(self.state, latest)
-        self.record.append(taken)
+        if not self.samples:
+            self.samples, taken = prelude.start(self.state, latest)
+            self.record.append(taken)
+
+    def resume(self, kept: Checkpoint) -> list[Array]:
+        """Go on from a checkpoint, if there is one, and return the snapshots taken before it."""
+        if not kept.path.exists():
+            return []
+        taken, snapshots = kept.restore(self.state)
+        self.samples, self.record = len(taken.force_x) - 1, [taken]
+        return snapshots
 
     def proceed(self, until: int) -> None:
         """Go on to sample `until`."""
@@ -203,7 +235,7 @@ class _Motion:
         u = np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])
         return self.setup.material.spacing * u
 
-    def result(self, snapshots: list[Array]) -> Realisation:
+    def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
         """Turn what has been recorded into SI units."""
         n, material, step = int(self.constants.n), self.setup.material, self.setup.step
         t_det = step * unpadded(self.state.blocks.t_det, n)
@@ -226,7 +258,9 @@ class _Motion:
             steps=self.steps,
             displacement=self.displacement(),
             velocity=velocity,
-            snapshots=np.array(snapshots).reshape(-1, 2, n, n),
+            snapshots=np.array(snapshots).reshape(-1, *velocity.shape),
+            snapshot_times=self.setup.sample_interval * np.array(stops, float),
+            contact=unpadded(self.state.blocks.static, n) > 0.0,
         )
 
     def _newton(self) -> float:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from springblock.files import whole_file
 from springblock.material import Material
+from springblock.run import Visible
 from springblock.scene import Scene
 
 if TYPE_CHECKING:  # read here by those who draw, and only then
@@ -172,6 +173,20 @@ BATCH = pa.schema(
     ]
 )
 
+#: What a batch holds beside that where snapshots were asked for.
+SNAPSHOTS = pa.schema(
+    [
+        column("snapshot_times", pa.list_(pa.float64()), "s", "when displacements were kept"),
+        column(
+            "snapshots",
+            pa.list_(pa.float64()),
+            "m",
+            "displacements at these times, one after another: along x row by row from y = 0, then "
+            "along y",
+        ),
+    ]
+)
+
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
@@ -255,8 +270,8 @@ def _constants(table: pa.Table) -> list[dict[str, Any]]:
     return table.group_by(names).aggregate([]).to_pylist()
 
 
-@dataclass(frozen=True, eq=False)
-class Record:
+@dataclass(frozen=True, eq=False, repr=False)
+class Record(Visible):
     """One realisation as it was stored: its scene, its seed and the fields of `Realisation`."""
 
     scene: Scene
@@ -271,11 +286,23 @@ class Record:
     t_avg: float
     static_friction: float
     constants: Mapping[str, Any] = field(default_factory=lambda: dict(Material().items()))
+    snapshot_times: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    snapshots: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2, 0, 0)))
 
     @property
     def material(self) -> Material:
         """The layer that was pulled."""
         return Material(**{name: self.constants[name] for name in _CONSTANTS})
+
+    @property
+    def contact(self) -> NDArray[np.bool_]:
+        """Blocks in contact with the substrate, (N, N), [y, x]."""
+        return self.scene.pattern.contact
+
+    @property
+    def name(self) -> str:
+        """Its scene and its seed."""
+        return f"{self.scene.folder.replace('/', ', ')}, seed {self.seed}"
 
 
 def read_frame(path: Path) -> "pd.DataFrame":

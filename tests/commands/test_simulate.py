@@ -1,10 +1,15 @@
 """springblock compile, prelude and simulate."""
 
 import json
+import signal
+import subprocess
+import sys
+import time
 
 import pyarrow.parquet as pq
 import pytest
 
+from springblock import draw_friction
 from springblock.solver import INTEGRATORS
 
 FLAT = ("--n-blocks", 6)
@@ -78,6 +83,103 @@ def test_the_prelude_of_another_scene_is_refused(springblock, tmp_path):
     other = ("--direction", "y", "--prelude", prelude, "--output", tmp_path / "a")
     refusal = springblock("simulate", *FLAT, *ONE, *other, refused=True)
     assert "this prelude belongs to another scene" in refusal
+
+
+def test_one_run_needs_no_seeds(springblock, tmp_path):
+    springblock("simulate", *FLAT, "--output", tmp_path / "a")
+    springblock("simulate", *FLAT, "--first-seed", 3, "--output", tmp_path / "b")
+    assert [pq.read_table(tmp_path / name)["seed"].to_pylist() for name in "ab"] == [[0], [3]]
+
+
+def test_a_single_run_counts_samples_and_a_batch_its_runs(springblock, tmp_path):
+    short = ("--duration", 4e-6, "--output", tmp_path / "a")
+    assert "20/20" in springblock("simulate", *FLAT, *short)
+    said = springblock("simulate", *FLAT, *short, "--last-seed", 2)
+    assert "3/3" in said
+    assert "20/20" not in said
+
+
+def test_snapshots_are_stored_where_they_are_asked_for(springblock, tmp_path):
+    times = ("--snapshot", 1e-5, "--snapshot", 2e-5)
+    springblock("simulate", *FLAT, *ONE, *times, "--output", tmp_path / "a")
+    springblock("simulate", *FLAT, *ONE, "--output", tmp_path / "b")
+    with_them, without = (pq.read_table(tmp_path / name) for name in "ab")
+    assert with_them.schema.names == [*without.schema.names, "snapshot_times", "snapshots"]
+    assert with_them["snapshot_times"].to_pylist() == [[pytest.approx(1e-5), pytest.approx(2e-5)]]
+    assert len(with_them["snapshots"][0]) == 2 * 2 * 6 * 6
+    configuration = json.loads(with_them.schema.metadata[b"configuration"])
+    assert configuration["snapshot_times"] == [1e-5, 2e-5]
+
+
+BATCH = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6, "--last-seed", 2)
+OFTEN = ("--checkpoint", 1e-9)  # minutes
+
+
+def test_a_batch_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
+    """Killed in its second run: the first is kept, the second is taken up, the third is new."""
+    output, whole = tmp_path / "a.parquet", tmp_path / "whole.parquet"
+    folder = tmp_path / "a.parquet.checkpoint"
+    words = [str(word) for word in (*BATCH, *OFTEN, "--output", output)]
+    with subprocess.Popen([sys.executable, "-m", "springblock", *words]) as batch:
+        while not (folder / "seed=1.npz").exists():
+            assert batch.poll() is None
+            time.sleep(0.002)
+        batch.send_signal(signal.SIGKILL)
+    assert batch.returncode == -signal.SIGKILL
+    assert not output.exists()
+    assert (folder / "seed=0.parquet").exists()
+    springblock(*BATCH, *OFTEN, "--output", output)
+    springblock(*BATCH, "--output", whole)
+    assert output.read_bytes() == whole.read_bytes()
+    assert {file.name for file in tmp_path.iterdir()} == {output.name, whole.name}
+
+
+@pytest.fixture
+def interrupted(springblock, tmp_path, monkeypatch):
+    """Words of a batch whose second run fails; and the folder that it has left behind."""
+    words = (*BATCH, *OFTEN, "--output", tmp_path / "a")
+
+    def failing(n_blocks, seed, material):
+        if seed == 1:
+            raise ValueError("enough")
+        return draw_friction(n_blocks, seed, material)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("springblock.commands.simulate.draw_friction", failing)
+        assert "enough" in springblock(*words, refused=True)
+    return words, tmp_path / "a.checkpoint"
+
+
+def test_finished_runs_are_not_computed_again(springblock, interrupted, tmp_path, monkeypatch):
+    words, folder = interrupted
+    assert [file.name for file in folder.iterdir()] == ["seed=0.parquet"]
+    drawn = []
+
+    def noted(n_blocks, seed, material):
+        drawn.append(seed)
+        return draw_friction(n_blocks, seed, material)
+
+    monkeypatch.setattr("springblock.commands.simulate.draw_friction", noted)
+    springblock(*words)
+    assert drawn == [1, 2]
+    assert pq.read_table(tmp_path / "a")["seed"].to_pylist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        (("--direction", "y"), "direction"),
+        (("--n-p", 4, "--n-s", 4), "n_p, n_s"),
+        (("--step", 1e-8, "--material", "gamma=4e3"), "gamma, step"),
+        (("--duration", 1e-4), "duration"),
+        (("--snapshot", 1e-4), "snapshot_times"),
+    ],
+)
+def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted, change, named):
+    words, folder = interrupted
+    sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run of other {named}; remove it"
+    assert springblock(*words, *change, refused=True).startswith(sentence)
+    assert folder.exists()
 
 
 def test_a_run_that_fails_is_named(springblock, tmp_path):

@@ -1,16 +1,20 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
 import json
+import shutil
 from collections.abc import Callable
 from dataclasses import asdict, fields
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
 import click
+import pyarrow as pa
+import pyarrow.parquet as pq
 from tqdm import tqdm
 
 from springblock.asperities import draw_friction
+from springblock.checkpoint import check_belonging
 from springblock.commands.options import (
     INPUT,
     OUTPUT,
@@ -22,12 +26,13 @@ from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
+from springblock.rows import Row
 from springblock.scene import Scene
 from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version, configuration_digest
-from springblock.tables import BATCH, rows_to_table, write
+from springblock.tables import BATCH, SNAPSHOTS, rows_to_table, write
 
 
 def _constants(
@@ -51,12 +56,25 @@ def _constants(
 
 _SETUP = [
     click.option(
-        "--material", multiple=True, callback=_constants, help="A constant: youngs_modulus=1e7."
+        "--material",
+        multiple=True,
+        callback=_constants,
+        help="A constant in SI units: youngs_modulus=1e7, in Pa. May be given several times.",
     ),
-    click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog"),
-    click.option("--step", type=float, default=STEP, show_default=True, help="h, s."),
     click.option(
-        "--sample-interval", type=float, default=SAMPLE_INTERVAL, show_default=True, help="s."
+        "--integrator",
+        type=click.Choice(list(INTEGRATORS)),
+        default="leapfrog",
+        show_default=True,
+        help="Method that follows the blocks through time.",
+    ),
+    click.option("--step", type=float, default=STEP, show_default=True, help="Of integration, s."),
+    click.option(
+        "--sample-interval",
+        type=float,
+        default=SAMPLE_INTERVAL,
+        show_default=True,
+        help="Between two entries of the force curve, s.",
     ),
 ]
 
@@ -74,7 +92,7 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return scene_options(with_options(_SETUP, with_setup))
 
 
-def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[str, Any]:
+def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
     """One row of a batch."""
     return {
         **scene.row,
@@ -92,11 +110,13 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[s
         "switches": run.switches,
         "t_det": run.t_det.ravel(),
         "normal_force": run.normal_force,
+        "snapshot_times": run.snapshot_times,
+        "snapshots": run.snapshots.ravel(),
     }
 
 
 _CORES = click.option(
-    "--cores", type=int, default=1, show_default=True, help="For one large surface."
+    "--cores", type=int, default=1, show_default=True, help="Cores for one large surface."
 )
 
 
@@ -113,44 +133,89 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
 @click.command("simulate")
 @setup_options
-@click.option("--first-seed", type=int, required=True)
-@click.option("--last-seed", type=int, required=True, help="Itself included.")
+@click.option("--first-seed", type=int, default=0, show_default=True, help="Of the coefficients.")
+@click.option("--last-seed", type=int, help="Itself included; by default the first one.")
 @click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
+@click.option(
+    "--snapshot",
+    "snapshot_times",
+    type=float,
+    multiple=True,
+    help="Time at which displacements are kept, s. May be given several times.",
+)
 @click.option("--prelude", type=INPUT, help="Written by `springblock prelude`; saves time.")
 @_CORES
+@click.option(
+    "--checkpoint",
+    "minutes",
+    type=click.FloatRange(min=0.0, min_open=True),
+    help="Minutes after which unfinished runs are kept again, in OUTPUT.checkpoint. The same "
+    "command goes on from there; the folder is removed at the end.",
+)
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
     scene: Scene,
     setup: Setup,
     first_seed: int,
-    last_seed: int,
+    last_seed: int | None,
     duration: float | None,
+    snapshot_times: tuple[float, ...],
     prelude: Path | None,
     cores: int,
+    minutes: float | None,
     output: Path,
 ) -> None:
     """Run the realisations of one scene from --first-seed to --last-seed."""
-    if last_seed < first_seed:
+    seeds = range(first_seed, (first_seed if last_seed is None else last_seed) + 1)
+    if not seeds:
         raise click.BadParameter(f"{last_seed} comes before --first-seed {first_seed}")
+    single = len(seeds) == 1
+    asked: dict[str, Any] = {"duration": duration}
+    if snapshot_times:
+        asked["snapshot_times"] = snapshot_times
     with one_sentence():
-        contact, rows = scene.pattern.contact, []
         loaded = None if prelude is None else Prelude.read(prelude)
-        for seed in tqdm(range(first_seed, last_seed + 1), desc=scene.folder, unit="realisation"):
-            try:
-                run = simulate(
-                    contact,
-                    *draw_friction(scene.n_blocks, seed, setup.material),
-                    direction=scene.direction,
-                    duration=duration,
-                    prelude=loaded,
-                    cores=cores,
-                    **vars(setup),
-                )
-            except SimulationError as error:
-                raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
-            rows.append(batch_row(scene, setup, seed, run))
-        configuration = {**asdict(setup), "duration": duration}
-        write(rows_to_table(rows, BATCH), output, _metadata(configuration))
+        row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
+        metadata = _metadata({**asdict(setup), **asked})
+        folder = output.with_name(f"{output.name}.checkpoint")
+        if minutes is not None:
+            belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
+            row = partial(row, checkpoint_interval=60.0 * minutes)
+            row = partial(_kept_row, folder, belongs, row)
+        with tqdm(seeds, desc=scene.folder, unit="realisation", disable=single) as bar:
+            rows = [row(seed=seed) for seed in bar]
+        write(_table(rows), output, metadata)
+        if minutes is not None:
+            shutil.rmtree(folder)
+
+
+def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
+    """Run one realisation."""
+    coefficients = draw_friction(scene.n_blocks, seed, setup.material)
+    options |= {"direction": scene.direction, **vars(setup)}
+    try:
+        run = simulate(scene.pattern.contact, *coefficients, **options)
+    except SimulationError as error:
+        raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
+    return batch_row(scene, setup, seed, run)
+
+
+def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row], seed: int) -> Row:
+    """Row of a realisation that is finished in `folder`, or of one that is finished now."""
+    file, ours = folder / f"seed={seed}.parquet", json.dumps(belongs)
+    if file.exists():
+        table = pq.read_table(file, partitioning=None)
+        check_belonging(file, json.loads(table.schema.metadata[b"belongs"]), json.loads(ours))
+        return table.to_pylist()[0]
+    row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))
+    write(_table([row]), file, {"belongs": ours})
+    return row
+
+
+def _table(rows: list[Row]) -> pa.Table:
+    """Table of a batch; with snapshots where they were asked for."""
+    kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
+    return rows_to_table(rows, pa.schema([*BATCH, *kept]))
 
 
 def _metadata(configuration: dict[str, Any]) -> dict[str, str]:

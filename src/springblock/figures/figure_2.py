@@ -53,13 +53,13 @@ def draw(runs: Sequence[Run]) -> Figure:
     spans = ((0.0, MICRO * float(run.time[-1])), zoom)
     for column, letters, span in zip(_COLUMNS, ("ac", "bd"), spans, strict=True):
         upper, lower = (style.axes(picture, column[0], y, column[1], h) for y, h in _ROWS)
-        _draw_force(upper, run, others, span)
-        _draw_blocks(lower, run, others)
+        draw_force(upper, run, others, span)
+        draw_blocks(lower, run, others)
         for ax, letter in zip((upper, lower), letters, strict=True):
-            _draw_times(ax, run)
+            draw_times(ax, run)
             ax.set_xlim(span)
             style.panel_letter(ax, letter, left=14.0, above=1.5)
-        _name_times(upper, run)
+        name_times(upper, run)
         upper.tick_params(labelbottom=False)
         lower.set_xlabel("time (µs)")
     whole_force, whole_blocks, _, blocks = picture.axes
@@ -73,7 +73,7 @@ def draw(runs: Sequence[Run]) -> Figure:
     return picture
 
 
-def _draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, float]) -> None:
+def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, float]) -> None:
     """Friction force over normal force; its axis fits what the runs show within `span`."""
     if others:
         time, forces = cut(others, [friction(other) for other in others])
@@ -94,7 +94,7 @@ def _within(span: tuple[float, float], run: Run) -> Array:
     return friction(run)[(time >= span[0]) & (time <= span[1])]
 
 
-def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
+def draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     """Shares of detaching blocks, on a logarithmic axis that begins below one block."""
     floor = 0.6 * float(percent(run, np.array([1]))[0])
     for counts, color, name in (
@@ -116,13 +116,13 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")
 
 
-def _draw_times(ax: Axes, run: Run) -> None:
+def draw_times(ax: Axes, run: Run) -> None:
     """Mark t_max with a dotted and t_avg with a thin solid line."""
     for time, dashes, width in ((run.t_max, ":", 1.1), (run.t_avg, "-", 0.6)):
         ax.axvline(MICRO * time, color=BLACK, linestyle=dashes, linewidth=width, zorder=0.5)
 
 
-def _name_times(ax: Axes, run: Run) -> None:
+def name_times(ax: Axes, run: Run) -> None:
     """Write the names of both times above the panel, away from each other."""
     first, second = sorted(((run.t_max, r"t_\mathrm{max}"), (run.t_avg, r"t_\mathrm{avg}")))
     for (time, name), side in ((first, "right"), (second, "left")):

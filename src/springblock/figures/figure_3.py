@@ -35,7 +35,7 @@ def draw(runs: Sequence[Run]) -> Figure:
     has_grey = bool(np.isnan(times).any())
     picture = style.figure(style.COLUMN, 99.0 if has_grey else 95.0)
     ax = style.axes(picture, 13.5, 24.0, 69.0, 69.0)
-    norm = CenteredNorm(1.0, _half_range(times))
+    norm = CenteredNorm(1.0, half_range(times))
     image = ax.imshow(times, cmap=BEFORE_AFTER, norm=norm, origin="lower", interpolation="nearest")
     ax.set(xlabel="$x/l$", ylabel="$y/l$")
     if has_grey:
@@ -53,6 +53,6 @@ def _draw_bar(picture: Figure, image: AxesImage) -> None:
         ax.text(place, 1.15, name, ha=side, va="bottom", transform=ax.transAxes)
 
 
-def _half_range(times: Array) -> float:
+def half_range(times: Array) -> float:
     """Distance from 1 that takes in the times within the robust percentiles."""
     return float(np.abs(np.nanpercentile(times, _ROBUST) - 1.0).max())
