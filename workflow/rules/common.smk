@@ -32,6 +32,13 @@ PARTS = {"": config["scenes"], "beyond/": config["beyond"]}
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
 #: Scenes by group.
 SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
+#: Cuts of measured surfaces by the name of the mask that they make.
+CUTS = {
+    scene.mask.name: scene.mask.cut
+    for scenes in SCENES.values()
+    for scene in scenes
+    if scene.mask and scene.mask.cut
+}
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
 #: Those that the study draws by itself.
@@ -67,6 +74,11 @@ def scene(wildcards):
     return ENSEMBLE[wildcards.scene].scene.arguments
 
 
+def own_files(wildcards):
+    """Masks and coefficients that a scene is read from."""
+    return [str(file) for file in ENSEMBLE[wildcards.scene].scene.files.values()]
+
+
 def duration(wildcards):
     seconds = ENSEMBLE[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
@@ -74,7 +86,8 @@ def duration(wildcards):
 
 def memory(wildcards):
     """MB, measured with a margin: a part that is always there and one for the lattice."""
-    return 300 + (ENSEMBLE[wildcards.scene].scene.n_blocks // 12) ** 2
+    rows, columns = ENSEMBLE[wildcards.scene].scene.shape
+    return 300 + rows * columns // 144
 
 
 def correlations(table, part):

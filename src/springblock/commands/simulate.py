@@ -22,7 +22,7 @@ from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
-from springblock.scene import Scene
+from springblock.scene import TEXTS, Scene
 from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
@@ -34,13 +34,13 @@ def _constants(
     context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> Material:
     """Read name=value pairs; what is not named has the paper's value."""
-    constants = dict(Material().items())
+    constants: dict[str, Any] = dict(Material().items())
     for value in values:
         name, _, number = value.partition("=")
         if name not in constants:
             raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
         try:
-            constants[name] = float(number)
+            constants[name] = number if name in TEXTS else float(number)
         except ValueError:
             raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
     try:
@@ -74,6 +74,16 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return scene_options(with_options(_SETUP, with_setup))
 
 
+def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
+    """mu_static and mu_dynamic, (N_y, N_x) each: drawn, unless the scene has them from files."""
+    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.edges == "periodic")
+    of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
+    return (
+        mu_static if of_static is None else of_static.values,
+        mu_dynamic if of_dynamic is None else of_dynamic.values,
+    )
+
+
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[str, Any]:
     """One row of a batch."""
     return {
@@ -92,6 +102,7 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[s
         "switches": run.switches,
         "t_det": run.t_det.ravel(),
         "normal_force": run.normal_force,
+        "contact": scene.contact.ravel(),
     }
 
 
@@ -107,8 +118,9 @@ _CORES = click.option(
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        contact, direction = scene.pattern.contact, scene.direction
-        compute_prelude(contact, direction=direction, cores=cores, **vars(setup)).save(output)
+        contact, direction, mu = scene.contact, scene.direction, scene.mu_static_field
+        how = {"mu_static": mu and mu.values, "cores": cores, **vars(setup)}
+        compute_prelude(contact, direction=direction, **how).save(output)
 
 
 @click.command("simulate")
@@ -133,13 +145,13 @@ def simulate_batch(
     if last_seed < first_seed:
         raise click.BadParameter(f"{last_seed} comes before --first-seed {first_seed}")
     with one_sentence():
-        contact, rows = scene.pattern.contact, []
+        contact, rows = scene.contact, []
         loaded = None if prelude is None else Prelude.read(prelude)
         for seed in tqdm(range(first_seed, last_seed + 1), desc=scene.folder, unit="realisation"):
             try:
                 run = simulate(
                     contact,
-                    *draw_friction(scene.n_blocks, seed, setup.material),
+                    *coefficients(scene, seed, setup.material),
                     direction=scene.direction,
                     duration=duration,
                     prelude=loaded,
