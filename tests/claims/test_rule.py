@@ -10,9 +10,10 @@ from springblock.claims.page import page
 from springblock.claims.rule import Claim, Estimate, Evidence, Finding, Share, outcomes, verdict
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
-from springblock.commands.claims import _stress
+from springblock.commands.claims import _by_scene, _stress
 from springblock.scene import Scene
 from springblock.statistics import mean_interval, share_interval, students_t
+from springblock.surfaces import BlockMap
 from springblock.tables import SUMMARY, rows_to_table, write
 
 INF = float("inf")
@@ -220,6 +221,14 @@ def test_the_command_finds_the_scene_of_a_prelude(tmp_path):
     np.testing.assert_allclose(field, field[:, ::-1], rtol=1e-6)  # across the sliding direction
     pillar = field[1:5, 1:5]
     assert pillar[0, 1] > pillar[1, 0] > pillar[1, 1]  # edges across, along, inside
+
+
+def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
+    mask = BlockMap("all-00000000", np.ones((12, 12), bool))
+    scenes = [Scene(12), Scene(12, n_rows=6), Scene(12, edges="periodic"), Scene(mask=mask)]
+    scenes += [Scene(12, mu_static_field=BlockMap("one-00000000", np.ones((12, 12))))]
+    assert _by_scene(scenes, lambda scene: scene) == {scenes[0]: scenes[:1]}
+    assert _by_scene([scene.row for scene in scenes], Scene.from_row).keys() == {scenes[0]}
 
 
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
