@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from springblock.figures import style
 from springblock.figures.declaration import INTERVALS, Declaration, Realisations
-from springblock.figures.ensembles import ENDS, FORCE, draw_force, draw_runs
+from springblock.figures.ensembles import FORCE, draw_force, draw_runs
 from springblock.figures.style import BEFORE_AFTER, BLACK, GREY, MICRO, journal
 from springblock.figures.surface import draw_mask
 from springblock.run import Array
@@ -25,8 +25,10 @@ FIGURE = Declaration(
     caption=f"""Each surface of the group `surfaces`: at the left which blocks are in contact; in
     the middle their first detachment times t_det over t_max, means over realisations, blue before
     the force maximum and red after it, on a scale of its own for each, and grey where there is no
-    contact; at the right the friction force over the normal force, mean with {INTERVALS}, with up
-    to 20 single runs, and dotted t_max, the mean over realisations. {ENDS}""",
+    contact; at the right the friction force over the normal force, mean with {INTERVALS}, up to 20
+    single runs, and t_max, the mean over realisations, as a dotted line. Runs end after a set time,
+    or after the first minimum behind their force maximum; from where the first has ended the force
+    is dotted, the mean over those that go on, and it ends with half of them.""",
     source=Realisations(groups=("surfaces",), keys=("folder",)),
 )
 
@@ -52,8 +54,8 @@ def _draw_surface(picture: Figure, bottom: float, runs: "Sequence[Record]") -> N
     mask, times = (style.axes(picture, at, bottom, _SIDE, _SIDE) for at in (_MASK, _MAP))
     draw_mask(mask, runs[0].scene.contact)
     _draw_times(picture, times, style.axes(picture, _BAR, bottom, 3.0, _SIDE), mean_times(runs))
-    for ax in (mask, times):
-        ax.set(xlabel="$x/l$", ylabel="$y/l$")
+    mask.set(xlabel="$x/l$", ylabel="$y/l$")
+    times.set(xlabel="$x/l$")
     name = runs[0].scene.folder.replace("/", ", ")
     mask.text(0.0, 1.03, name, va="bottom", transform=mask.transAxes)
     force = style.axes(picture, _FORCE, bottom, _SIDE, _SIDE)
