@@ -84,6 +84,10 @@ def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]
     )
 
 
+def _edges(scene: Scene) -> dict[str, Any]:
+    return {"periodic": True} if scene.edges == "periodic" else {}
+
+
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> dict[str, Any]:
     """One row of a batch."""
     return {
@@ -119,7 +123,7 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
         contact, direction, mu = scene.contact, scene.direction, scene.mu_static_field
-        how = {"mu_static": mu and mu.values, "cores": cores, **vars(setup)}
+        how = {"mu_static": mu and mu.values, "cores": cores, **_edges(scene), **vars(setup)}
         compute_prelude(contact, direction=direction, **how).save(output)
 
 
@@ -147,6 +151,7 @@ def simulate_batch(
     with one_sentence():
         contact, rows = scene.contact, []
         loaded = None if prelude is None else Prelude.read(prelude)
+        how = {**_edges(scene), **vars(setup)}
         for seed in tqdm(range(first_seed, last_seed + 1), desc=scene.folder, unit="realisation"):
             try:
                 run = simulate(
@@ -156,7 +161,7 @@ def simulate_batch(
                     duration=duration,
                     prelude=loaded,
                     cores=cores,
-                    **vars(setup),
+                    **how,
                 )
             except SimulationError as error:
                 raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error

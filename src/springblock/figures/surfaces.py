@@ -62,7 +62,7 @@ def _draw_surface(picture: Figure, bottom: float, runs: "Sequence[Record]") -> N
     curve = whole_curve(runs)
     draw_runs(force, curve, GREY)
     draw_force(force, curve, BLACK, "mean")
-    latest = np.mean([run.t_max for run in runs])
+    latest = float(np.mean([run.t_max for run in runs]))
     force.axvline(MICRO * latest, color=BLACK, linestyle=":", linewidth=1.0, zorder=0)
     force.set(xlabel="time (µs)", ylabel=FORCE, xlim=(0.0, None), ylim=(0.0, None))
 
