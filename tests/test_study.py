@@ -1,6 +1,7 @@
 """The configuration: what it expands to, and that its documentation keeps up with it."""
 
 import copy
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import yaml
 
 from springblock.scene import Scene
 from springblock.sources import configuration_digest
-from springblock.study import Ensemble, check, ensembles
+from springblock.study import Ensemble, check, ensembles, for_figures
 
 ROOT = Path(__file__).parents[1]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -139,6 +140,8 @@ def surfaces(tmp_path):
     """The paper's configuration with a group of one's own surfaces, given its grid."""
     np.save(tmp_path / "corner.npy", np.array([[1, 1, 0], [0, 0, 0], [0, 0, 0]], bool))
     np.save(tmp_path / "strip.npy", np.eye(3, 5, dtype=bool))
+    (tmp_path / "again").mkdir()
+    shutil.copy(tmp_path / "corner.npy", tmp_path / "again")
     np.save(tmp_path / "diagonal.npy", np.eye(3, dtype=bool))
     np.save(tmp_path / "strong.npy", np.full((3, 3), 1.5))
     np.save(tmp_path / "weak.npy", np.full((3, 3), -0.5))
@@ -195,6 +198,7 @@ def test_rectangles_and_edges_are_part_of_a_grid(surfaces):
     [
         ({"mask": "absent.npy"}, "absent.npy does not exist"),
         ({"mask": "broken.png"}, "broken.png is neither an image nor an array"),
+        ({"mask": ["corner.npy", "again/corner.npy"]}, r"masks are the same surface, corner-\w{8}"),
         ({"mask": []}, "scenes.own.mask is not valid"),
         ({"mask": "corner.npy", "n_p": [4], "n_s": [4]}, "mask cannot be given together with n_p"),
         ({"mask": "corner.npy", "n_blocks": [4]}, "n_blocks and n_rows are those of the mask, 3"),
@@ -231,6 +235,17 @@ def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
     assert "\n" not in str(refusal.value)
 
 
+def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
+    own = surfaces(mask="corner.npy")["scenes"]["own"]
+    groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
+    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}}))
+    assert {group: len(members) for group, members in drawn.items()} == {
+        "flat": 1,
+        "sizes": 0,
+        "surfaces": 1,
+    }
+
+
 def test_the_papers_groups_hold_its_own_surfaces(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     for group in ("flat", "grooves"):
@@ -240,7 +255,8 @@ def test_the_papers_groups_hold_its_own_surfaces(surfaces):
 
 def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
     """As if their digests met, which they do once in four thousand million."""
-    both = surfaces(mask=["corner.npy", "diagonal.npy"])
+    one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
+    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}}
     monkeypatch.setattr("springblock.surfaces._name", lambda file, values: "same-00000000")
     with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
         ensembles(both)

@@ -152,6 +152,17 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     }
 
 
+def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
+    """Ensembles that figures take by the names of groups: the paper's surfaces.
+
+    The group `surfaces`, which is drawn for itself, has those of one's own as well.
+    """
+    return {
+        group: [each for each in members if each.scene.is_papers or group == "surfaces"]
+        for group, members in groups.items()
+    }
+
+
 def _keep_largest(
     largest: dict[Scene, Ensemble], ensemble: Ensemble, untouched: Container[Scene]
 ) -> None:
@@ -179,13 +190,14 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
         raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
     shapes = product(_sizes(configuration, grid), grid.get("n_rows", [0]))
     pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
+    maps = {constants: list(_maps(configuration, grid, constants)) for constants in varied}
     ways = product(shapes, pillars, n_s, product(*deeper), grid["direction"], varied)
     for (n, rows), (size, count), given, rest, direction, constants in ways:
         lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
         how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
         how |= {"direction": direction, "varied": constants, "n_rows": rows}
-        for maps in _maps(configuration, grid, constants):
-            scene = Scene(n, **lengths, **how, **maps)
+        for own in maps[constants]:
+            scene = Scene(n, **lengths, **how, **own)
             yield Ensemble(scene, range(first, first + count), duration)
 
 
@@ -205,6 +217,9 @@ def _maps(
         if name in grid
     }
     masks = list(_masks(configuration, grid, constants))
+    for i, mask in enumerate(masks):
+        if mask in masks[:i]:
+            raise ValueError(f"two of its masks are the same surface, {mask}")
     yield from ({"mask": mask} | own for mask in masks)
     if not masks:
         yield own

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 Array = NDArray[Any]
 
 _SHOWN = 5  #: values that a refusal lists
+_MOST = 2**27  #: blocks that are read, eight times what the solver takes
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: of images, by Pillow's names
 
 
@@ -42,12 +43,14 @@ class Cut:
         ------
         ValueError
             Where the file cannot be read, has no units, or holds no block; where not one of
-            bearing area and height is given; or where the bearing area is no share.
+            bearing area and height is given; or where these or the spacing make no sense.
         """
         if (self.bearing_area is None) == (self.height is None):
             raise ValueError(f"{self.topography} is cut at either a bearing_area or a height")
         if self.bearing_area is not None and not 0.0 < self.bearing_area <= 1.0:
             raise ValueError(f"bearing_area must be above 0 and up to 1, not {self.bearing_area!r}")
+        if not self.spacing > 0.0:
+            raise ValueError(f"spacing must be positive, not {self.spacing!r}")
         heights = _on_blocks(self.topography, self.spacing)
         level = self.height
         if self.bearing_area is not None:
@@ -144,6 +147,8 @@ def _array(file: Path) -> Array:
         raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
     if values.ndim != 2 or not values.size:
         raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
+    if values.size > _MOST:
+        raise ValueError(f"{file} holds {values.size} blocks; {_MOST} are the most that are read")
     return np.array(values)
 
 
@@ -224,15 +229,19 @@ def _on_blocks(file: Path, spacing: float) -> Array:
         raise ValueError(f"{file} must be a map of heights, not a line")
     if read.unit is None or read.physical_sizes is None:
         raise ValueError(no_units)
-    measured = read.to_unit("m")
+    return _at_centres(file, read.to_unit("m"), spacing)
+
+
+def _at_centres(file: Path, measured: Any, spacing: float) -> Array:
     heights: Array = np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), np.nan)
     if not np.isfinite(heights).any():
         raise ValueError(f"{file} must hold heights; it has no valid point")
     sizes = measured.physical_sizes
     blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
-    if not all(blocks):
+    if not all(blocks) or blocks[0] * blocks[1] > _MOST:
         raise ValueError(
-            f"{file} must hold a block of {spacing!r} m; it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
+            f"{file} must hold 1 to {_MOST} blocks of {spacing!r} m; "
+            f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
         )
     x, y = (
         ((np.arange(n) + 0.5) * spacing / size * points).astype(int)

@@ -30,14 +30,14 @@ ENSEMBLES = study.ensembles(config)
 PARTS = {"": config["scenes"], "beyond/": config["beyond"]}
 #: The ensemble in each folder of realisations.
 ENSEMBLE = {ensemble.scene.folder: ensemble for group in ENSEMBLES.values() for ensemble in group}
-#: Scenes by group.
-SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
+#: Those that figures are drawn from, and their scenes.
+DRAWN = study.for_figures(ENSEMBLES)
+SCENES = {group: [ensemble.scene for ensemble in members] for group, members in DRAWN.items()}
 #: Cuts of measured surfaces by the name of the mask that they make.
 CUTS = {
-    scene.mask.name: scene.mask.cut
-    for scenes in SCENES.values()
-    for scene in scenes
-    if scene.mask and scene.mask.cut
+    ensemble.scene.mask.name: ensemble.scene.mask.cut
+    for ensemble in ENSEMBLE.values()
+    if ensemble.scene.mask and ensemble.scene.mask.cut
 }
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
@@ -111,7 +111,7 @@ def needed(figure):
 def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
     lengths = config["figures"].get(figure, {})
-    return FIGURES[figure].caption_in(ENSEMBLES, lengths, Material(**config["material"]))
+    return FIGURES[figure].caption_in(DRAWN, lengths, Material(**config["material"]))
 
 
 def is_part_of_all(figure):
