@@ -9,7 +9,7 @@ from springblock.surfaces import BlockMap, Cut
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # of what it imports
-    pytest.importorskip("SurfaceTopography")
+    SurfaceTopography = pytest.importorskip("SurfaceTopography")
 
 
 def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value units: nm\n"):
@@ -80,6 +80,23 @@ def test_what_cannot_be_cut_is_refused(tmp_path, header, how, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         Cut(file, **{"spacing": 1e-5, **how}).mask()
     assert "\n" not in str(refusal.value)
+
+
+def test_heights_in_volts_are_refused(tmp_path, monkeypatch):
+    """As an atomic force microscope may leave them."""
+    volts = SurfaceTopography.Topography(HEIGHTS.T, (4e-5, 3e-5), unit="V")
+    monkeypatch.setattr(SurfaceTopography, "read_topography", lambda file: volts)
+    with pytest.raises(ValueError, match=r"rough.txt must have a unit of length, not 'V'"):
+        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+
+
+def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
+    """And the bearing area counts all blocks: half of them are the six highest."""
+    measured = np.ma.masked_where(HEIGHTS.T > 9, HEIGHTS.T)
+    holes = SurfaceTopography.Topography(measured, (40.0, 30.0), unit="µm")
+    monkeypatch.setattr(SurfaceTopography, "read_topography", lambda file: holes)
+    contact = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+    np.testing.assert_array_equal(np.flatnonzero(contact), range(4, 10))
 
 
 @pytest.mark.parametrize("content", ["", "no heights at all", "1 2 3\n4 5\n"])

@@ -229,7 +229,11 @@ def _on_blocks(file: Path, spacing: float) -> Array:
         raise ValueError(f"{file} must be a map of heights, not a line")
     if read.unit is None or read.physical_sizes is None:
         raise ValueError(no_units)
-    return _at_centres(file, read.to_unit("m"), spacing)
+    try:
+        measured = read.to_unit("m")
+    except ValueError:
+        raise ValueError(f"{file} must have a unit of length, not {read.unit!r}") from None
+    return _at_centres(file, measured, spacing)
 
 
 def _at_centres(file: Path, measured: Any, spacing: float) -> Array:
