@@ -9,7 +9,9 @@ from springblock import Material
 
 PAPER = Material()
 MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+MAY_VANISH |= {"correlation_length"}
 NAMES = [field.name for field in fields(Material)]
+NUMBERS = [name for name in NAMES if name != "distribution"]
 
 
 @pytest.mark.parametrize(
@@ -52,27 +54,33 @@ def test_a_material_does_not_change():
         PAPER.density = 1.0
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", NUMBERS)
 @pytest.mark.parametrize("value", ["1", None, True, 1j])
 def test_what_is_no_number_is_refused_by_name(name, value):
     with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
         replace(PAPER, **{name: value})
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", NUMBERS)
 @pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
 def test_impossible_numbers_are_refused_by_name(name, value):
     with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
         replace(PAPER, **{name: value})
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", NUMBERS)
 def test_only_damping_and_friction_may_vanish(name):
     if name in MAY_VANISH:
         assert getattr(replace(PAPER, **{name: 0}), name) == 0.0
     else:
         with pytest.raises(ValueError, match=rf"Material\.{name} must be finite and positive"):
             replace(PAPER, **{name: 0})
+
+
+@pytest.mark.parametrize("value", ["gauss", "Normal", None, 1.0])
+def test_a_distribution_is_one_of_four(value):
+    with pytest.raises(ValueError, match=r"distribution must be one of normal, .* uniform, not"):
+        replace(PAPER, distribution=value)
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,25 @@ def test_a_flat_surface_touches_everywhere():
     assert Pattern.flat(7).origins.tolist() == [[0, 0]]
 
 
+def test_a_rectangle_is_cut_as_a_square_is():
+    """Half as many rows of pillars, with the same margins."""
+    square, wide = Pattern.pillars(24, 4, 2), Pattern.pillars(24, 4, 2, n_rows=12)
+    assert wide.contact.shape == wide.shape == (12, 24)
+    np.testing.assert_array_equal(wide.contact, square.contact[:12])
+    np.testing.assert_array_equal(wide.origins, square.origins[: len(square.origins) // 2])
+    assert Pattern.flat(5, n_rows=2).contact.shape == (2, 5)
+    assert Pattern(9, n_rows=9) == Pattern(9)
+
+
+def test_each_side_of_a_rectangle_must_hold_whole_periods():
+    with pytest.raises(ValueError, match=r"4 \+ 2 = 6 must divide N_y = 13; it leaves 1"):
+        Pattern.pillars(24, 4, 2, n_rows=13)
+    with pytest.raises(ValueError, match=r"4 \+ 2 = 6 must divide N_x = 25; it leaves 1"):
+        Pattern.pillars(25, 4, 2, n_rows=12)
+    with pytest.raises(ValueError, match="n_rows must be at least 1 block, not 0"):
+        Pattern.flat(4, n_rows=0)
+
+
 @pytest.mark.parametrize("n_p", [2, 6, 20, 60])
 def test_pillars_of_the_paper_bear_on_a_quarter_of_the_surface(n_p):
     """With n_s = n_p, pillars and gaps take turns, and half a gap remains at every edge."""

@@ -1,14 +1,16 @@
 """The configuration: what it expands to, and that its documentation keeps up with it."""
 
 import copy
+import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
 from springblock.scene import Scene
 from springblock.sources import configuration_digest
-from springblock.study import Ensemble, check, completed, ensembles
+from springblock.study import Ensemble, check, completed, ensembles, for_figures
 
 ROOT = Path(__file__).parents[1]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -157,6 +159,133 @@ def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
         varied = dict(value.split("=") for key, value in pairs if key == "--vary")
         texts = {key: named.pop(key) for key in ("direction", "along_3") if key in named}
         assert Scene(**texts, **{k: int(v) for k, v in named.items()}, varied=varied) == scene
+
+
+@pytest.fixture
+def surfaces(tmp_path):
+    """The paper's configuration with a group of one's own surfaces, given its grid."""
+    np.save(tmp_path / "corner.npy", np.array([[1, 1, 0], [0, 0, 0], [0, 0, 0]], bool))
+    np.save(tmp_path / "strip.npy", np.eye(3, 5, dtype=bool))
+    (tmp_path / "again").mkdir()
+    shutil.copy(tmp_path / "corner.npy", tmp_path / "again")
+    np.save(tmp_path / "diagonal.npy", np.eye(3, dtype=bool))
+    np.save(tmp_path / "strong.npy", np.full((3, 3), 1.5))
+    np.save(tmp_path / "weak.npy", np.full((3, 3), -0.5))
+    (tmp_path / "broken.png").write_bytes(b"no image")
+
+    def configured(direction=("x",), seeds=4, **grid):
+        files = ("mask", "mu_static", "mu_dynamic", "topography")
+        for key in grid.keys() & set(files):
+            named = grid[key] if isinstance(grid[key], list) else [grid[key]]
+            paths = [str(tmp_path / name) for name in named]
+            grid[key] = paths if isinstance(grid[key], list) else paths[0]
+        counted = {} if seeds is None else {"seeds": seeds}
+        return changed("scenes", "own", to={"direction": [*direction], **counted, **grid})
+
+    return configured
+
+
+def test_masks_are_an_axis_of_a_grid(surfaces):
+    constants = {"distribution": ["normal", "weibull"], "correlation_length": [0.0, 2e-5]}
+    masks = surfaces(mask=["corner.npy", "strip.npy"], material=constants, direction=("x", "y"))
+    check(masks, SCHEMA)
+    scenes = [ensemble.scene for ensemble in ensembles(masks)["own"]]
+    assert len({scene.folder for scene in scenes}) == 2 * 2 * 2 * 2
+    assert {scene.shape for scene in scenes} == {(3, 3), (3, 5)}
+    assert {scene.level for scene in scenes} == {-1}
+    assert sum(not scene.varied for scene in scenes) == 4  # with the study's own constants
+
+
+def test_the_papers_scenes_are_where_they_were(surfaces):
+    """No folder but those of surfaces of one's own says anything new."""
+    folders = {e.scene.folder for group in ensembles(PAPER).values() for e in group}
+    assert "n_blocks=120/level=0/direction=x" in folders
+    assert "n_blocks=120/level=1/n_p=20/n_s=20/direction=x" in folders
+    assert not [f for f in folders if "mask" in f or "n_rows" in f or "edges" in f]
+    assert not [f for f in folders if "distribution" in f or "correlation_length" in f]
+
+
+def test_where_nothing_is_drawn_one_realisation_is_all(surfaces):
+    files = {"mu_static": "strong.npy", "mu_dynamic": "strong.npy"}
+    alone = surfaces(mask="corner.npy", seeds=None, **files)
+    check(alone, SCHEMA)
+    assert [ensemble.seeds for ensemble in ensembles(alone)["own"]] == [range(1)]
+
+
+def test_rectangles_and_edges_are_part_of_a_grid(surfaces):
+    wide = surfaces(n_blocks=[12], n_rows=[6, 12], n_p=[4], n_s=[2], edges="periodic")
+    check(wide, SCHEMA)
+    scenes = [ensemble.scene for ensemble in ensembles(wide)["own"]]
+    assert [(s.shape, s.edges) for s in scenes] == [((6, 12), "periodic"), ((12, 12), "periodic")]
+
+
+@pytest.mark.parametrize(
+    ("grid", "sentence"),
+    [
+        ({"mask": "absent.npy"}, "absent.npy does not exist"),
+        ({"mask": "broken.png"}, "broken.png is neither an image nor an array"),
+        ({"mask": ["corner.npy", "again/corner.npy"]}, r"masks are the same surface, corner-\w{8}"),
+        ({"mask": []}, "scenes.own.mask is not valid"),
+        ({"mask": "corner.npy", "n_p": [4], "n_s": [4]}, "mask cannot be given together with n_p"),
+        ({"mask": "corner.npy", "n_blocks": [4]}, "n_blocks and n_rows are those of the mask, 3"),
+        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be given together with a topogr"),
+        ({"bearing_area": 0.5}, "scenes.own: bearing_area needs a topography"),
+        ({"topography": "absent.opd", "height": 1e-6}, "absent.opd does not exist"),
+        ({"topography": "strip.npy", "bearing_area": 1.5}, "bearing_area is not valid: 1.5"),
+        ({"mask": "strip.npy", "mu_static": "strong.npy"}, r"strong-\w{8} must have the shape"),
+        ({"mask": "corner.npy", "mu_static": "weak.npy"}, r"weak-\w{8} must be finite and not neg"),
+        ({"mu_static": "strong.npy"}, r"strong-\w{8} must have the shape .* \(120, 120\)"),
+        ({"mask": "corner.npy", "seeds": None}, "scenes.own: 'seeds' is a required property"),
+        (
+            {"mask": "corner.npy", "mu_static": "strong.npy", "mu_dynamic": "strong.npy"},
+            "seeds is 4, but nothing is drawn: leave it out, or say 1",
+        ),
+        (
+            {"mask": "corner.npy", "mu_static": "strong.npy", "material": {"mu_static": [2.0]}},
+            r"mu_static cannot be varied where strong-\w{8} says mu_static",
+        ),
+        ({"material": {"distribution": ["gauss"]}}, "distribution.0 is not valid: 'gauss'"),
+        (
+            {"material": {"distribution": ["uniform"], "mu_static_std": [0.6]}},
+            "scenes.own: no uniform distribution has mu_static = 1.0",
+        ),
+        ({"material": {"correlation_length": [-1.0]}}, "correlation_length must be .* zero or pos"),
+        ({"material": {"correlation_length": [1.0]}}, "own: correlation_length = 1.0 m must not"),
+        ({"n_blocks": [5000]}, "scenes.own: N is 5000; the solver goes up to 4096"),
+        ({"edges": "closed"}, "scenes.own.edges is not valid: 'closed'"),
+    ],
+)
+def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        check(surfaces(**grid), SCHEMA)
+    assert "\n" not in str(refusal.value)
+
+
+def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
+    own = surfaces(mask="corner.npy")["scenes"]["own"]
+    groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
+    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}}))
+    assert {group: len(members) for group, members in drawn.items()} == {
+        "flat": 1,
+        "sizes": 0,
+        "surfaces": 1,
+    }
+
+
+def test_the_papers_groups_hold_its_own_surfaces(surfaces):
+    own = surfaces(mask="corner.npy")["scenes"]["own"]
+    for group in ("flat", "grooves"):
+        with pytest.raises(ValueError, match=f"scenes.{group}: its surfaces must be the paper's"):
+            check(changed("scenes", group, to=own), SCHEMA)
+
+
+def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
+    """As if their digests met, which they do once in four thousand million."""
+    one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
+    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}}
+    monkeypatch.setattr("springblock.surfaces._name", lambda file, values: "same-00000000")
+    with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
+        ensembles(both)
 
 
 def test_any_change_changes_the_digest():

@@ -6,6 +6,7 @@ import click
 
 COMMANDS = {
     "compile": "springblock.commands.simulate:compile_kernels",
+    "mask": "springblock.commands.mask:mask",
     "prelude": "springblock.commands.simulate:prelude",
     "simulate": "springblock.commands.simulate:simulate_batch",
     "plot": "springblock.commands.pictures:plot",

@@ -13,8 +13,11 @@ def _not_negative(value: float) -> bool:
     return value >= 0.0
 
 
-#: Fields that may be zero; all others must be positive.
+#: How the coefficients of the blocks may be distributed, see `springblock.asperities`.
+DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
+#: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+_MAY_VANISH |= {"correlation_length"}
 
 
 @dataclass(frozen=True)
@@ -28,8 +31,8 @@ class Material:
     Raises
     ------
     TypeError, ValueError
-        Where a field is not a number, not finite, negative, or zero where it may not be; or
-        where what follows from them is beyond floating point.
+        Where a field is not a number, not finite, negative, or zero where it may not be; where
+        what follows from them is beyond floating point; or where there is no such distribution.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -43,9 +46,18 @@ class Material:
     mu_static_std: float = 0.1  #: its standard deviation
     mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
     mu_dynamic_std: float = 0.05  #: its standard deviation
+    distribution: str = "normal"  #: of both, one of `DISTRIBUTIONS`
+    correlation_length: float = 0.0  #: m, over which they are alike; 0: each block for itself
 
     def __post_init__(self) -> None:
+        if self.distribution not in DISTRIBUTIONS:
+            raise ValueError(
+                f"Material.distribution must be one of {', '.join(DISTRIBUTIONS)}, "
+                f"not {self.distribution!r}"
+            )
         for name, value in self.items():
+            if name == "distribution":
+                continue
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise TypeError(f"Material.{name} must be a number, not {value!r}")
             allowed = _not_negative if name in _MAY_VANISH else _positive
@@ -64,8 +76,8 @@ class Material:
             if not (math.isfinite(derived) and derived > 0.0):
                 raise ValueError(f"these constants take Material.{name} beyond floating point")
 
-    def items(self) -> Iterator[tuple[str, float]]:
-        """Yield (name, value) of every constant."""
+    def items(self) -> Iterator[tuple[str, float | str]]:
+        """Yield (name, value) of every constant; all are numbers but the distribution."""
         return ((field.name, getattr(self, field.name)) for field in fields(self))
 
     @property

@@ -40,13 +40,13 @@ class Level:
         return None if len(self.axes) == 2 else {"y": "x", "x": "y"}[self.axes[0]]
 
 
-def _cut_surface(n: int, level: Level) -> Segments:
+def _cut_surface(name: str, n: int, level: Level) -> Segments:
     """Lay the first level over n blocks, with margins of half a gap (section 3.2)."""
     period = level.size + level.gap
     if n % period:
         raise ValueError(
             f"the period n_p + n_s = {level.size} + {level.gap} = {period} "
-            f"must divide N = {n}; it leaves {n % period} blocks over"
+            f"must divide {name} = {n}; it leaves {n % period} blocks over"
         )
     return [(start, level.size) for start in range(level.gap // 2, n, period)]
 
@@ -70,7 +70,7 @@ def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
 
 @dataclass(frozen=True)
 class Pattern:
-    """A hierarchy of any depth on a surface of N x N blocks.
+    """A hierarchy of any depth on a surface of N x N blocks, or of N_y rows of N_x blocks.
 
     Build it from `flat` or `pillars` and refine it with `grooved` and `pillared`. The first
     level keeps a margin of n_s/2 to the edges of the surface (of floor and ceil of n_s/2 where
@@ -84,22 +84,25 @@ class Pattern:
         level does not fit into the one above it.
     """
 
-    n_blocks: int
+    n_blocks: int  #: along x
     levels: tuple[Level, ...] = ()
+    n_rows: int | None = None  #: along y; None for as many
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "n_blocks", _count("N", self.n_blocks))
+        rows = self.n_blocks if self.n_rows is None else _count("n_rows", self.n_rows)
+        object.__setattr__(self, "n_rows", rows)
         self.profile("x"), self.profile("y")  # a level that does not fit is refused here
 
     @classmethod
-    def flat(cls, n_blocks: int) -> "Pattern":
-        """All N x N blocks in contact."""
-        return cls(n_blocks)
+    def flat(cls, n_blocks: int, n_rows: int | None = None) -> "Pattern":
+        """All blocks in contact."""
+        return cls(n_blocks, n_rows=n_rows)
 
     @classmethod
-    def pillars(cls, n_blocks: int, n_p: int, n_s: int) -> "Pattern":
+    def pillars(cls, n_blocks: int, n_p: int, n_s: int, n_rows: int | None = None) -> "Pattern":
         """Square pillars of n_p blocks, n_s blocks apart."""
-        return cls(n_blocks).pillared(n_p, n_s)
+        return cls(n_blocks, n_rows=n_rows).pillared(n_p, n_s)
 
     def pillared(self, n_p: int, n_s: int) -> "Pattern":
         """Add a level of pillars of n_p blocks, n_s blocks apart."""
@@ -121,20 +124,27 @@ class Pattern:
         `depth` counts the levels that are looked at, all of them by default; levels that do not
         cut this axis leave it whole.
         """
-        segments = [(0, self.n_blocks)]
+        rows, columns = self.shape
+        n, name = (columns if axis == "x" else rows), ("N" if rows == columns else f"N_{axis}")
+        segments = [(0, n)]
         for level in self.levels[:depth]:
             if axis not in level.axes:
                 continue
-            if segments == [(0, self.n_blocks)]:
-                segments = _cut_surface(self.n_blocks, level)
+            if segments == [(0, n)]:
+                segments = _cut_surface(name, n, level)
             else:
                 segments = [cut for s in segments for cut in _cut_segment(s, level)]
         return segments
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Blocks along y and along x."""
+        return self.n_rows or self.n_blocks, self.n_blocks
+
     @cached_property
     def contact(self) -> NDArray[np.bool_]:
-        """Blocks in contact with the substrate, (N, N) bool, indexed [y, x]; read-only."""
-        along = {axis: np.zeros(self.n_blocks, bool) for axis in "xy"}
+        """Blocks in contact with the substrate, (N_y, N_x) bool, indexed [y, x]; read-only."""
+        along = {axis: np.zeros(n, bool) for axis, n in zip("yx", self.shape, strict=True)}
         for axis, mask in along.items():
             for start, length in self.profile(axis):
                 mask[start : start + length] = True

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.asperities import log_share_above
 from springblock.checks import checked_surface
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
@@ -141,11 +142,13 @@ def compute_prelude(
     step: float = STEP,
     sample_interval: float = SAMPLE_INTERVAL,
     cores: int = 1,
+    mu_static: ArrayLike | None = None,
 ) -> Prelude:
     """Load a surface whose blocks never let go, until most seeds would have let one go.
 
     What comes out is shared by `simulate` among all seeds. Arguments and errors are those of
-    `simulate`.
+    `simulate`; where `mu_static` is not drawn, the only state that is kept is the last before a
+    block lets go.
     """
     ones = np.ones(np.shape(contact))
     mask, _, _ = checked_surface(contact, ones, ones)
@@ -175,7 +178,11 @@ def compute_prelude(
         if broken >= 0:  # a spring fails before blocks let go: realisations will find out
             break
         record.append(taken)
-        holding = _share_that_holds(np.sqrt(peak[bound]) / load, material)
+        needed = np.sqrt(peak[bound]) / load
+        if mu_static is None:
+            holding = _share_that_holds(needed, material)
+        else:
+            holding = float((needed < np.asarray(mu_static)[mask]).all())
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
     force = np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1)
     return Prelude(
@@ -189,8 +196,9 @@ def compute_prelude(
 
 
 def _share_that_holds(needed: Array, material: Material) -> float:
-    """Probability that all draws of mu_static exceed what is `needed` to hold each block."""
-    from scipy.special import log_ndtr  # loading it takes a third of a second, for a prelude only
+    """Probability that all draws of mu_static exceed what is `needed` to hold each block.
 
-    spread = max(material.mu_static_std, 1e-9)
-    return math.exp(log_ndtr((material.mu_static - needed) / spread).sum())
+    Were they independent; where they are correlated it is higher, and the states are earlier than
+    those that serve best.
+    """
+    return math.exp(log_share_above(needed, material).sum())

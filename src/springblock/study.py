@@ -4,13 +4,18 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
 
+from springblock.asperities import check_draws
 from springblock.material import Material
-from springblock.scene import LENGTHS, Scene, Varied
+from springblock.scene import LENGTHS, MAPS, Scene, Varied
 from springblock.setup import Setup
+from springblock.solver.springs import MAX_BLOCKS
+from springblock.surfaces import BlockMap, Cut
 
 Configuration = Mapping[str, Any]
 
@@ -103,8 +108,15 @@ def _named(configuration: Configuration, group: str) -> Iterator[None]:
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     scene, sample_interval = ensemble.scene, setup.sample_interval
-    _ = scene.pattern
-    setup.vary(dict(scene.varied))
+    _ = scene.contact
+    if max(scene.shape) > MAX_BLOCKS:
+        raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
+    _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
+    if group in _LEVELS and not scene.is_papers:
+        raise ValueError(
+            "its surfaces must be the paper's, square, with free edges and without files; "
+            "others may be in a group of any other name"
+        )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
     if ensemble.duration is not None and ensemble.duration < sample_interval:
@@ -116,6 +128,14 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         raise ValueError(
             f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
         )
+
+
+def _check_draws(ensemble: Ensemble, material: Material) -> None:
+    scene, seeds = ensemble.scene, ensemble.seeds
+    if scene.is_drawn:
+        check_draws(scene.shape, material)
+    elif len(seeds) > 1:
+        raise ValueError(f"seeds is {len(seeds)}, but nothing is drawn: leave it out, or say 1")
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:
@@ -158,6 +178,17 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     return found
 
 
+def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
+    """Ensembles that figures take by the names of groups: the paper's surfaces.
+
+    The group `surfaces`, which is drawn for itself, has those of one's own as well.
+    """
+    return {
+        group: [each for each in members if each.scene.is_papers or group == "surfaces"]
+        for group, members in groups.items()
+    }
+
+
 def _keep_largest(
     largest: dict[Scene, Ensemble], ensemble: Ensemble, study: Mapping[Scene, Ensemble]
 ) -> None:
@@ -165,6 +196,10 @@ def _keep_largest(
     if scene in study:
         ensemble = replace(ensemble, duration=study[scene].duration)
     known = largest.setdefault(scene, ensemble)
+    for key in MAPS:
+        one, other = getattr(known.scene, key), getattr(scene, key)
+        if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
+            raise ValueError(f"scenes: {one.file} and {other.file} are both called {one}")
     if known.duration != ensemble.duration:
         raise ValueError(f"scenes: {scene.folder} is given two durations")
     largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
@@ -173,19 +208,70 @@ def _keep_largest(
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
     if not grid:
         return
-    first = configuration["first_seed"]
-    sizes = grid.get("n_blocks", [configuration["n_blocks"]])
+    first, duration = configuration["first_seed"], grid.get("duration")
     n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
-    counts = grid["seeds"] if isinstance(grid["seeds"], list) else [grid["seeds"]] * len(n_p)
+    seeds = grid.get("seeds", 1)
+    counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
     if len(counts) != len(n_p):
         raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
+    shapes = product(_sizes(configuration, grid), grid.get("n_rows", [0]))
     pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
-    ways = product(sizes, pillars, n_s, product(*deeper), grid["direction"], varied)
-    for n, (size, count), given, rest, direction, constants in ways:
+    maps = {constants: list(_maps(configuration, grid, constants)) for constants in varied}
+    ways = product(shapes, pillars, n_s, product(*deeper), grid["direction"], varied)
+    for (n, rows), (size, count), given, rest, direction, constants in ways:
         lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
-        how = {"direction": direction, "along_3": grid.get("along_3", ""), "varied": constants}
-        scene = Scene(n, **lengths, **how)
-        yield Ensemble(scene, range(first, first + count), grid.get("duration"))
+        how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
+        how |= {"direction": direction, "varied": constants, "n_rows": rows}
+        for own in maps[constants]:
+            scene = Scene(n, **lengths, **how, **own)
+            yield Ensemble(scene, range(first, first + count), duration)
+
+
+def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:
+    """N of a grid's scenes; 0 where a mask says it."""
+    of_mask = "mask" in grid or "topography" in grid
+    return grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
+
+
+def _maps(
+    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
+) -> Iterator[dict[str, Any]]:
+    """Each mask of a grid, if it has any, with the coefficients that files say."""
+    own = {
+        f"{name}_field": BlockMap.coefficients(Path(grid[name]))
+        for name in ("mu_static", "mu_dynamic")
+        if name in grid
+    }
+    masks = list(_masks(configuration, grid, constants))
+    for i, mask in enumerate(masks):
+        if mask in masks[:i]:
+            raise ValueError(f"two of its masks are the same surface, {mask}")
+    yield from ({"mask": mask} | own for mask in masks)
+    if not masks:
+        yield own
+
+
+def _masks(
+    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
+) -> Iterator[BlockMap]:
+    cuts = {key: _listed(grid[key]) for key in ("bearing_area", "height") if key in grid}
+    if "mask" in grid:
+        if "topography" in grid or cuts:
+            raise ValueError("mask cannot be given together with a topography or its cut")
+        yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
+    elif "topography" in grid:
+        spacing = dict(constants).get("spacing", configuration["material"]["spacing"])
+        folder, file = Path(configuration["results"], "surfaces"), Path(grid["topography"])
+        for values in product(*cuts.values()):
+            cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))
+            yield BlockMap.of_topography(cut, folder)
+    elif cuts:
+        raise ValueError(f"{next(iter(cuts))} needs a topography")
+
+
+def _listed(given: Any) -> list[Any]:
+    """Read what may be one value or a list of them."""
+    return given if isinstance(given, list) else [given]
 
 
 def _gap(given: int | str, n_p: int) -> int:
@@ -198,7 +284,7 @@ def _gap(given: int | str, n_p: int) -> int:
 
 def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
     """Each combination of the constants that a grid lists, without those that the study has."""
-    study = {**configuration["material"], **configuration}
+    study = {**dict(Material().items()), **configuration["material"], **configuration}
     lists = {key: grid[key] for key in ("integrator", "step") if key in grid}
     lists |= grid.get("material", {})
     for values in product(*lists.values()):

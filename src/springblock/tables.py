@@ -1,7 +1,7 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,7 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
 #: What tells one scene from another, as `Scene` names it.
 SCENE = pa.schema(
     [
-        column("level", pa.int8(), "1", "levels of the pattern; 0 on a flat surface"),
+        column("level", pa.int8(), "1", "levels of the pattern; 0 if flat, -1 with a mask instead"),
         column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
@@ -37,7 +37,12 @@ SCENE = pa.schema(
         column("along_3", pa.string(), "x or y", "axis that these grooves run along; '' without"),
         column("varied", pa.string(), "name=value", "constants other than the study's own"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface, along x"),
+        column("n_rows", pa.int32(), "blocks", "side along y, the same on a square surface"),
+        column("edges", pa.string(), "free or periodic", "edges of the surface, both ways"),
+        column("mask", pa.string(), "name", "file and digest of the contact mask; '' without"),
+        column("mu_static_field", pa.string(), "name", "the same of mu_static; '' where drawn"),
+        column("mu_dynamic_field", pa.string(), "name", "the same of mu_dynamic; '' where drawn"),
     ]
 )
 
@@ -55,6 +60,8 @@ SETUP = pa.schema(
         column("mu_static_std", pa.float64(), "1", "their standard deviation"),
         column("mu_dynamic", pa.float64(), "1", "mean of the dynamic coefficients"),
         column("mu_dynamic_std", pa.float64(), "1", "their standard deviation"),
+        column("distribution", pa.string(), "1", "of both coefficients, where they are drawn"),
+        column("correlation_length", pa.float64(), "m", "of both: exp(-r²/ℓ²) of their normals"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between two samples"),
@@ -170,6 +177,12 @@ BATCH = pa.schema(
             "first detachment time of each block, row by row from y = 0; NaN where none",
         ),
         column("normal_force", pa.float64(), "N", "P l² N²"),
+        column(
+            "contact",
+            pa.list_(pa.bool_()),
+            "1",
+            "whether each block is in contact, row by row from y = 0",
+        ),
     ]
 )
 
@@ -310,24 +323,33 @@ def read_frame(path: Path) -> "pd.DataFrame":
     return pq.read_table(path, partitioning=None).to_pandas()
 
 
+def _scene(row: pa.Table) -> Scene:
+    """Return the scene of a row of a batch, with its mask if it has one of its own."""
+    scene = Scene.from_row(row.select(SCENE.names).to_pylist()[0])
+    if scene.mask is None:
+        return scene
+    contact = row["contact"][0].values.to_numpy(zero_copy_only=False).reshape(scene.shape)
+    return replace(scene, mask=replace(scene.mask, values=contact))
+
+
 def read_records(paths: Iterable[Path]) -> list[Record]:
     """Read stored realisations in order of their seeds."""
     table = read(paths, BATCH)
     records = []
     for i in range(table.num_rows):
         row = table.slice(i, 1)
-        n = row["n_blocks"][0].as_py()
+        scene = _scene(row)
         force = row["force"][0].values.to_numpy()
         records.append(
             Record(
-                scene=Scene.from_row(row.select(SCENE.names).to_pylist()[0]),
+                scene=scene,
                 seed=row["seed"][0].as_py(),
                 time=np.arange(len(force)) * row["sample_interval"][0].as_py(),
                 force=force,
                 normal_force=row["normal_force"][0].as_py(),
                 detachments=row["detachments"][0].values.to_numpy(),
                 switches=row["switches"][0].values.to_numpy(),
-                t_det=row["t_det"][0].values.to_numpy(zero_copy_only=False).reshape(n, n),
+                t_det=row["t_det"][0].values.to_numpy(zero_copy_only=False).reshape(scene.shape),
                 t_max=row["t_max"][0].as_py(),
                 t_avg=row["t_avg"][0].as_py(),
                 static_friction=row["static_friction"][0].as_py(),

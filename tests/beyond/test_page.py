@@ -34,6 +34,7 @@ def test_grooves_without_pillars_are_no_flat_surface():
 def test_realisations_are_sorted_by_scene():
     first, second = Scene(10), Scene(20)
     mixed = [*lean(first, 0.7), *lean(second, 0.8), *lean(first, 0.6)]
+    mixed += lean(Scene(10, edges="periodic"), 0.9)  # which the paper could not have
     found = by_scene(mixed)
     assert list(found) == [first, second]
     assert [len(runs) for runs in found.values()] == [10, 5]

@@ -20,9 +20,10 @@ from springblock.claims.rule import (
 )
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
-from springblock.commands.claims import _stress
+from springblock.commands.claims import _by_scene, _stress
 from springblock.scene import Scene
 from springblock.statistics import mean_interval, share_interval, students_t
+from springblock.surfaces import BlockMap
 from springblock.tables import SUMMARY, rows_to_table, write
 
 INF = float("inf")
@@ -234,9 +235,18 @@ def test_the_command_finds_the_scene_of_a_prelude(tmp_path):
     assert pillar[0, 1] > pillar[1, 0] > pillar[1, 1]  # edges across, along, inside
 
 
+def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
+    mask = BlockMap("all-00000000", np.ones((12, 12), bool))
+    scenes = [Scene(12), Scene(12, n_rows=6), Scene(12, edges="periodic"), Scene(mask=mask)]
+    scenes += [Scene(12, mu_static_field=BlockMap("one-00000000", np.ones((12, 12))))]
+    assert _by_scene(scenes, lambda scene: scene) == {scenes[0]: scenes[:1]}
+    assert _by_scene([scene.row for scene in scenes], Scene.from_row).keys() == {scenes[0]}
+
+
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.commands.claims.read_records", lambda batches: [])
-    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | {"integrator": "leapfrog"}
+    texts = {"integrator": "leapfrog", "distribution": "normal"}
+    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | texts
     table, claims, text = (tmp_path / name for name in ("table", "claims.parquet", "claims.md"))
     runs = [row | {"t_avg": 1.0 + 0.001 * seed, "seed": seed} for seed in range(ENOUGH)]
     write(rows_to_table(runs, SUMMARY), table, {})

@@ -1,15 +1,17 @@
 """springblock compile, prelude and simulate."""
 
 import json
+import re
 import signal
 import subprocess
 import sys
 import time
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import draw_friction
+from springblock import Prelude, draw_friction, simulate
 from springblock.solver import INTEGRATORS
 
 FLAT = ("--n-blocks", 6)
@@ -75,6 +77,62 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
 )
 def test_so_it_is_before_a_simulation(springblock, words, sentence):
     assert sentence in springblock(*words, refused=True)
+
+
+@pytest.fixture
+def own(tmp_path):
+    """Options of a surface of one's own, whose coefficients are known."""
+    files = {"--mask": np.eye(6) > 0.0, "--mu-static": np.full((6, 6), 0.9)}
+    files |= {"--mu-dynamic": np.full((6, 6), 0.5)}
+    for option, values in files.items():
+        np.save(tmp_path / f"{option}.npy", values)
+    return [word for option in files for word in (option, tmp_path / f"{option}.npy")]
+
+
+def test_a_surface_of_ones_own_is_simulated_from_its_files(springblock, tmp_path, own):
+    springblock("simulate", *own, *ONE, "--output", tmp_path / "a")
+    (row,) = pq.read_table(tmp_path / "a").to_pylist()
+    assert (row["n_blocks"], row["n_rows"], row["level"]) == (6, 6, -1)
+    assert row["contact"] == np.eye(6, dtype=bool).ravel().tolist()
+    alone = simulate(np.eye(6) > 0.0, np.full((6, 6), 0.9), np.full((6, 6), 0.5))
+    assert row["static_friction"] == alone.static_friction
+
+
+def test_the_prelude_of_known_coefficients_ends_where_the_first_block_lets_go(
+    springblock, tmp_path, own
+):
+    """Whatever the means are that nothing is drawn with, and without changing a bit."""
+    prelude, with_it, without = (tmp_path / name for name in ("p.npz", "with", "without"))
+    how = ("--material", "mu_static=0.1")
+    springblock("prelude", *own, *how, "--output", prelude)
+    springblock("simulate", *own, *how, *ONE, "--prelude", prelude, "--output", with_it)
+    springblock("simulate", *own, *how, *ONE, "--output", without)
+    skipping, plain = (repr(pq.read_table(file).to_pylist()) for file in (with_it, without))
+    assert skipping == plain  # to the last digit, NaN outside the contact included
+    (state,) = Prelude.read(prelude).samples
+    (row,) = pq.read_table(without).to_pylist()
+    assert row["t_first"] / 2e-7 - 20 < state < row["t_first"] / 2e-7
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--mask", "absent.npy"], "'--mask': File 'absent.npy' does not exist"),
+        (["--mask", __file__], "'--mask': .* is neither an image nor an array of NumPy"),
+        (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers that NumPy"),
+        (["--n-p", 2, "--n-s", 1], "a mask cannot be given together with n_p, n_s"),
+        (["--n-blocks", 7], "n_blocks and n_rows are those of the mask, 6 and 6, not 7 and 7"),
+        (["--edges", "closed"], "'--edges': 'closed' is not one of 'free', 'periodic'"),
+        (["--vary", "mu_static=2"], "mu_static cannot be varied where --mu-static-"),
+        (
+            ["--material", "distribution=gauss"],
+            "distribution must be one of normal, .*, not 'gauss",
+        ),
+    ],
+)
+def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own, words, sentence):
+    refusal = springblock("simulate", *own, *ONE, "--output", tmp_path / "a", *words, refused=True)
+    assert re.search(sentence, refusal)
 
 
 def test_the_prelude_of_another_scene_is_refused(springblock, tmp_path):

@@ -35,8 +35,15 @@ ENSEMBLE = {
     for part, groups in {"": config["scenes"], "beyond/": ENSEMBLES}.items()
 }
 EVERY = ENSEMBLE["beyond/"]
-#: Scenes by group.
-SCENES = {group: [ensemble.scene for ensemble in members] for group, members in ENSEMBLES.items()}
+#: Those that figures are drawn from, and their scenes.
+DRAWN = study.for_figures(ENSEMBLES)
+SCENES = {group: [ensemble.scene for ensemble in members] for group, members in DRAWN.items()}
+#: Cuts of measured surfaces by the name of the mask that they make.
+CUTS = {
+    ensemble.scene.mask.name: ensemble.scene.mask.cut
+    for ensemble in EVERY.values()
+    if ensemble.scene.mask and ensemble.scene.mask.cut
+}
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
 #: Those that the study draws by itself.
@@ -73,6 +80,11 @@ def scene(wildcards):
     return EVERY[wildcards.scene].scene.arguments
 
 
+def own_files(wildcards):
+    """Masks and coefficients that a scene is read from."""
+    return [str(file) for file in EVERY[wildcards.scene].scene.files.values()]
+
+
 def duration(wildcards):
     seconds = EVERY[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
@@ -80,7 +92,8 @@ def duration(wildcards):
 
 def memory(wildcards):
     """MB, measured with a margin: a part that is always there and one for the lattice."""
-    return 300 + (EVERY[wildcards.scene].scene.n_blocks // 12) ** 2
+    rows, columns = EVERY[wildcards.scene].scene.shape
+    return 300 + rows * columns // 144
 
 
 def correlations(table, part):
@@ -118,7 +131,9 @@ def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
     lengths, part = config["figures"].get(figure, {}), part_of(figure)
     members = {
-        group: ensembles(part, [group]) for group in ENSEMBLES if part or group in PARTS[part]
+        group: [ENSEMBLE[part][each.scene.folder] for each in drawn]
+        for group, drawn in DRAWN.items()
+        if part or group in PARTS[part]
     }
     return FIGURES[figure].caption_in(members, lengths, Material(**config["material"]))
 

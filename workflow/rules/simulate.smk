@@ -14,6 +14,7 @@ HOW = " ".join(
 wildcard_constraints:
     scene="|".join(map(re.escape, EVERY)),
     part="|".join(map(re.escape, PARTS)),
+    mask="|".join(map(re.escape, CUTS)),
 
 
 rule compile_integrator:
@@ -44,10 +45,40 @@ rule compile:
         "All integrators are compiled"
 
 
+rule mask_topography:
+    input:
+        lambda wildcards: str(CUTS[wildcards.mask].topography),
+    output:
+        f"{RESULTS}/surfaces/{{mask}}.npy",
+    log:
+        f"{RESULTS}/logs/surfaces/{{mask}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/surfaces/{{mask}}.tsv"
+    resources:
+        mem_mb=800,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.mask"),
+        cut=lambda wildcards: CUTS[wildcards.mask].arguments,
+    message:
+        "Cutting a measured surface: {wildcards.mask}"
+    shell:
+        "springblock mask {input:q} {params.cut} --output {output:q} > {log:q} 2>&1"
+
+
+rule mask:
+    input:
+        expand(rules.mask_topography.output, mask=CUTS),
+    localrule: True
+    message:
+        "All measured surfaces are cut"
+
+
 # Preludes are not temp(): made again for more seeds, they would make finished batches run again.
 rule prelude_scene:
     input:
         f"{RESULTS}/compiled/{config['integrator']}",
+        own_files,
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:
@@ -80,7 +111,8 @@ rule prelude:
 
 rule simulate_batch:
     input:
-        rules.prelude_scene.output,
+        own_files,
+        prelude=rules.prelude_scene.output,
     output:
         f"{RESULTS}/realisations/{{scene}}/seeds={{first}}-{{last}}.parquet",
     log:
@@ -102,7 +134,7 @@ rule simulate_batch:
         "Simulating {wildcards.scene}, seeds {wildcards.first} to {wildcards.last}"
     shell:
         "springblock simulate {params.scene} {params.how} {params.duration} "
-        "--prelude {input:q} --first-seed {wildcards.first} --last-seed {wildcards.last} "
+        "--prelude {input.prelude:q} --first-seed {wildcards.first} --last-seed {wildcards.last} "
         "--output {output:q} > {log:q} 2>&1"
 
 

@@ -25,10 +25,14 @@ class Question:
 
 
 def by_scene(records: Sequence[Record]) -> dict[Scene, list[Record]]:
-    """Realisations of each scene, in the order in which the scenes come."""
+    """Realisations of each scene, in the order in which the scenes come.
+
+    Those on surfaces that the paper could not have are left out.
+    """
     found: dict[Scene, list[Record]] = {}
     for record in records:
-        found.setdefault(record.scene, []).append(record)
+        if record.scene.is_papers:
+            found.setdefault(record.scene, []).append(record)
     return found
 
 

@@ -71,7 +71,7 @@ def clustering(observed: Array, chance: Array) -> Estimate:
 def weakest(run: Record) -> float:
     """Share of the m blocks detached before t_max that are among the m weakest of the surface."""
     early = run.t_det < run.t_max
-    thresholds, _ = draw_friction(len(run.t_det), run.seed)
+    thresholds, _ = draw_friction(run.t_det.shape, run.seed, run.material)
     bound = np.sort(thresholds, axis=None)[np.count_nonzero(early) - 1]
     return share_of(thresholds <= bound, early)
 

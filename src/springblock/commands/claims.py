@@ -28,9 +28,11 @@ Records = Mapping[Scene, Sequence[Record]]
 
 
 def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Scene, list[Any]]:
+    """Items by their scene; those on surfaces that the paper could not have are left out."""
     found: dict[Scene, list[Any]] = {}
     for item in items:
-        found.setdefault(scene_of(item), []).append(item)
+        if (scene := scene_of(item)).is_papers:
+            found.setdefault(scene, []).append(item)
     return found
 
 

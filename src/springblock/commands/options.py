@@ -10,7 +10,8 @@ from typing import Any
 import click
 
 from springblock.direction import normalised
-from springblock.scene import Scene, Varied, in_order
+from springblock.scene import EDGES, Scene, Varied, in_order
+from springblock.surfaces import BlockMap
 
 OUTPUT = click.Path(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
@@ -31,8 +32,23 @@ def _varied(context: click.Context, parameter: click.Parameter, values: tuple[st
         raise click.BadParameter(str(error)) from None
 
 
+def _map(read: Callable[[Path], BlockMap]) -> Callable[..., BlockMap | None]:
+    """Read a file of one value per block."""
+
+    def given(
+        context: click.Context, parameter: click.Parameter, file: Path | None
+    ) -> BlockMap | None:
+        try:
+            return None if file is None else read(file)
+        except ValueError as error:
+            raise click.BadParameter(str(error)) from None
+
+    return given
+
+
 _SCENE = [
-    click.option("--n-blocks", type=int, required=True, help="N, blocks along one side."),
+    click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
+    click.option("--n-rows", type=int, default=0, help="Blocks along y; as many if unsaid."),
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
     click.option("--n-s", type=int, default=0, help="Distance between them, blocks."),
     click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
@@ -41,6 +57,27 @@ _SCENE = [
     click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
     click.option(
         "--along-3", type=click.Choice("xy"), help="Axis that these grooves run along; y if unsaid."
+    ),
+    click.option("--edges", type=click.Choice(EDGES), default="free", show_default=True),
+    click.option(
+        "--mask",
+        type=INPUT,
+        callback=_map(BlockMap.mask),
+        help="Blocks in contact: white in an image, not zero in an array (.npy).",
+    ),
+    click.option(
+        "--mu-static",
+        "mu_static_field",
+        type=INPUT,
+        callback=_map(BlockMap.coefficients),
+        help="Array (.npy) of static coefficients, which are then not drawn.",
+    ),
+    click.option(
+        "--mu-dynamic",
+        "mu_dynamic_field",
+        type=INPUT,
+        callback=_map(BlockMap.coefficients),
+        help="The same of dynamic ones.",
     ),
     click.option(
         "--direction", default="x", callback=_direction, show_default=True, help="x, y or degrees."

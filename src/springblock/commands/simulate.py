@@ -27,7 +27,7 @@ from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
 from springblock.rows import Row
-from springblock.scene import Scene
+from springblock.scene import TEXTS, Scene
 from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
@@ -39,13 +39,13 @@ def _constants(
     context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> Material:
     """Read name=value pairs; what is not named has the paper's value."""
-    constants = dict(Material().items())
+    constants: dict[str, Any] = dict(Material().items())
     for value in values:
         name, _, number = value.partition("=")
         if name not in constants:
             raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
         try:
-            constants[name] = float(number)
+            constants[name] = number if name in TEXTS else float(number)
         except ValueError:
             raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
     try:
@@ -92,6 +92,20 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return scene_options(with_options(_SETUP, with_setup))
 
 
+def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
+    """mu_static and mu_dynamic, (N_y, N_x) each: drawn, unless the scene has them from files."""
+    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.edges == "periodic")
+    of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
+    return (
+        mu_static if of_static is None else of_static.values,
+        mu_dynamic if of_dynamic is None else of_dynamic.values,
+    )
+
+
+def _edges(scene: Scene) -> dict[str, Any]:
+    return {"periodic": True} if scene.edges == "periodic" else {}
+
+
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
     """One row of a batch."""
     return {
@@ -112,6 +126,7 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
         "normal_force": run.normal_force,
         "snapshot_times": run.snapshot_times,
         "snapshots": run.snapshots.ravel(),
+        "contact": scene.contact.ravel(),
     }
 
 
@@ -127,8 +142,9 @@ _CORES = click.option(
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        contact, direction = scene.pattern.contact, scene.direction
-        compute_prelude(contact, direction=direction, cores=cores, **vars(setup)).save(output)
+        contact, direction, mu = scene.contact, scene.direction, scene.mu_static_field
+        how = {"mu_static": mu and mu.values, "cores": cores, **_edges(scene), **vars(setup)}
+        compute_prelude(contact, direction=direction, **how).save(output)
 
 
 @click.command("simulate")
@@ -191,10 +207,10 @@ def simulate_batch(
 
 def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
     """Run one realisation."""
-    coefficients = draw_friction(scene.n_blocks, seed, setup.material)
-    options |= {"direction": scene.direction, **vars(setup)}
+    drawn = coefficients(scene, seed, setup.material)
+    options |= {"direction": scene.direction, **_edges(scene), **vars(setup)}
     try:
-        run = simulate(scene.pattern.contact, *coefficients, **options)
+        run = simulate(scene.contact, *drawn, **options)
     except SimulationError as error:
         raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
     return batch_row(scene, setup, seed, run)

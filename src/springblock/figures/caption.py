@@ -29,7 +29,7 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
     shared = [name for name in _NAMES if len(_values(scenes, name)) == 1]
     alike: dict[tuple[str, str, range], list[Scene]] = {}
     for scene in scenes:
-        varied = scene.row["varied"]
+        varied = ", ".join(filter(None, [scene.row["varied"], *_own(scene)]))
         alike.setdefault((_surface(scene), varied, sample[scene]), []).append(scene)
     kinds: dict[str, list[str]] = {}
     for (surface, varied, seeds), some in alike.items():
@@ -44,15 +44,29 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
 
 def _surface(scene: Scene) -> str:
     """What kind of surface a scene has."""
+    if scene.mask:
+        return f"surface {scene.mask}"
     if scene.n_p3:
         return f"pillars grooved twice, the second time along {scene.along_3},"
     return _SURFACES[scene.n_p > 0][scene.level]
 
 
+def _own(scene: Scene) -> list[str]:
+    """What else a surface has that those of the paper have not."""
+    rows = f"n_rows = {scene.n_rows}" if scene.n_rows else ""
+    edges = "" if scene.edges == "free" else f"{scene.edges} edges"
+    fields = {"mu_static": scene.mu_static_field, "mu_dynamic": scene.mu_dynamic_field}
+    return [rows, edges, *(f"{name} from {field}" for name, field in fields.items() if field)]
+
+
 def material_in_words(material: Material) -> str:
     """Name the constants that are not the paper's."""
     paper = dict(Material().items())
-    others = [f"{name} = {value:g}" for name, value in material.items() if value != paper[name]]
+    others = [
+        f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
+        for name, value in material.items()
+        if value != paper[name]
+    ]
     return f"Material of the paper{', but ' if others else ''}{_listed(others)}."
 
 

@@ -1,0 +1,31 @@
+"""springblock mask: a contact mask from a measured surface."""
+
+from pathlib import Path
+
+import click
+import numpy as np
+
+from springblock.commands.options import INPUT, OUTPUT, one_sentence
+from springblock.files import whole_file
+from springblock.material import Material
+from springblock.surfaces import Cut
+
+
+@click.command("mask")
+@click.argument("topography", type=INPUT)
+@click.option("--bearing-area", type=float, help="Share of the blocks in contact, the highest.")
+@click.option("--height", type=float, help="m, that blocks in contact reach.")
+@click.option(
+    "--spacing", type=float, default=Material().spacing, show_default=True, help="m, of blocks."
+)
+@click.option("--output", type=OUTPUT, required=True, help="Array of NumPy (.npy).")
+def mask(
+    topography: Path, bearing_area: float | None, height: float | None, spacing: float, output: Path
+) -> None:
+    """Cut TOPOGRAPHY at a bearing area or a height: the blocks in contact, for --mask."""
+    with one_sentence():
+        contact = Cut(topography, spacing, bearing_area, height).mask()
+        with whole_file(output) as partial, partial.open("wb") as file:
+            np.save(file, contact)
+        rows, columns = contact.shape
+        click.echo(f"{output}: {rows} x {columns} blocks, {contact.mean():.1%} in contact")
