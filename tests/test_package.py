@@ -1,0 +1,52 @@
+"""What a user of the solver installs: `pip install .`, without what the study needs besides."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+#: How packages are imported that are called otherwise.
+MODULES = {"pyyaml": "yaml"}
+
+USE = """
+import sys
+
+class Withhold:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {withheld!r}:
+            raise ModuleNotFoundError(name)
+
+
+sys.meta_path.insert(0, Withhold())
+
+from springblock import Pattern, draw_friction, simulate
+from springblock.cli import main
+
+run = simulate(Pattern.pillars(6, 2, 1).contact, *draw_friction(6, seed=0), duration=4e-6)
+run.plot().savefig({folder!r} + "/run.png")
+for command in (
+    "simulate --n-blocks 6 --duration 4e-6 --output {folder}/run.parquet",
+    "info {folder}/run.parquet",
+    "plot {folder}/run.parquet --output {folder}/a.pdf",
+    "show --n-blocks 6 --n-p 2 --n-s 1 --output {folder}/b.pdf",
+    "animate {folder}/run.parquet --output {folder}/c.gif",
+    "compare {folder}/run.parquet {folder}/run.parquet",
+):
+    main(command.split(), standalone_mode=False)
+"""
+
+
+def named(requirements):
+    names = [requirement.split(">=")[0] for requirement in requirements]
+    return {MODULES.get(name, name.replace("-", "_")) for name in names}
+
+
+def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
+    withheld = named(PROJECT["optional-dependencies"]["study"])
+    assert "snakemake" in withheld
+    script = USE.format(withheld=withheld, folder=str(tmp_path))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert {"run.png", "a.pdf", "b.pdf", "c.gif"} <= {file.name for file in tmp_path.iterdir()}
