@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
 from springblock.solver.friction import coulomb
 from springblock.solver.lattice import (
     RUBBED,
@@ -83,7 +83,7 @@ class Rows(NamedTuple):
     squares: Array
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def make_rows(in_contact, n):
     """Rows as if every one of them moved."""
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
@@ -221,7 +221,8 @@ def _find_released(blocks, released, count, band, s, row):
 @njit(**JIT)
 def _look_around(blocks, released, row, x, constants, slider):
     """Reconstruct the displacements around a block at step k, and before it."""
-    now, n, a = released.now, np.int64(constants.n), math.exp(-constants.damping)
+    now, before = released.now, released.before
+    n, a = np.int64(constants.n), math.exp(-constants.damping)
     for j in range(5):
         for i in range(5):
             y, z = row + j - 2, x + i - 2
@@ -229,10 +230,10 @@ def _look_around(blocks, released, row, x, constants, slider):
             inside = 0 <= y < n and 1 <= z <= n
             now[0, j, i] = blocks.ux[b] - blocks.wx[b] if inside else np.nan
             now[1, j, i] = blocks.uy[b] - blocks.wy[b] if inside else np.nan
-    released.before[:] = now[:, 1:4, 1:4]
     for j in range(3):
         for i in range(3):
             b = (row + j - 1) * np.int64(constants.pitch) + x + i - 1
+            before[0, j, i], before[1, j, i] = now[0, j + 1, i + 1], now[1, j + 1, i + 1]
             if np.isnan(now[0, j + 1, i + 1]) or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
                 continue
             fx, fy = force_in(now, j + 1, i + 1, constants.springs, slider)
@@ -241,8 +242,8 @@ def _look_around(blocks, released, row, x, constants, slider):
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
             rubbed = blocks.dynamic[b] / math.hypot(mean_x, mean_y)
             rubbed = math.copysign(rubbed, mean_x * wx + mean_y * wy)
-            released.before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
-            released.before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
+            before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
+            before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
 
 
 @njit(**JIT)
@@ -369,14 +370,9 @@ def totals(rows):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`.
-
-    A row at rest among rows at rest is left alone until one of its blocks may let go, which
-    changes no bit.
-    """
+def _follow(state, constants, first, steps, every, samples, rows, released):
+    """As `advance`, with room for rows and for the blocks that let go."""
     blocks, s, n = state.blocks, state.scratch, constants.n
-    rows, released = make_rows(state.in_contact, np.int64(n)), room(np.int64(n * n))
     switches = np.int64(0)
     for k in range(first, first + steps):
         slider, count = (constants.slider_x * k, constants.slider_y * k), np.int64(0)
@@ -397,3 +393,15 @@ def advance(state, constants, first, steps, every, samples):
             place_releases(blocks, rows, released, count, constants, k)
         switches = book(state.ledger, samples, constants, totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`.
+
+    A row at rest among rows at rest is left alone until one of its blocks may let go, which
+    changes no bit.
+    """
+    n = np.int64(constants.n)
+    rows, released = make_rows(state.in_contact, n), room(n * n)
+    return _follow(state, constants, first, steps, every, samples, rows, released)

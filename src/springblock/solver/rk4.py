@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
 from springblock.solver.lattice import (
     RUBBED,
     Array,
@@ -240,7 +240,7 @@ def _finish(blocks, stage, n, pitch, squares):
     return Totals(total_x, total_y, total_heat, squares)
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def _begin(blocks, stage):
     """Let the first stage be where the blocks are; without friction any direction will do."""
     stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
@@ -248,11 +248,9 @@ def _begin(blocks, stage):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`."""
-    blocks, s, n, stage = state.blocks, state.scratch, constants.n, Stage(*state.work)
-    _begin(blocks, stage)
-    every_row, released, switches = np.ones(n + ONE, np.bool_), room(np.int64(n * n)), np.int64(0)
+def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
+    """As `advance`, with room for what is known between stages and for the blocks that let go."""
+    blocks, s, n, switches = state.blocks, state.scratch, constants.n, np.int64(0)
     for k in range(first, first + steps):
         squares, count = 0.0, np.int64(0)
         for weight, node, reach in STAGES:
@@ -273,3 +271,12 @@ def advance(state, constants, first, steps, every, samples):
         totals = _finish(blocks, stage, n, constants.pitch, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`."""
+    n, stage = constants.n, Stage(*state.work)
+    every_row, released = np.ones(n + ONE, np.bool_), room(np.int64(n * n))
+    _begin(state.blocks, stage)
+    return _follow(state, stage, constants, first, steps, every, samples, every_row, released)
