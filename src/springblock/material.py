@@ -13,8 +13,12 @@ def _not_negative(value: float) -> bool:
     return value >= 0.0
 
 
-#: Fields that may be zero; all others must be positive.
+#: Laws of friction of a block that slides, see `springblock.solver.laws`, and the constant that
+#: each of them needs.
+LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
+#: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+_MAY_VANISH |= {"slip_distance", "speed_scale"}
 
 
 @dataclass(frozen=True)
@@ -28,8 +32,9 @@ class Material:
     Raises
     ------
     TypeError, ValueError
-        Where a field is not a number, not finite, negative, or zero where it may not be; or
-        where what follows from them is beyond floating point.
+        Where a field is not a number, not finite, negative, or zero where it may not be; where
+        what follows from them is beyond floating point; or where there is no such law, it lacks
+        its constant, or has that of another.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -43,9 +48,14 @@ class Material:
     mu_static_std: float = 0.1  #: its standard deviation
     mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
     mu_dynamic_std: float = 0.05  #: its standard deviation
+    law: str = "coulomb"  #: of friction, one of `LAWS`
+    slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
+    speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
 
     def __post_init__(self) -> None:
         for name, value in self.items():
+            if name == "law":
+                continue
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise TypeError(f"Material.{name} must be a number, not {value!r}")
             allowed = _not_negative if name in _MAY_VANISH else _positive
@@ -54,6 +64,7 @@ class Material:
                 raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
             object.__setattr__(self, name, float(value))
         self._check_derived()
+        self._check_law()
 
     def _check_derived(self) -> None:
         for name in ("k_int", "k_s", "mass", "block_load", "omega_max"):
@@ -64,8 +75,18 @@ class Material:
             if not (math.isfinite(derived) and derived > 0.0):
                 raise ValueError(f"these constants take Material.{name} beyond floating point")
 
-    def items(self) -> Iterator[tuple[str, float]]:
-        """Yield (name, value) of every constant."""
+    def _check_law(self) -> None:
+        if self.law not in LAWS:
+            raise ValueError(f"Material.law must be one of {', '.join(LAWS)}, not {self.law!r}")
+        for law, name in LAWS.items():
+            value = getattr(self, name) if name else 0.0
+            if law == self.law and name and not value:
+                raise ValueError(f"Material.{name} must be positive with {law}, not {value!r}")
+            if law != self.law and value:
+                raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
+
+    def items(self) -> Iterator[tuple[str, float | str]]:
+        """Yield (name, value) of every constant; all are numbers but the law."""
         return ((field.name, getattr(self, field.name)) for field in fields(self))
 
     @property

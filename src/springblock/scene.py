@@ -13,6 +13,7 @@ LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: of a scene, two for
 COLUMNS = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
 #: What else a scene may have of its own, instead of the study's.
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
+TEXTS = ("integrator", "law")  #: those of them that are no numbers
 _SIDE = 6  #: blocks of the shortest side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`
@@ -135,7 +136,7 @@ def in_order(constants: Mapping[str, Any]) -> Varied:
 
 
 def _value(name: str, value: Any) -> str | float:
-    if name == "integrator":
+    if name in TEXTS:
         return str(value)
     try:
         return float(value)

@@ -22,7 +22,7 @@ from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
 from springblock.realisation import Realisation
-from springblock.scene import Scene
+from springblock.scene import TEXTS, Scene
 from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
@@ -34,13 +34,13 @@ def _constants(
     context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
 ) -> Material:
     """Read name=value pairs; what is not named has the paper's value."""
-    constants = dict(Material().items())
+    constants: dict[str, Any] = dict(Material().items())
     for value in values:
         name, _, number = value.partition("=")
         if name not in constants:
             raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
         try:
-            constants[name] = float(number)
+            constants[name] = number if name in TEXTS else float(number)
         except ValueError:
             raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
     try:

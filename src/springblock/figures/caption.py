@@ -52,7 +52,11 @@ def _surface(scene: Scene) -> str:
 def material_in_words(material: Material) -> str:
     """Name the constants that are not the paper's."""
     paper = dict(Material().items())
-    others = [f"{name} = {value:g}" for name, value in material.items() if value != paper[name]]
+    others = [
+        f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
+        for name, value in material.items()
+        if value != paper[name]
+    ]
     return f"Material of the paper{', but ' if others else ''}{_listed(others)}."
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
 from springblock.accuracy.stability.cases import Case, Family, Outcome, failure, refusal
 from springblock.accuracy.stability.pull import PAPER, SEED, Pull
@@ -11,7 +12,7 @@ from springblock.realisation import Realisation
 
 
 def ten_steps(
-    integrator: str, n: int, changes: Mapping[str, float], mu_static: float = 1.0
+    integrator: str, n: int, changes: Mapping[str, Any], mu_static: float = 1.0
 ) -> Realisation:
     """Ten steps of the paper's surface; one threshold and some constants are others."""
     contact, thresholds, mu_dynamic = flat(n, SEED)
