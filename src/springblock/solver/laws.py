@@ -49,8 +49,8 @@ class VelocityWeakening(NamedTuple):
 
 Law = SlipWeakening | VelocityWeakening | None
 
-#: The largest l/d_c, which a way of zero can be multiplied by.
-_STEEPEST = 1e300
+#: Beyond these, in the kernels' units, d_c and v_c are no different from zero or infinity.
+_LEAST, _MOST = 1e-100, 1e100
 #: Share of what a block moves in a step that its way before counts as none.
 _NOTHING = 1e-12
 
@@ -58,10 +58,14 @@ _NOTHING = 1e-12
 def law_of(material: Material, step: float, field: Callable[[], Array]) -> Law:
     """Law of a material in the kernels' units; `field` makes an array of all blocks."""
     if material.law == "slip_weakening":
-        return SlipWeakening(field(), min(material.spacing / material.slip_distance, _STEEPEST))
+        return SlipWeakening(field(), 1.0 / _bounded(material.slip_distance / material.spacing))
     if material.law == "velocity_weakening":
-        return VelocityWeakening(material.speed_scale * step / material.spacing)
+        return VelocityWeakening(_bounded(material.speed_scale * step / material.spacing))
     return None
+
+
+def _bounded(scale: float) -> float:
+    return min(max(scale, _LEAST), _MOST)
 
 
 def resistance(law, way, speed, share, static, dynamic):
@@ -126,10 +130,10 @@ def _heat_dynamic(law, way, further, static, dynamic):
 
 
 def _heat_along_way(law, way, further, static, dynamic):
-    """Integral of T over the way."""
+    """Integral of T over the way, of which the rest of d_c weakens."""
     left = max(1.0 - way * law.rate, 0.0)
     less = max(1.0 - (way + further) * law.rate, 0.0)
-    weakening = 0.5 * (left - less) * (left + less) / law.rate
+    weakening = min(further, left / law.rate) * 0.5 * (left + less)
     return dynamic * further + max(static - dynamic, 0.0) * weakening
 
 

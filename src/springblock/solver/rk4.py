@@ -78,16 +78,19 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 @njit(inline="always")
-def _friction_direction(fx, fy, wx, wy, static, taken, damping):
+def _friction_direction(law, fx, fy, wx, wy, static, taken, damping):
     """Unit vector that friction opposes in this step; zero for a block that stays at rest.
 
     That of a moving block is its direction in the middle of the step, unless it turns back before.
+    A block that has hardly been let go is slow where friction weakens, and is turned at once: its
+    direction solves the implicit equation, in which friction has the direction of the middle, too.
     """
     speed = math.sqrt(wx * wx + wy * wy)
     if speed > 0.0:
         ex, ey = wx / speed, wy / speed
         half = 0.5 / (1.0 + damping) ** 2  # of a step; less where damping is stiff
-        mx, my = wx + half * (fx - taken * ex), wy + half * (fy - taken * ey)
+        back = taken if law is None else 0.0
+        mx, my = wx + half * (fx - back * ex), wy + half * (fy - back * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
@@ -118,7 +121,9 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
             speed, way = math.sqrt(half_x * half_x + half_y * half_y), way_of(law, b)
             share = -0.5 if rests else 0.0  # see `resistance`
             taken = resistance(law, way, speed, share, static[b], dynamic[b])
-            ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], taken, damping)
+            ex[b], ey[b] = _friction_direction(
+                law, fx, fy, wx[b], wy[b], static[b], taken, damping
+            )
             if rests and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - taken
@@ -199,7 +204,7 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
             b = i + x
             vx, vy = pu[b], pv[b]
             way = way_of(law, b) + (su[b] - ux[b]) * ex[b] + (sv[b] - uy[b]) * ey[b]
-            speed = vx * ex[b] + vy * ey[b]
+            speed = abs(vx * ex[b] + vy * ey[b])
             taken = resistance(law, way, speed, 0.0, static[b], dynamic[b])
             ax = s[FORCE_X + own + x] - damping * vx - taken * ex[b]
             ay = s[FORCE_Y + own + x] - damping * vy - taken * ey[b]
