@@ -1,7 +1,7 @@
 """The elastic layer, its loading and its surface: every constant of the paper, in SI units."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, fields
 
 
@@ -15,9 +15,14 @@ def _not_negative(value: float) -> bool:
 
 #: How the coefficients of the blocks may be distributed, see `springblock.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
+#: Laws of friction of a block that slides, see `springblock.solver.laws`, and the constant that
+#: each of them needs.
+LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
 #: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
-_MAY_VANISH |= {"correlation_length"}
+_MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
+#: Fields that are words, and what they may be.
+_WORDS: dict[str, Collection[str]] = {"distribution": DISTRIBUTIONS, "law": LAWS}
 
 
 @dataclass(frozen=True)
@@ -32,7 +37,8 @@ class Material:
     ------
     TypeError, ValueError
         Where a field is not a number, not finite, negative, or zero where it may not be; where
-        what follows from them is beyond floating point; or where there is no such distribution.
+        what follows from them is beyond floating point; where there is no such distribution or
+        law; or where a law lacks its constant, or has that of another.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -48,15 +54,16 @@ class Material:
     mu_dynamic_std: float = 0.05  #: its standard deviation
     distribution: str = "normal"  #: of both, one of `DISTRIBUTIONS`
     correlation_length: float = 0.0  #: m, over which they are alike; 0: each block for itself
+    law: str = "coulomb"  #: of friction, one of `LAWS`
+    slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
+    speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
 
     def __post_init__(self) -> None:
-        if self.distribution not in DISTRIBUTIONS:
-            raise ValueError(
-                f"Material.distribution must be one of {', '.join(DISTRIBUTIONS)}, "
-                f"not {self.distribution!r}"
-            )
         for name, value in self.items():
-            if name == "distribution":
+            if name in _WORDS:
+                if value not in _WORDS[name]:
+                    known = ", ".join(_WORDS[name])
+                    raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
                 continue
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise TypeError(f"Material.{name} must be a number, not {value!r}")
@@ -66,6 +73,7 @@ class Material:
                 raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
             object.__setattr__(self, name, float(value))
         self._check_derived()
+        self._check_law()
 
     def _check_derived(self) -> None:
         for name in ("k_int", "k_s", "mass", "block_load", "omega_max"):
@@ -76,8 +84,16 @@ class Material:
             if not (math.isfinite(derived) and derived > 0.0):
                 raise ValueError(f"these constants take Material.{name} beyond floating point")
 
+    def _check_law(self) -> None:
+        for law, name in LAWS.items():
+            value = getattr(self, name) if name else 0.0
+            if law == self.law and name and not value:
+                raise ValueError(f"Material.{name} must be positive with {law}, not {value!r}")
+            if law != self.law and value:
+                raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
+
     def items(self) -> Iterator[tuple[str, float | str]]:
-        """Yield (name, value) of every constant; all are numbers but the distribution."""
+        """Yield (name, value) of every constant; all are numbers but words."""
         return ((field.name, getattr(self, field.name)) for field in fields(self))
 
     @property

@@ -23,7 +23,7 @@ COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
 EDGES = ("free", "periodic")
 #: What else a scene may have of its own, instead of the study's.
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
-TEXTS = ("integrator", "distribution")  #: those of them that are no numbers
+TEXTS = ("integrator", "distribution", "law")  #: those of them that are no numbers
 _SIDE = 6  #: blocks of the shortest side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`

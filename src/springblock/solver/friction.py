@@ -2,12 +2,27 @@
 
 While a block is at rest, friction balances F_mot = F_int + F_s up to mu_s F_n; beyond, the block
 detaches, and mu_d F_n opposes its velocity until it comes to rest and sticks again (section 2 of
-the paper).
+the paper). Other laws put something else in the place of mu_d F_n, see `laws`.
 """
+
+import math
 
 from numba import njit
 
 from springblock.solver.inverse_root import inverse_root
+from springblock.solver.laws import keep_way, resistance, way_of
+
+
+@njit(inline="always")
+def slow_down(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
+    """Return what `coulomb` does of block b, where the law says what sliding takes from it."""
+    mean_x, mean_y = (wx + vx, wy + vy) if wx * vx + wy * vy > 0.0 else (wx, wy)
+    speed, way = 0.5 * math.sqrt(mean_x * mean_x + mean_y * mean_y), way_of(law, b)
+    taken = resistance(law, way, speed, -0.5, static, dynamic)
+    new_x, new_y, slides, along = coulomb(wx, wy, vx, vy, fx, fy, static, taken)
+    moved = math.sqrt(new_x * new_x + new_y * new_y)
+    keep_way(law, b, way + moved if slides else 0.0)
+    return new_x, new_y, slides, along
 
 
 @njit(inline="always")

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from springblock.material import Material
 from springblock.solver.compilation import JIT
+from springblock.solver.laws import Law, law_of
 from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
@@ -58,6 +59,7 @@ class State(NamedTuple):
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
     in_contact: NDArray[np.bool_]  #: (N,) rows that hold any block in contact
+    law: Law  #: of friction; a prelude, whose blocks never let go, needs none
 
     def copy(self) -> "State":
         """Return a state that shares no memory with this one."""
@@ -192,6 +194,7 @@ def prepare(
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
         in_contact=np.asarray(contact.any(axis=1)),
+        law=None if keep_peak else law_of(material, step, field),
     )
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(

@@ -13,8 +13,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT, add
-from springblock.solver.friction import coulomb
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
+from springblock.solver.friction import slow_down
 from springblock.solver.lattice import (
     RUBBED,
     Array,
@@ -27,6 +27,7 @@ from springblock.solver.lattice import (
     close_edge,
     keep_peaks,
 )
+from springblock.solver.laws import keep_way, resistance, way_of
 from springblock.solver.release import force_in, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 
@@ -83,7 +84,7 @@ class Rows(NamedTuple):
     squares: Array
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def make_rows(in_contact, n):
     """Rows as if every one of them moved."""
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
@@ -127,7 +128,7 @@ def _count_switches(blocks, turned, i, n):
 
 
 @njit(**JIT)
-def _move_rows_in_contact(blocks, rows, band, s, turned, a):
+def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
     """Kick and drift those rows of a band that are awake and hold blocks in contact.
 
     `turned` is room for w·v of a row.
@@ -145,8 +146,8 @@ def _move_rows_in_contact(blocks, rows, band, s, turned, a):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
             trial_x, trial_y = a * vx + fx, a * vy + fy
-            new_x, new_y, slides, along = coulomb(
-                trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b]
+            new_x, new_y, slides, along = slow_down(
+                law, b, trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b]
             )
             there_x, there_y = ux[b] + new_x, uy[b] + new_y
             wx[b] = new_x
@@ -199,7 +200,7 @@ def _move_free_rows(blocks, rows, band, s, a):
 
 
 @njit(**JIT)
-def _find_released(blocks, released, count, band, s, row):
+def _find_released(blocks, law, released, count, band, s, row):
     """Add the blocks of a row that were at rest until this step; returns their number so far.
 
     Nothing but F_mot has moved them: friction has left them its direction.
@@ -210,7 +211,9 @@ def _find_released(blocks, released, count, band, s, row):
         wx, wy = blocks.wx[b], blocks.wy[b]
         if blocks.static[b] > 0.0 and (wx != 0.0 or wy != 0.0):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            left = 1.0 - blocks.dynamic[b] / math.hypot(fx, fy)
+            force = math.hypot(fx, fy)
+            taken = resistance(law, 0.0, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b])
+            left = 1.0 - taken / force
             if math.hypot(wx - left * fx, wy - left * fy) <= _SAME * math.hypot(fx, fy):
                 released.row[count], released.x[count] = np.int64(row), np.int64(x)
                 released.ax[count], released.ay[count] = wx, wy
@@ -219,9 +222,10 @@ def _find_released(blocks, released, count, band, s, row):
 
 
 @njit(**JIT)
-def _look_around(blocks, released, row, x, constants, slider):
+def _look_around(blocks, law, released, row, x, constants, slider):
     """Reconstruct the displacements around a block at step k, and before it."""
-    now, n, a = released.now, np.int64(constants.n), math.exp(-constants.damping)
+    now, before = released.now, released.before
+    n, a = np.int64(constants.n), math.exp(-constants.damping)
     for j in range(5):
         for i in range(5):
             y, z = row + j - 2, x + i - 2
@@ -229,24 +233,27 @@ def _look_around(blocks, released, row, x, constants, slider):
             inside = 0 <= y < n and 1 <= z <= n
             now[0, j, i] = blocks.ux[b] - blocks.wx[b] if inside else np.nan
             now[1, j, i] = blocks.uy[b] - blocks.wy[b] if inside else np.nan
-    released.before[:] = now[:, 1:4, 1:4]
     for j in range(3):
         for i in range(3):
             b = (row + j - 1) * np.int64(constants.pitch) + x + i - 1
+            before[0, j, i], before[1, j, i] = now[0, j + 1, i + 1], now[1, j + 1, i + 1]
             if np.isnan(now[0, j + 1, i + 1]) or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
                 continue
             fx, fy = force_in(now, j + 1, i + 1, constants.springs, slider)
             wx, wy = blocks.wx[b], blocks.wy[b]
             # Friction has opposed the mean velocity, whose line this is, and whose side that of w.
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
-            rubbed = blocks.dynamic[b] / math.hypot(mean_x, mean_y)
-            rubbed = math.copysign(rubbed, mean_x * wx + mean_y * wy)
-            released.before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
-            released.before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
+            size, forwards = math.hypot(mean_x, mean_y), mean_x * wx + mean_y * wy
+            way = max(way_of(law, b) - math.hypot(wx, wy), 0.0)
+            speed, share = math.copysign(size, forwards) / (2.0 * a), 1.0 / (2.0 * a)
+            taken = resistance(law, way, speed, share, blocks.static[b], blocks.dynamic[b])
+            rubbed = math.copysign(taken / size, forwards)
+            before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
+            before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
 
 
 @njit(**JIT)
-def place_releases(blocks, rows, released, count, constants, k):
+def place_releases(blocks, law, rows, released, count, constants, k):
     """Let `count` blocks go at their times within the step, not at its end.
 
     At step k they are θ² a/2 on their way, and then move with (1/2 + θ) a. The energy that a
@@ -261,7 +268,7 @@ def place_releases(blocks, rows, released, count, constants, k):
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = row * np.int64(constants.pitch) + x
-        _look_around(blocks, released, row, x, constants, slider)
+        _look_around(blocks, law, released, row, x, constants, slider)
         threshold = max(blocks.static[b], blocks.dynamic[b])
         released.share[m] = share_of_step(released, threshold, springs, slider, slide)
     for m in range(count):
@@ -280,7 +287,10 @@ def place_releases(blocks, rows, released, count, constants, k):
         blocks.wx[b], blocks.wy[b] = speed * ax, speed * ay
         rows.x[row] += further * ax
         rows.y[row] += further * ay
-        rubbed = blocks.dynamic[b] * math.sqrt(a2) * (moved + 0.5 * (share - 0.5))
+        a1 = math.sqrt(a2)
+        taken = resistance(law, 0.0, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
+        keep_way(law, b, (moved + speed) * a1)
+        rubbed = taken * a1 * (moved + 0.5 * (share - 0.5))
         rows.heat[row] += rubbed + a2 * (0.125 - near / 8.0 - 0.5 * block * moved * moved)
         rows.squares[row] += (speed * speed - 1.0) * a2
         close_edge(blocks.ux, blocks.uy, U(row) * constants.pitch, constants.n)
@@ -314,7 +324,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 
 @njit(**JIT)
-def _settle(blocks, rows, released, count, band, s, pull, now):
+def _settle(blocks, law, rows, released, count, band, s, pull, now):
     """See to what rows of a band have done; returns what `move_band` does."""
     n, switches = band.n, np.int64(0)
     for row in range(band.start, band.stop):
@@ -322,7 +332,7 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
         if rows.in_contact[row] and rows.awake[row]:
             switches += rows.switching[row]
             if rows.released[row] > 0:
-                count = _find_released(blocks, released, count, band, s, row)
+                count = _find_released(blocks, law, released, count, band, s, row)
             if rows.switching[row] > 0 and rows.waiting[row]:
                 rows.waiting[row] = _note_detachments(blocks, i, n, now)
             elif not rows.sliding[row + ONE] and rows.wake[row] <= now:
@@ -333,7 +343,7 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
 
 
 @njit(**JIT)
-def move_band(blocks, peak, rows, released, count, band, s, constants, now):
+def move_band(blocks, law, peak, rows, released, count, band, s, constants, now):
     """Move a band whose forces are in scratch `s`.
 
     Returns its switches from rest to sliding, and the number of blocks released so far.
@@ -341,9 +351,9 @@ def move_band(blocks, peak, rows, released, count, band, s, constants, now):
     a = math.exp(-constants.damping)
     pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
     keep_peaks(peak, band, s)
-    _move_rows_in_contact(blocks, rows, band, s, one_row(s), a)
+    _move_rows_in_contact(blocks, law, rows, band, s, one_row(s), a)
     _move_free_rows(blocks, rows, band, s, a)
-    return _settle(blocks, rows, released, count, band, s, pull, now)
+    return _settle(blocks, law, rows, released, count, band, s, pull, now)
 
 
 @njit(**JIT)
@@ -369,14 +379,9 @@ def totals(rows):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`.
-
-    A row at rest among rows at rest is left alone until one of its blocks may let go, which
-    changes no bit.
-    """
-    blocks, s, n = state.blocks, state.scratch, constants.n
-    rows, released = make_rows(state.in_contact, np.int64(n)), room(np.int64(n * n))
+def _follow(state, constants, first, steps, every, samples, rows, released):
+    """As `advance`, with room for rows and for the blocks that let go."""
+    blocks, law, s, n = state.blocks, state.law, state.scratch, constants.n
     switches = np.int64(0)
     for k in range(first, first + steps):
         slider, count = (constants.slider_x * k, constants.slider_y * k), np.int64(0)
@@ -390,10 +395,22 @@ def advance(state, constants, first, steps, every, samples):
             if column > 0:
                 return k - first, np.int64(row), np.int64(column) - 1
             more, count = move_band(
-                blocks, state.peak, rows, released, count, band, s, constants, k
+                blocks, law, state.peak, rows, released, count, band, s, constants, k
             )
             switches += more
         if count > 0:
-            place_releases(blocks, rows, released, count, constants, k)
+            place_releases(blocks, law, rows, released, count, constants, k)
         switches = book(state.ledger, samples, constants, totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`.
+
+    A row at rest among rows at rest is left alone until one of its blocks may let go, which
+    changes no bit.
+    """
+    n = np.int64(constants.n)
+    rows, released = make_rows(state.in_contact, n), room(n * n)
+    return _follow(state, constants, first, steps, every, samples, rows, released)

@@ -79,7 +79,7 @@ def _last_band(share, constants):
 
 
 @njit(**JIT)
-def _move(blocks, peak, rows, share, constants, slider, now):
+def _move(blocks, law, peak, rows, share, constants, slider, now):
     """Take a share through a step.
 
     Returns switches and releases, and row and column of a broken spring; column 0 if none is.
@@ -93,7 +93,9 @@ def _move(blocks, peak, rows, share, constants, slider, now):
             row, column = forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
             if column > 0:
                 return switches, count, row, column
-        more, count = move_band(blocks, peak, rows, share.released, count, band, s, constants, now)
+        more, count = move_band(
+            blocks, law, peak, rows, share.released, count, band, s, constants, now
+        )
         switches += more
     return switches, count, U(0), U(0)
 
@@ -118,7 +120,7 @@ def advance(
             if column > 0:
                 return k - first, row, column - 1
             if count > 0:
-                place_releases(state.blocks, rows, released, count, constants, k)
+                place_releases(state.blocks, state.law, rows, released, count, constants, k)
             switches += more
             switches = book(
                 state.ledger, samples, constants, totals(rows), switches, k, first, every
@@ -137,13 +139,15 @@ def _step(
 ) -> tuple[int, int, int, int]:
     """Move all blocks; returns switches and releases, and row and column of a broken spring."""
     slider = constants.slider_x * k, constants.slider_y * k
-    blocks, peak = state.blocks, state.peak
+    blocks, law, peak = state.blocks, state.law, state.peak
     looked = list(executor.map(lambda part: _look(blocks, rows, part, constants, slider), parts))
     for row, column in looked:
         if column > 0:
             return 0, 0, row, column
     switches = count = 0
-    moved = executor.map(lambda part: _move(blocks, peak, rows, part, constants, slider, k), parts)
+    moved = executor.map(
+        lambda part: _move(blocks, law, peak, rows, part, constants, slider, k), parts
+    )
     for part, (more, let_go, row, column) in zip(parts, list(moved), strict=True):
         if column > 0:
             return switches, count, row, column

@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS
 from springblock.solver.springs import Array, g
 
 
@@ -33,7 +33,7 @@ class Released(NamedTuple):
     before: Array  #: (2, 3, 3) of the middle at step k - 1
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def room(blocks):
     """Room for this many blocks; as long as it is not touched it takes no memory."""
     return Released(

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
 from springblock.solver.lattice import (
     RUBBED,
     Array,
@@ -27,6 +27,7 @@ from springblock.solver.lattice import (
     close_edge,
     keep_peaks,
 )
+from springblock.solver.laws import heat, keep_way, resistance, way_of
 from springblock.solver.release import room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
@@ -77,27 +78,30 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 @njit(inline="always")
-def _friction_direction(fx, fy, wx, wy, static, dynamic, damping):
+def _friction_direction(law, fx, fy, wx, wy, static, taken, damping):
     """Unit vector that friction opposes in this step; zero for a block that stays at rest.
 
     That of a moving block is its direction in the middle of the step, unless it turns back before.
+    A block that has hardly been let go is slow where friction weakens, and is turned at once: its
+    direction solves the implicit equation, in which friction has the direction of the middle, too.
     """
     speed = math.sqrt(wx * wx + wy * wy)
     if speed > 0.0:
         ex, ey = wx / speed, wy / speed
         half = 0.5 / (1.0 + damping) ** 2  # of a step; less where damping is stiff
-        mx, my = wx + half * (fx - dynamic * ex), wy + half * (fy - dynamic * ey)
+        back = taken if law is None else 0.0
+        mx, my = wx + half * (fx - back * ex), wy + half * (fy - back * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
     # With mu_s < mu_d the block needs more than mu_d F_n to move at all.
-    if force > static and force > dynamic:
+    if force > static and force > taken:
         return fx / force, fy / force
     return 0.0, 0.0
 
 
 @njit(**JIT)
-def _set_out(blocks, stage, released, count, band, s, damping, now):
+def _set_out(blocks, law, stage, released, count, band, s, damping, now):
     """Choose friction's direction in a band, and let go; returns how many have let go so far.
 
     The stage's velocity is that of the step's start; all sums over stages are zero. A block that
@@ -112,11 +116,17 @@ def _set_out(blocks, stage, released, count, band, s, damping, now):
             if static[b] == 0.0:
                 continue
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            ex[b], ey[b] = _friction_direction(fx, fy, wx[b], wy[b], static[b], dynamic[b], damping)
-            if wx[b] == 0.0 and wy[b] == 0.0 and (ex[b] != 0.0 or ey[b] != 0.0):
+            rests = wx[b] == 0.0 and wy[b] == 0.0
+            half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (wx[b], wy[b])
+            speed, way = math.sqrt(half_x * half_x + half_y * half_y), way_of(law, b)
+            share = -0.5 if rests else 0.0  # see `resistance`
+            taken = resistance(law, way, speed, share, static[b], dynamic[b])
+            ex[b], ey[b] = _friction_direction(law, fx, fy, wx[b], wy[b], static[b], taken, damping)
+            if rests and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
-                excess = fx * ex[b] + fy * ey[b] - dynamic[b]
+                excess = fx * ex[b] + fy * ey[b] - taken
                 ax, ay = excess * ex[b], excess * ey[b]
+                keep_way(law, b, 0.125 * excess)
                 wx[b], wy[b] = 0.5 * ax, 0.5 * ay
                 stage.wx[b], stage.wy[b] = wx[b], wy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -146,7 +156,7 @@ def _look_around(blocks, stage, released, row, x, constants):
 
 
 @njit(**JIT)
-def _place_releases(blocks, stage, released, count, constants, k):
+def _place_releases(blocks, law, stage, released, count, constants, k):
     """Let `count` blocks go at their times before step k, not half a step before it.
 
     To second order, that shifts where they are at the end of the step by what it shifts at its
@@ -158,6 +168,7 @@ def _place_releases(blocks, stage, released, count, constants, k):
     for m in range(count):
         b = released.row[m] * np.int64(constants.pitch) + released.x[m]
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
+        keep_way(law, b, 0.0)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = row * np.int64(constants.pitch) + x
@@ -177,9 +188,10 @@ def _place_releases(blocks, stage, released, count, constants, k):
 
 
 @njit(**JIT)
-def _take_stage(blocks, stage, weight, reach, band, s, damping):
+def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
     """Take one stage on the rows of a band; returns the squared speed."""
-    ux, uy, wx, wy, dynamic = blocks.ux, blocks.uy, blocks.wx, blocks.wy, blocks.dynamic
+    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    static, dynamic = blocks.static, blocks.dynamic
     su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total = 0.0
@@ -189,8 +201,11 @@ def _take_stage(blocks, stage, weight, reach, band, s, damping):
         for x in range(ONE, band.n + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
-            ax = s[FORCE_X + own + x] - damping * vx - dynamic[b] * ex[b]
-            ay = s[FORCE_Y + own + x] - damping * vy - dynamic[b] * ey[b]
+            way = way_of(law, b) + (su[b] - ux[b]) * ex[b] + (sv[b] - uy[b]) * ey[b]
+            speed = abs(vx * ex[b] + vy * ey[b])
+            taken = resistance(law, way, speed, 0.0, static[b], dynamic[b])
+            ax = s[FORCE_X + own + x] - damping * vx - taken * ex[b]
+            ay = s[FORCE_Y + own + x] - damping * vy - taken * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
             ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
             du[b] += weight * vx
@@ -208,7 +223,7 @@ def _take_stage(blocks, stage, weight, reach, band, s, damping):
 
 
 @njit(**JIT)
-def _finish(blocks, stage, n, pitch, squares):
+def _finish(blocks, law, stage, n, pitch, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
     `squares` is what the stages have summed up already.
@@ -220,27 +235,29 @@ def _finish(blocks, stage, n, pitch, squares):
     total_x, total_y, total_heat = 0.0, 0.0, 0.0
     for row in range(n):
         i = row * pitch
-        sum_x, sum_y, heat = 0.0, 0.0, 0.0
+        sum_x, sum_y, rubbed = 0.0, 0.0, 0.0
         for x in range(ONE, n + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
-            work = dynamic[b] * (du[b] * ex[b] + dv[b] * ey[b])
-            heat = add(heat, work + (lost if turned else 0.0))
+            way, further = way_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
+            work = heat(law, way, further, static[b], dynamic[b])
+            keep_way(law, b, 0.0 if turned else way + further)
+            rubbed = add(rubbed, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
             sum_x, sum_y = add(sum_x, there_x), add(sum_y, there_y)
             ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
-        total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + heat
+        total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + rubbed
         close_edge(ux, uy, i, n)
         close_edge(su, sv, i, n)
     return Totals(total_x, total_y, total_heat, squares)
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def _begin(blocks, stage):
     """Let the first stage be where the blocks are; without friction any direction will do."""
     stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
@@ -248,11 +265,10 @@ def _begin(blocks, stage):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`."""
-    blocks, s, n, stage = state.blocks, state.scratch, constants.n, Stage(*state.work)
-    _begin(blocks, stage)
-    every_row, released, switches = np.ones(n + ONE, np.bool_), room(np.int64(n * n)), np.int64(0)
+def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
+    """As `advance`, with room for what is known between stages and for the blocks that let go."""
+    blocks, law, s, n = state.blocks, state.law, state.scratch, constants.n
+    damping, switches = constants.damping, np.int64(0)
     for k in range(first, first + steps):
         squares, count = 0.0, np.int64(0)
         for weight, node, reach in STAGES:
@@ -266,10 +282,19 @@ def advance(state, constants, first, steps, every, samples):
                     return k - first, np.int64(row), np.int64(column) - 1
                 if node == 0.0:
                     keep_peaks(state.peak, band, s)
-                    count = _set_out(blocks, stage, released, count, band, s, constants.damping, k)
-                squares += _take_stage(blocks, stage, weight, reach, band, s, constants.damping)
+                    count = _set_out(blocks, law, stage, released, count, band, s, damping, k)
+                squares += _take_stage(blocks, law, stage, weight, reach, band, s, damping)
         if count > 0:
-            _place_releases(blocks, stage, released, count, constants, k)
-        totals = _finish(blocks, stage, n, constants.pitch, squares)
+            _place_releases(blocks, law, stage, released, count, constants, k)
+        totals = _finish(blocks, law, stage, n, constants.pitch, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`."""
+    n, stage = constants.n, Stage(*state.work)
+    every_row, released = np.ones(n + ONE, np.bool_), room(np.int64(n * n))
+    _begin(state.blocks, stage)
+    return _follow(state, stage, constants, first, steps, every, samples, every_row, released)

@@ -98,7 +98,7 @@ def width(n):
     return (n + U(LANES - 1)) // U(LANES) * U(LANES)
 
 
-@register_jitable
+@njit(inline="always")
 def one_row(s):
     """View of those fields of scratch that hold one row."""
     return s[2 * _FIELD :]

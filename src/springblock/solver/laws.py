@@ -1,0 +1,165 @@
+"""Laws of friction: what opposes a block that slides.
+
+A block lets go at F_c = max(mu_s, mu_d) F_n. From then on, until it comes to rest again, friction
+takes mu F_n from it:
+
+coulomb             mu = mu_d: Amontons-Coulomb, the paper's law.
+slip_weakening      mu = mu_d + (mu_s - mu_d) max(1 - s/d_c, 0) after a way s: linear weakening
+                    (Ida 1972, doi:10.1029/JB077i020p03796; Andrews 1976,
+                    doi:10.1029/JB081i032p05679). A block that comes to rest heals at once: its
+                    next slip begins with s = 0.
+velocity_weakening  mu = mu_d + (mu_s - mu_d)/(1 + v/v_c) at a speed v (Burridge & Knopoff 1967,
+                    doi:10.1785/BSSA0570030341; in this form Carlson & Langer 1989,
+                    doi:10.1103/PhysRevA.40.6470, whose mu_d is zero).
+
+With mu_s <= mu_d there is nothing to weaken. Both weakening laws become Coulomb's, to the bit, as
+d_c or v_c goes to zero.
+
+A law is a type: the kernels are compiled for the one they are given, and Coulomb's, None, leaves
+nothing behind in them. In formulas here T stands for mu F_n, as the velocity that it takes in one
+step, and V for the mean speed of that step.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numba import types
+from numba.extending import overload
+from numpy.typing import NDArray
+
+from springblock.material import Material
+
+Array = NDArray[np.float64]
+
+
+class SlipWeakening(NamedTuple):
+    """Friction that falls along the way of a slip."""
+
+    way: Array  #: of each block since it let go, in l; zero at rest
+    rate: float  #: l/d_c
+
+
+class VelocityWeakening(NamedTuple):
+    """Friction that falls with speed."""
+
+    scale: float  #: v_c, in l per step
+
+
+Law = SlipWeakening | VelocityWeakening | None
+
+#: Beyond these, in the kernels' units, d_c and v_c are no different from zero or infinity.
+_LEAST, _MOST = 1e-100, 1e100
+#: Share of what a block moves in a step that its way before counts as none.
+_NOTHING = 1e-12
+
+
+def law_of(material: Material, step: float, field: Callable[[], Array]) -> Law:
+    """Law of a material in the kernels' units; `field` makes an array of all blocks."""
+    if material.law == "slip_weakening":
+        return SlipWeakening(field(), 1.0 / _bounded(material.slip_distance / material.spacing))
+    if material.law == "velocity_weakening":
+        return VelocityWeakening(_bounded(material.speed_scale * step / material.spacing))
+    return None
+
+
+def _bounded(scale: float) -> float:
+    return min(max(scale, _LEAST), _MOST)
+
+
+def resistance(law, way, speed, share, static, dynamic):
+    """Return T after a way, at the mean speed V = speed + share T, for compiled callers.
+
+    In a step of the leapfrog, `speed` is half of |v + w|, of which friction takes half of T: share
+    is -1/2. Where V is known, share is 0. T is infinite where no V will do: the block stops.
+    """
+    raise NotImplementedError
+
+
+def heat(law, way, further, static, dynamic):
+    """Return the heat of friction on a block that moves on by `further` in one step."""
+    raise NotImplementedError
+
+
+def way_of(law, b):
+    """Return the way of block b since it let go, where the law asks for it."""
+    raise NotImplementedError
+
+
+def keep_way(law, b, way):
+    """Keep it."""
+    raise NotImplementedError
+
+
+def _for_each_law(stub, coulomb, slip_weakening, velocity_weakening):
+    """Let a stub stand for the function of the law that it is called with."""
+    functions = {
+        None: coulomb,
+        SlipWeakening: slip_weakening,
+        VelocityWeakening: velocity_weakening,
+    }
+
+    @overload(stub, strict=False)
+    def chosen(law, *arguments):
+        return functions[None if law is types.none else law.instance_class]
+
+
+def _resistance_dynamic(law, way, speed, share, static, dynamic):
+    return dynamic
+
+
+def _resistance_after_way(law, way, speed, share, static, dynamic):
+    """From rest, a block that runs through d_c within the step weakens at once."""
+    mean = speed + share * dynamic
+    left = max(1.0 - way * law.rate, 0.0)
+    at_once = (way <= _NOTHING * mean) & (0.5 * mean * law.rate >= 1.0)
+    return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
+
+
+def _resistance_at_speed(law, way, speed, share, static, dynamic):
+    """Of two V, the larger: the one that a block comes from as it slows down."""
+    drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
+    under_root = (fastest + c) * (fastest + c) + 4.0 * share * drop * c
+    mean = 0.5 * (fastest - c + math.sqrt(max(under_root, 0.0)))
+    return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
+
+
+def _heat_dynamic(law, way, further, static, dynamic):
+    return dynamic * further
+
+
+def _heat_along_way(law, way, further, static, dynamic):
+    """Integral of T over the way, of which the rest of d_c weakens."""
+    left = max(1.0 - way * law.rate, 0.0)
+    less = max(1.0 - (way + further) * law.rate, 0.0)
+    weakening = min(further, left / law.rate) * 0.5 * (left + less)
+    return dynamic * further + max(static - dynamic, 0.0) * weakening
+
+
+def _heat_at_speed(law, way, further, static, dynamic):
+    """At the mean speed of the step: to second order."""
+    drop, c = max(static - dynamic, 0.0), law.scale
+    return (dynamic + drop * c / (c + max(further, 0.0))) * further
+
+
+def _no_way(law, b):
+    return 0.0
+
+
+def _way_so_far(law, b):
+    return law.way[b]
+
+
+def _keep_none(law, b, way):
+    pass
+
+
+def _keep_way(law, b, way):
+    law.way[b] = way
+
+
+_for_each_law(resistance, _resistance_dynamic, _resistance_after_way, _resistance_at_speed)
+_for_each_law(heat, _heat_dynamic, _heat_along_way, _heat_at_speed)
+_for_each_law(way_of, _no_way, _way_so_far, _no_way)
+_for_each_law(keep_way, _keep_none, _keep_way, _keep_none)
