@@ -231,16 +231,16 @@ def _on_blocks(file: Path, spacing: float) -> Array:
         raise ValueError(no_units)
     try:
         measured = read.to_unit("m")
+        heights, sizes = measured.heights(), measured.physical_sizes
     except ValueError:
         raise ValueError(f"{file} must have a unit of length, not {read.unit!r}") from None
-    return _at_centres(file, measured, spacing)
+    known = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+    return _at_centres(file, known, sizes, spacing)
 
 
-def _at_centres(file: Path, measured: Any, spacing: float) -> Array:
-    heights: Array = np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), np.nan)
+def _at_centres(file: Path, heights: Array, sizes: tuple[float, ...], spacing: float) -> Array:
     if not np.isfinite(heights).any():
         raise ValueError(f"{file} must hold heights; it has no valid point")
-    sizes = measured.physical_sizes
     blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
     if not all(blocks) or blocks[0] * blocks[1] > _MOST:
         raise ValueError(
