@@ -1,6 +1,7 @@
 """Surfaces of one's own in the study: planned as in the example, and from end to end."""
 
 import shutil
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -130,6 +131,28 @@ def test_a_changed_image_is_another_surface(study, changed):
     assert name(study) != old
     jobs = planned(study, "--", "surfaces")
     assert (jobs["prelude_scene"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 4, 1)
+
+
+@pytest.mark.skipif(
+    "periodic" not in signature(simulate).parameters, reason="the solver has free edges alone"
+)
+def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
+    """From batches of the study; correlated coefficients, too, go around the edges."""
+    grid = {"n_blocks": [12], "n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2}
+    around = grid | {"material": {"correlation_length": [2e-5]}}
+    (study / "around.yaml").write_text(yaml.safe_dump({"scenes": {"surfaces": [grid, around]}}))
+    configuration = ("tiny.yaml", "around.yaml")
+    outcome = snakemake(study, "--", "surfaces", configuration=configuration)
+    assert outcome.returncode == 0, outcome.stderr
+    batches = sorted((study / "results/realisations/n_blocks=12/n_rows=6").rglob("seeds=*.parquet"))
+    runs = read_records(batches)
+    assert {run.t_det.shape for run in runs} == {(6, 12)}
+    assert {run.scene.edges for run in runs} == {"periodic"}
+    assert len(runs) == 4
+    for run in runs:
+        coefficients = draw_friction((6, 12), run.seed, run.material, periodic=True)
+        alone = simulate(np.ones((6, 12), bool), *coefficients, periodic=True)
+        assert alone.t_det.tobytes() == run.t_det.tobytes()
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,8 @@ Configuration = Mapping[str, Any]
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+#: Blocks along a periodic edge, so that each has neighbours of its own on both sides.
+_AROUND = 3
 #: Realisations below which a correlation has no interval.
 _CORRELATED = 3
 
@@ -111,6 +113,8 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     _ = scene.contact
     if max(scene.shape) > MAX_BLOCKS:
         raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
+    if scene.edges == "periodic" and min(scene.shape) < _AROUND:
+        raise ValueError(f"periodic edges need {_AROUND} blocks each way, not {min(scene.shape)}")
     _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(

@@ -202,10 +202,25 @@ def _listed(values: Array) -> str:
 
 
 def _on_blocks(file: Path, spacing: float) -> Array:
-    """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN where there are none.
+    """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN where there are none."""
+    heights, sizes = _measured(file)
+    blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
+    if not all(blocks) or blocks[0] * blocks[1] > _MOST:
+        raise ValueError(
+            f"{file} must hold 1 to {_MOST} blocks of {spacing!r} m; "
+            f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
+        )
+    x, y = (
+        ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
+        for n, size, points in zip(blocks, sizes, heights.shape, strict=True)
+    )
+    return heights[np.ix_(x, y)].T
 
-    Files are read by SurfaceTopography (https://github.com/ContactEngineering), whose first
-    coordinate is x.
+
+def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
+    """Heights, [x, y], NaN where there are none, and the size along x and y, all in m.
+
+    SurfaceTopography reads the file (https://contactengineering.github.io/SurfaceTopography/).
     """
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
@@ -222,33 +237,18 @@ def _on_blocks(file: Path, spacing: float) -> Array:
     except ReadFileError:
         raise ValueError(f"{file} is no topography that SurfaceTopography can read") from None
     except ValueError as error:
-        raise ValueError(
-            no_units if "physical_sizes" in str(error) else f"{file}: {error}"
-        ) from None
+        reason = no_units if "physical_sizes" in str(error) else f"{file}: {error}"
+        raise ValueError(reason) from None
     if read.dim != 2:
         raise ValueError(f"{file} must be a map of heights, not a line")
     if read.unit is None or read.physical_sizes is None:
         raise ValueError(no_units)
     try:
-        measured = read.to_unit("m")
+        metres = read.to_unit("m")
+        heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
+        sizes = metres.physical_sizes
     except ValueError:
         raise ValueError(f"{file} must have a unit of length, not {read.unit!r}") from None
-    return _at_centres(file, measured, spacing)
-
-
-def _at_centres(file: Path, measured: Any, spacing: float) -> Array:
-    heights: Array = np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), np.nan)
     if not np.isfinite(heights).any():
         raise ValueError(f"{file} must hold heights; it has no valid point")
-    sizes = measured.physical_sizes
-    blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
-    if not all(blocks) or blocks[0] * blocks[1] > _MOST:
-        raise ValueError(
-            f"{file} must hold 1 to {_MOST} blocks of {spacing!r} m; "
-            f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
-        )
-    x, y = (
-        ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
-        for n, size, points in zip(blocks, sizes, heights.shape, strict=True)
-    )
-    return heights[np.ix_(x, y)].T
+    return heights, sizes

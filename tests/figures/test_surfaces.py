@@ -8,8 +8,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from figures.test_ensembles import record
+from springblock import Material
 from springblock.figures import surfaces
 from springblock.scene import Scene
+from springblock.study import Ensemble
 from springblock.surfaces import BlockMap
 from springblock.tables import Record
 
@@ -46,6 +48,22 @@ def test_a_row_shows_the_mask_the_mean_times_and_the_force():
 def test_each_row_is_named_after_its_scene():
     names = [text.get_text() for ax in drawing(1).axes for text in ax.texts]
     assert names.count("n_blocks=9, n_rows=6, mask=islands-1a2b3c4d, direction=x") == 2
+
+
+def test_its_caption_names_what_is_ones_own():
+    mu = BlockMap("strong-00000000", np.ones((4, 4)))
+    weibull = Scene(4, n_rows=2, varied={"distribution": "weibull"})
+    scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
+    scenes += [Scene(4, mu_static_field=mu)]
+    ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
+    said = surfaces.FIGURE.source.in_words(ensembles, {}, Material(distribution="uniform"))
+    assert said == (
+        "Sliding direction x. "
+        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 (seeds 0 to 2). "
+        "Flat distribution=weibull, n_rows = 2, N = 4 (seeds 0 to 2); "
+        "mu_static from strong-00000000, N = 4 (seeds 0 to 2). "
+        "Material of the paper, but distribution = uniform."
+    )
 
 
 @pytest.mark.parametrize("number", [1, 3])

@@ -1,6 +1,7 @@
 """Surfaces of one's own: where they touch, when they let go, and under which force."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,7 @@ FIGURE = Declaration(
 # Layout in mm: a row of three panels for each surface, with room for its name above.
 _SIDE, _ROW, _BELOW = 44.0, 62.0, 10.0
 _MASK, _MAP, _BAR, _FORCE = 12.0, 66.0, 112.0, 143.0  #: left edges
+_LINE = 120  #: letters that fit above a row
 
 
 @journal
@@ -56,7 +58,7 @@ def _draw_surface(picture: Figure, bottom: float, runs: "Sequence[Record]") -> N
     _draw_times(picture, times, style.axes(picture, _BAR, bottom, 3.0, _SIDE), mean_times(runs))
     mask.set(xlabel="$x/l$", ylabel="$y/l$")
     times.set(xlabel="$x/l$")
-    name = runs[0].scene.folder.replace("/", ", ")
+    name = fill(runs[0].scene.folder.replace("/", ", "), _LINE)
     mask.text(0.0, 1.03, name, va="bottom", transform=mask.transAxes)
     force = style.axes(picture, _FORCE, bottom, _SIDE, _SIDE)
     curve = whole_curve(runs)
