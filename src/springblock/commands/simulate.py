@@ -22,6 +22,7 @@ from springblock.commands.options import (
     scene_options,
     with_options,
 )
+from springblock.compiling import announce
 from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
@@ -126,6 +127,7 @@ _CORES = click.option(
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
+    announce(setup.integrator, cores)
     with one_sentence():
         contact, direction = scene.pattern.contact, scene.direction
         compute_prelude(contact, direction=direction, cores=cores, **vars(setup)).save(output)
@@ -191,10 +193,10 @@ def simulate_batch(
 
 def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
     """Run one realisation."""
-    coefficients = draw_friction(scene.n_blocks, seed, setup.material)
     options |= {"direction": scene.direction, **vars(setup)}
+    drawn = draw_friction(scene.n_blocks, seed, setup.material)
     try:
-        run = simulate(scene.pattern.contact, *coefficients, **options)
+        run = simulate(scene.pattern.contact, *drawn, **options)
     except SimulationError as error:
         raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
     return batch_row(scene, setup, seed, run)
