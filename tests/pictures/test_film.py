@@ -1,11 +1,15 @@
 """A film of one run: what is to be seen when, and files that others can read."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from imageio_ffmpeg import count_frames_and_secs
+from matplotlib.colors import to_rgb
 from PIL import Image
 
 from springblock import Pattern, Realisation, draw_friction, simulate
+from springblock.figures.style import VERMILION
 from springblock.pictures import film
 from springblock.pictures.maps import painted
 
@@ -41,7 +45,13 @@ def test_where_nothing_detaches_the_whole_run_is_shown():
     assert (times[0], times[-1]) == (0.0, pytest.approx(1e-5))
 
 
-def test_each_frame_shows_its_time(run):
+@pytest.mark.parametrize("columns", [12, 9])
+def test_each_frame_shows_its_time(run, columns):
+    """On a rectangle, too."""
+    cut = {name: getattr(run, name)[..., :columns] for name in ("t_det", "contact", "snapshots")}
+    first = np.isfinite(cut["t_det"]) & (cut["t_det"] <= run.time[-1])
+    edges = np.append(-1.0, run.time)
+    run = replace(run, **cut, detachments=np.histogram(cut["t_det"][first], edges)[0])
     picture, update = film.scenery(run)
     blocks, _, snapshot, _, force, share = picture.axes
     now, before = np.nanpercentile(run.t_det, [50, 40])
@@ -69,6 +79,8 @@ def test_what_stands_still_is_drawn_once_and_what_moves_on_it(run, brief):
     changed = (frames[0] != frames[-1]).any(axis=2)
     assert 0.05 < changed.mean() < 0.5
     assert (frames[-1] == frames[-2]).all()
+    cursors = [(frame == 255.0 * np.array(to_rgb(VERMILION))).all(axis=2) for frame in frames]
+    assert 0 < cursors[-1].sum() <= 1.1 * cursors[0].sum()  # nothing is left of those before
 
 
 def test_a_gif_goes_round_at_its_pace_and_is_small(run, brief, tmp_path):

@@ -22,6 +22,7 @@ from springblock.commands.options import (
     scene_options,
     with_options,
 )
+from springblock.compiling import announce
 from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
@@ -141,6 +142,7 @@ _CORES = click.option(
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
+    announce(setup.integrator, cores)
     with one_sentence():
         contact, direction, mu = scene.contact, scene.direction, scene.mu_static_field
         how = {"mu_static": mu and mu.values, "cores": cores, **_edges(scene), **vars(setup)}
