@@ -26,7 +26,7 @@ rule all:
         rules.claims.output,
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=filter(is_part_of_all, FIGURES),
+            figure=[*filter(is_part_of_all, FIGURES), *sweeps("")],
             suffix=["pdf", "png"],
         ),
         rules.accuracy.output if config["accuracy"] else [],

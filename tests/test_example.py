@@ -69,7 +69,7 @@ def changed(study):
 def records(study, *parts):
     """Realisations in the folder of this scene."""
     folder = study / "results/realisations/n_blocks=12" / name(study) / "/".join(parts)
-    return read_records(sorted(folder.glob("seeds=*.parquet")))
+    return read_records(sorted(folder.glob("seeds-*.parquet")))
 
 
 def name(study):
@@ -144,7 +144,7 @@ def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     configuration = ("tiny.yaml", "around.yaml")
     outcome = snakemake(study, "--", "surfaces", configuration=configuration)
     assert outcome.returncode == 0, outcome.stderr
-    batches = sorted((study / "results/realisations/n_blocks=12/n_rows=6").rglob("seeds=*.parquet"))
+    batches = sorted((study / "results/realisations/n_blocks=12/n_rows=6").rglob("seeds-*.parquet"))
     runs = read_records(batches)
     assert {run.t_det.shape for run in runs} == {(6, 12)}
     assert {run.scene.edges for run in runs} == {"periodic"}

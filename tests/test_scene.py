@@ -52,17 +52,17 @@ def test_constants_of_its_own_belong_to_a_scene():
     fast = Scene(9, varied={"step": "1e-8", "gamma": 0})
     assert fast.varied == (("gamma", 0.0), ("step", 1e-8))
     assert fast == Scene.from_row(fast.row) == Scene(9, varied=(("step", 1e-8), ("gamma", 0.0)))
-    assert fast.folder == "n_blocks=9/level=0/gamma=0.0/step=1e-08/direction=x"
+    assert fast.folder == "n_blocks-9/level-0/gamma-0.0/step-1e-08/direction-x"
     assert fast.arguments.endswith("--vary gamma=0.0 --vary step=1e-08")
     assert fast != Scene(9)
 
 
 def test_folders_and_options_name_every_level():
     assert CUT.folder == (
-        "n_blocks=120/level=3/n_p=58/n_s=62/n_p2=8/n_s2=2/n_p3=8/n_s3=2/along_3=y/direction=x"
+        "n_blocks-120/level-3/n_p-58/n_s-62/n_p2-8/n_s2-2/n_p3-8/n_s3-2/along_3-y/direction-x"
     )
     assert CUT.arguments.endswith("--n-p2 8 --n-s2 2 --n-p3 8 --n-s3 2 --along-3 y --direction x")
-    assert Scene(9, direction="30").folder == "n_blocks=9/level=0/direction=30"
+    assert Scene(9, direction="30").folder == "n_blocks-9/level-0/direction-30"
 
 
 def test_a_row_of_a_table_names_its_scene():
@@ -79,11 +79,11 @@ def test_a_mask_takes_the_place_of_the_pattern():
 
 
 def test_a_surface_of_ones_own_is_named_by_its_contents_and_read_from_its_file():
-    assert OWN.folder == ("n_blocks=3/n_rows=2/mask=corner-1a2b3c4d/edges=periodic/direction=x")
+    assert OWN.folder == ("n_blocks-3/n_rows-2/mask-corner-1a2b3c4d/edges-periodic/direction-x")
     assert OWN.arguments == "--edges periodic --direction x --mask 'a corner.npy'"
     strong = Scene(2, mu_static_field=field(np.ones((2, 2))), varied={"distribution": "weibull"})
     assert strong.folder == (
-        "n_blocks=2/level=0/mu_static_field=strong-00000000/distribution=weibull/direction=x"
+        "n_blocks-2/level-0/mu_static_field-strong-00000000/distribution-weibull/direction-x"
     )
     assert "--n-blocks 2 --direction x --mu-static strong.npy --vary dis" in strong.arguments
     assert strong.files == {"mu_static_field": Path("strong.npy")}
@@ -111,7 +111,7 @@ def test_rectangles_hold_the_same_patterns():
     wide = Scene(24, 4, 2, n_rows=12)
     assert wide.contact.shape == wide.shape == (12, 24)
     assert wide == Scene.from_row(wide.row)
-    assert wide.folder == "n_blocks=24/n_rows=12/level=1/n_p=4/n_s=2/direction=x"
+    assert wide.folder == "n_blocks-24/n_rows-12/level-1/n_p-4/n_s-2/direction-x"
     assert wide.arguments == "--n-blocks 24 --n-rows 12 --n-p 4 --n-s 2 --direction x"
 
 

@@ -199,8 +199,8 @@ def test_masks_are_an_axis_of_a_grid(surfaces):
 def test_the_papers_scenes_are_where_they_were(surfaces):
     """No folder but those of surfaces of one's own says anything new."""
     folders = {e.scene.folder for group in ensembles(PAPER).values() for e in group}
-    assert "n_blocks=120/level=0/direction=x" in folders
-    assert "n_blocks=120/level=1/n_p=20/n_s=20/direction=x" in folders
+    assert "n_blocks-120/level-0/direction-x" in folders
+    assert "n_blocks-120/level-1/n_p-20/n_s-20/direction-x" in folders
     assert not [f for f in folders if "mask" in f or "n_rows" in f or "edges" in f]
     assert not [f for f in folders if "distribution" in f or "correlation_length" in f]
 
@@ -330,10 +330,16 @@ def test_any_change_changes_the_digest():
         ),
         (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
         (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
-        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks=120.* is given two durations"),
+        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks-120.* is given two durations"),
         (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
         (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
         (("scenes", "pillars"), None, "scenes.pillars is not valid: None"),
+        (
+            ("figures", "sweeps", "slider_velocity", "groups"),
+            ["flat", "speeds"],
+            "figures.sweeps.slider_velocity.groups has 'speeds', which is none of flat, pillars",
+        ),
+        (("figures", "sweeps", "scatter", "over"), "speed", "over is 'speed'; it may be .*n_p, "),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
     ],

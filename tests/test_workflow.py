@@ -143,7 +143,7 @@ def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
 
 
 def test_batches_hold_the_curves_that_the_figures_draw(study):
-    (file, *_) = sorted((study / "results/realisations").rglob("seeds=0-1.parquet"))
+    (file, *_) = sorted((study / "results/realisations").rglob("seeds-0-1.parquet"))
     assert pq.read_schema(file).names == BATCH.names
 
 

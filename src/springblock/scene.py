@@ -201,12 +201,24 @@ class Scene:
         return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
 
     @property
-    def folder(self) -> str:
-        """Hive-style folder of its realisations."""
+    def named(self) -> dict[str, str]:
+        """All that tells it from other scenes, by name."""
         named = {**self._size, **({} if self.mask else {"level": self.level}), **self.names}
         named |= {key: getattr(self, key) for key in MAPS if getattr(self, key)}
         named |= {**self._edges, **dict(self.varied), "direction": self.direction}
-        return "/".join(f"{key}={value}" for key, value in named.items())
+        return {key: str(value) for key, value in named.items()}
+
+    @property
+    def folder(self) -> str:
+        """Folder of its realisations.
+
+        Without the "=" that would make readers of many files take its parts for columns again.
+        """
+        return "/".join(f"{key}-{value}" for key, value in self.named.items())
+
+    def __str__(self) -> str:
+        """Name it as captions and titles do."""
+        return ", ".join(f"{key} = {value}" for key, value in self.named.items())
 
     @property
     def arguments(self) -> str:

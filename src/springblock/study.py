@@ -16,6 +16,7 @@ from springblock.scene import LENGTHS, MAPS, Scene, Varied
 from springblock.setup import Setup
 from springblock.solver.springs import MAX_BLOCKS
 from springblock.surfaces import BlockMap, Cut
+from springblock.tables import AXES
 
 Configuration = Mapping[str, Any]
 
@@ -96,6 +97,8 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
         for ensemble in members:
             with _named(configuration, group):
                 _check_ensemble(ensemble, group, setup)
+    for name, sweep in configuration["figures"].get("sweeps", {}).items():
+        _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
 
 @contextmanager
@@ -106,6 +109,15 @@ def _named(configuration: Configuration, group: str) -> Iterator[None]:
         yield
     except ValueError as reason:
         raise ValueError(f"{part}.{group}: {reason}") from reason
+
+
+def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
+    known = {**configuration["scenes"], **configuration["beyond"]}
+    for group in sweep["groups"]:
+        if group not in known:
+            raise ValueError(f"{key}.groups has {group!r}, which is none of {', '.join(known)}")
+    if sweep["over"] not in AXES:
+        raise ValueError(f"{key}.over is {sweep['over']!r}; it may be {', '.join(AXES)}")
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:

@@ -71,6 +71,10 @@ SETUP = pa.schema(
     ]
 )
 
+#: What results may be drawn over: numbers that tell scenes apart, and the direction.
+AXES = [field.name for field in (*SCENE, *SETUP) if not pa.types.is_string(field.type)]
+AXES = [name for name in AXES if name != "level"] + ["direction"]
+
 #: One row per realisation; t_* and *_friction in the paper's names.
 SUMMARY = pa.schema(
     [
@@ -318,7 +322,7 @@ class Record(Visible):
     @property
     def name(self) -> str:
         """Its scene and its seed."""
-        return f"{self.scene.folder.replace('/', ', ')}, seed {self.seed}"
+        return f"{self.scene}, seed = {self.seed}"
 
 
 def read_frame(path: Path) -> "pd.DataFrame":

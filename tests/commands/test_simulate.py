@@ -197,10 +197,10 @@ def interrupted(springblock, tmp_path, monkeypatch):
     """Words of a batch whose second run fails; and the folder that it has left behind."""
     words = (*BATCH, *OFTEN, "--output", tmp_path / "a")
 
-    def failing(n_blocks, seed, material):
+    def failing(shape, seed, *how):
         if seed == 1:
             raise ValueError("enough")
-        return draw_friction(n_blocks, seed, material)
+        return draw_friction(shape, seed, *how)
 
     with monkeypatch.context() as patch:
         patch.setattr("springblock.commands.simulate.draw_friction", failing)

@@ -259,7 +259,7 @@ def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
     by_n_s = ensembles(batches, "n_s").items()
     assert [(n_s, len(group)) for n_s, group in by_n_s] == [(6, 1), (2, 1)]
     sentence = refusal("figure_5", *map(str, batches), "--output", "figure.png")
-    assert sentence.startswith("Error: one scene is drawn, not n_blocks=24/level=1/n_p=6/n_s=2/")
+    assert sentence.startswith("Error: one scene is drawn, not n_blocks-24/level-1/n_p-6/n_s-2/")
 
 
 def test_a_pattern_is_drawn_from_options(tmp_path):

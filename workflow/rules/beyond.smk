@@ -32,7 +32,7 @@ rule beyond:
         ),
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[name for name, figure in FIGURES.items() if figure.category == "Beyond"],
+            figure=[name for name in FIGURES if part_of(name) == "beyond/"] + sweeps("beyond/"),
             suffix=["pdf", "png"],
         ),
         rules.beyond_page.output,

@@ -46,6 +46,12 @@ CUTS = {
 }
 #: What figures declare whose groups of scenes the configuration simulates.
 FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
+#: Observables over an axis of some groups, as far as the configuration simulates these.
+SWEEPS = {
+    name: sweep
+    for name, sweep in config["figures"].get("sweeps", {}).items()
+    if all(ENSEMBLES.get(group) for group in sweep["groups"])
+}
 #: Those that the study draws by itself.
 CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
 
@@ -56,7 +62,7 @@ os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.ge
 def batches(members):
     """Files that hold the realisations of these ensembles."""
     return [
-        f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds={batch[0]}-{batch[-1]}.parquet"
+        f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds-{batch[0]}-{batch[-1]}.parquet"
         for ensemble in members
         for batch in ensemble.batches(config["realisations_per_job"])
     ]
@@ -136,6 +142,14 @@ def caption(figure):
         if part or group in PARTS[part]
     }
     return FIGURES[figure].caption_in(members, lengths, Material(**config["material"]))
+
+
+def sweeps(part):
+    """Sweeps that belong to a part of the study: over groups of the study itself, or beyond it."""
+    own = set(config["scenes"])
+    return [
+        f"sweep_{name}" for name in SWEEPS if (set(SWEEPS[name]["groups"]) <= own) == (not part)
+    ]
 
 
 def is_part_of_all(figure):

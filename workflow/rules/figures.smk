@@ -32,3 +32,36 @@ for figure, declared in FIGURES.items():
         shell:
             "springblock figure {params.figure} {params.options} {input:q} "
             "--caption {params.caption:q} --output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
+
+
+# Sweeps: observables over an axis, as the configuration names them.
+for name, sweep in SWEEPS.items():
+
+    rule:
+        name:
+            f"sweep_{name}"
+        input:
+            lambda wildcards, groups=sweep["groups"]: batches(ensembles("beyond/", groups)),
+        output:
+            pdf=f"{RESULTS}/figures/sweep_{name}.pdf",
+            png=report(
+                f"{RESULTS}/figures/sweep_{name}.png",
+                category="Sweeps",
+                labels={"figure": name, "shows": f"over {sweep['over']}"},
+            ),
+        log:
+            f"{RESULTS}/logs/sweep_{name}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/sweep_{name}.tsv"
+        resources:
+            mem_mb=700,
+            runtime=5,
+        params:
+            code=sources.digest("springblock.pictures.sweep"),
+            over=sweep["over"],
+            of=" ".join(f"--of {observable}" for observable in sweep.get("of", [])),
+        message:
+            f"Drawing sweep_{name}: over {sweep['over']}"
+        shell:
+            "springblock plot {input:q} --over {params.over} {params.of} "
+            "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"

@@ -114,11 +114,11 @@ rule simulate_batch:
         own_files,
         prelude=rules.prelude_scene.output,
     output:
-        f"{RESULTS}/realisations/{{scene}}/seeds={{first}}-{{last}}.parquet",
+        f"{RESULTS}/realisations/{{scene}}/seeds-{{first}}-{{last}}.parquet",
     log:
-        f"{RESULTS}/logs/{{scene}}/seeds={{first}}-{{last}}.log",
+        f"{RESULTS}/logs/{{scene}}/seeds-{{first}}-{{last}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/seeds={{first}}-{{last}}.tsv"
+        f"{RESULTS}/benchmarks/{{scene}}/seeds-{{first}}-{{last}}.tsv"
     wildcard_constraints:
         first=r"\d+",
         last=r"\d+",

@@ -6,9 +6,10 @@ from typing import Any
 
 import click
 
+from springblock import tables
 from springblock.commands.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
 from springblock.figures.style import save
-from springblock.pictures import film, still, surface
+from springblock.pictures import film, still, surface, sweep
 from springblock.reading import read
 from springblock.scene import Scene
 from springblock.tables import Record
@@ -35,12 +36,41 @@ def _chosen(path: Path, seed: int | None) -> Record:
 
 
 @click.command("plot")
-@run_options
-@click.option("--output", type=OUTPUT, required=True, help="PDF, PNG or SVG file.")
-def plot(run: Path, seed: int | None, output: Path) -> None:
-    """Draw one run of a file RUN: force, detachments, their map, and snapshots if any."""
+@click.argument("files", type=INPUT, nargs=-1, required=True)
+@click.option("--seed", type=int, help="Which run of a file; the first if unsaid.")
+@click.option("--over", help="Draw means of all runs over this instead: slider_velocity, n_p, ...")
+@click.option(
+    "--of",
+    "observables",
+    type=click.Choice(list(sweep.OBSERVABLES)),
+    multiple=True,
+    help="What is drawn over it; static_friction if unsaid. May be given several times.",
+)
+@click.option(
+    "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG."
+)
+def plot(
+    files: tuple[Path, ...],
+    seed: int | None,
+    over: str | None,
+    observables: tuple[str, ...],
+    outputs: tuple[Path, ...],
+) -> None:
+    """Draw one run: force, detachments, their map, and snapshots if any.
+
+    With --over all runs of FILES, which may be tables of realisations, over what tells them apart.
+    """
     with one_sentence():
-        save(still.draw(_chosen(run, seed)), output, still.CAPTION)
+        if over is None:
+            if len(files) > 1:
+                raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
+            picture, caption = still.draw(_chosen(files[0], seed)), still.CAPTION
+        else:
+            rows = tables.read(files, tables.SUMMARY).to_pylist()
+            picture = sweep.draw(rows, over, observables or ["static_friction"])
+            caption = sweep.CAPTION
+        for output in outputs:
+            save(picture, output, caption)
 
 
 @click.command("animate")
@@ -58,5 +88,5 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 def show(scene: Scene, output: Path) -> None:
     """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
     with one_sentence():
-        name = scene.folder.replace("/", ", ")
-        save(surface.draw(scene.pattern.contact, scene.direction, name), output, surface.CAPTION)
+        picture = surface.draw(scene.contact, scene.direction, str(scene))
+        save(picture, output, surface.CAPTION)

@@ -58,7 +58,7 @@ def _draw_surface(picture: Figure, bottom: float, runs: "Sequence[Record]") -> N
     _draw_times(picture, times, style.axes(picture, _BAR, bottom, 3.0, _SIDE), mean_times(runs))
     mask.set(xlabel="$x/l$", ylabel="$y/l$")
     times.set(xlabel="$x/l$")
-    name = fill(runs[0].scene.folder.replace("/", ", "), _LINE)
+    name = fill(str(runs[0].scene), _LINE)
     mask.text(0.0, 1.03, name, va="bottom", transform=mask.transAxes)
     force = style.axes(picture, _FORCE, bottom, _SIDE, _SIDE)
     curve = whole_curve(runs)
