@@ -27,7 +27,7 @@ def test_sides_along_both_axes_are_correlated_and_collected(
 
 def test_surfaces_without_sides_are_refused(springblock, batch, outputs):
     refusal = springblock("correlation", batch(0, 0), *outputs, refused=True)
-    assert "n_blocks=12/level=0/direction=x has no whole sides of 6 blocks or more" in refusal
+    assert "n_blocks-12/level-0/direction-x has no whole sides of 6 blocks or more" in refusal
 
 
 def test_two_scenes_are_refused(springblock, batch, pillars, outputs, tmp_path):

@@ -197,10 +197,10 @@ def interrupted(springblock, tmp_path, monkeypatch):
     """Words of a batch whose second run fails; and the folder that it has left behind."""
     words = (*BATCH, *OFTEN, "--output", tmp_path / "a")
 
-    def failing(shape, seed, *how):
+    def failing(surface, seed, *how):
         if seed == 1:
             raise ValueError("enough")
-        return draw_friction(shape, seed, *how)
+        return draw_friction(surface, seed, *how)
 
     with monkeypatch.context() as patch:
         patch.setattr("springblock.commands.simulate.draw_friction", failing)
@@ -213,9 +213,9 @@ def test_finished_runs_are_not_computed_again(springblock, interrupted, tmp_path
     assert [file.name for file in folder.iterdir()] == ["seed=0.parquet"]
     drawn = []
 
-    def noted(n_blocks, seed, material):
+    def noted(surface, seed, *how):
         drawn.append(seed)
-        return draw_friction(n_blocks, seed, material)
+        return draw_friction(surface, seed, *how)
 
     monkeypatch.setattr("springblock.commands.simulate.draw_friction", noted)
     springblock(*words)
