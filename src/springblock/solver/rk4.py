@@ -121,9 +121,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
             speed, way = math.sqrt(half_x * half_x + half_y * half_y), way_of(law, b)
             share = -0.5 if rests else 0.0  # see `resistance`
             taken = resistance(law, way, speed, share, static[b], dynamic[b])
-            ex[b], ey[b] = _friction_direction(
-                law, fx, fy, wx[b], wy[b], static[b], taken, damping
-            )
+            ex[b], ey[b] = _friction_direction(law, fx, fy, wx[b], wy[b], static[b], taken, damping)
             if rests and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - taken
