@@ -45,6 +45,10 @@ MAX_BLOCKS = 4096
 #: Rows are worked on in bands of about this many blocks.
 _BAND_BLOCKS = 2048
 
+#: So many columns of a band are worked on together: what their springs pull with stays in the
+#: nearest cache.
+_TILE = np.uint64(256)
+
 #: Rows are filled up with phantoms to a multiple of this many blocks: no vector is cut short.
 LANES = 8
 
@@ -67,6 +71,14 @@ class Band(NamedTuple):
     n: np.uint64  #: blocks of a row
     pitch: np.uint64  #: numbers from one row to the next
     width: np.uint64  #: blocks of a row with its phantoms
+
+
+class Columns(NamedTuple):
+    """Columns [start, stop) of a band, from 1, which are worked on together."""
+
+    springs: np.uint64  #: where their springs begin: those from the west are among them
+    start: np.uint64
+    stop: np.uint64
 
 
 class Springs(NamedTuple):
@@ -194,22 +206,22 @@ def _last_diagonal(row, n):
 
 
 @njit(inline="always")
-def _pulls_by_series(ux, uy, row, band, s, c):
-    """Enter what the springs from a row pull with, kappa q g(q) (e + d); is any out of range?
+def _pulls_by_series(ux, uy, row, band, columns, s, c):
+    """Enter what the springs from a row pull with, kappa q g(q) (e + d); are all within range?
 
     Diagonal springs are entered as if they were as stiff as axial ones; `_gather` halves them.
     """
     i, j = _places(row, band)
-    edge, outside = _last_diagonal(row, band.n), False
-    for x in range(ONE, band.width + ONE):
+    edge, within = _last_diagonal(row, band.n), True
+    for x in range(columns.springs, columns.stop):
         apart = _apart(ux, uy, i, j, x)
         q = _stretch(apart)
         p = _series(q, c)
-        q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
-        outside = outside | (not q_squared <= SERIES_RANGE**2)  # also for NaN
+        q_squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+        within = within & (q_squared <= SERIES_RANGE**2)  # False for NaN
         ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
         _enter(s, x, apart, q[0] * p[0], q[1] * p[1], ne, nw)
-    return outside
+    return within
 
 
 @njit(inline="always")
@@ -218,12 +230,12 @@ def _is_whole(q):
 
 
 @njit(inline="always")
-def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
+def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
     n = band.n
     i, j = _places(row, band)
     edge, broken = _last_diagonal(row, n), np.int64(n + ONE)
-    for x in range(ONE, band.width + ONE):
+    for x in range(columns.springs, columns.stop):
         apart = _apart(ux, uy, i, j, x)
         q = _stretch(apart)
         inside = x < edge
@@ -237,7 +249,7 @@ def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
 
 
 @njit(inline="always")
-def _gather(ux, uy, row, band, s, force, k_s, slider):
+def _gather(ux, uy, row, band, columns, s, force, k_s, slider):
     """Enter F_mot of the blocks of a row, from what the springs from it and from below pull with.
 
     What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
@@ -245,8 +257,10 @@ def _gather(ux, uy, row, band, s, force, k_s, slider):
     scene moves as a mirror image to the last bit.
     """
     i, own, (sx, sy) = row * band.pitch, (row - band.start) * band.pitch, slider
-    e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
-    for x in range(ONE, band.width + ONE):
+    w = columns.start - ONE  # there is nothing to the west of the first column
+    e_x, e_y = s[EAST_X + w], s[EAST_Y + w]
+    ne_x, ne_y, nw_x, nw_y = s[NE_X + w], s[NE_Y + w], s[NW_X + w], s[NW_Y + w]
+    for x in range(columns.start, columns.stop):
         # Of the column to the west: east, north-east, and the one that goes there from here.
         w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
         e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
@@ -260,26 +274,26 @@ def _gather(ux, uy, row, band, s, force, k_s, slider):
 
 
 @njit(**JIT)
-def _forces_by_series(ux, uy, first, band, needed, s, force, springs, slider):
-    """Enter F_mot of a band from row `first` on.
+def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, slider):
+    """Enter F_mot of columns of a band from row `first` on.
 
     Rows are left out where neither they nor the next row are `needed`. Returns the first row with
     a spring out of range, which is not entered, or the band's stop.
     """
     for row in range(first, band.stop):
         if needed[row] or needed[row + ONE]:
-            if _pulls_by_series(ux, uy, row, band, s, springs.series):
+            if not _pulls_by_series(ux, uy, row, band, columns, s, springs.series):
                 return row
-            _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+            _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return band.stop
 
 
 @njit(**JIT)
-def _forces_by_closed_form(ux, uy, row, band, s, force, springs, slider):
+def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider):
     """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
-    broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
+    broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
     if broken == 0:
-        _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+        _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return broken
 
 
@@ -301,13 +315,20 @@ def forces_on_band(ux, uy, band, needed, s, springs, slider):
     pulls = one_row(s)
     if band.start == 0:
         _clear_below(band, pulls)
-    row = _forces_by_series(ux, uy, band.start, band, needed, pulls, s, springs, slider)
-    while row < band.stop:
-        broken = _forces_by_closed_form(ux, uy, row, band, pulls, s, springs, slider)
+    for start in range(ONE, band.width + ONE, _TILE):
+        springs_from = start - U(LANES) if start > 1 else start
+        columns = Columns(springs_from, start, min(start + _TILE, band.width + ONE))
+        row, broken = band.start, U(0)
+        while row < band.stop and broken == 0:
+            row = _forces_by_series(ux, uy, row, band, columns, needed, pulls, s, springs, slider)
+            if row < band.stop:
+                broken = _forces_by_closed_form(
+                    ux, uy, row, band, columns, pulls, s, springs, slider
+                )
+                row += ONE
         if broken > 0:
-            return row, broken
-        row = _forces_by_series(ux, uy, row + ONE, band, needed, pulls, s, springs, slider)
-    return row, U(0)
+            return row - ONE, broken
+    return band.stop, U(0)
 
 
 def scratch() -> Array:
