@@ -9,9 +9,9 @@ from springblock import Material
 
 PAPER = Material()
 MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
-MAY_VANISH |= {"correlation_length"}
+MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
 NAMES = [field.name for field in fields(Material)]
-NUMBERS = [name for name in NAMES if name != "distribution"]
+NUMBERS = [name for name in NAMES if name not in ("distribution", "law")]
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_whole_numbers_count_as_numbers():
 
 def test_items_name_every_constant():
     assert Material(**dict(PAPER.items())) == PAPER
-    assert [name for name, _ in PAPER.items()] == NAMES
+    assert [name for name, _ in PAPER.items() if name != "law"] == NAMES
 
 
 def test_a_material_does_not_change():
@@ -94,4 +94,23 @@ def test_a_distribution_is_one_of_four(value):
 )
 def test_constants_that_overflow_together_are_refused(constants, derived):
     with pytest.raises(ValueError, match=f"Material.({derived}) beyond floating point"):
+        Material(**constants)
+
+
+@pytest.mark.parametrize(
+    ("constants", "sentence"),
+    [
+        ({"law": "stribeck"}, "law must be one of coulomb, slip_weakening, velocity_weakening"),
+        ({"law": 1.0}, "law must be one of .*, not 1.0"),
+        ({"law": "slip_weakening"}, "slip_distance must be positive with slip_weakening, not 0.0"),
+        ({"slip_distance": 1e-7}, "slip_distance must be zero with coulomb, not 1e-07"),
+        ({"law": "velocity_weakening"}, "speed_scale must be positive with velocity_weakening"),
+        (
+            {"law": "slip_weakening", "slip_distance": 1e-7, "speed_scale": 0.1},
+            "speed_scale must be zero with slip_weakening, not 0.1",
+        ),
+    ],
+)
+def test_a_law_comes_with_its_own_constant_and_no_other(constants, sentence):
+    with pytest.raises(ValueError, match=rf"^Material\.{sentence}"):
         Material(**constants)

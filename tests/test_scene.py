@@ -57,6 +57,13 @@ def test_constants_of_its_own_belong_to_a_scene():
     assert fast != Scene(9)
 
 
+def test_a_law_is_text_among_the_constants():
+    weak = Scene(9, varied={"slip_distance": "1e-7", "law": "slip_weakening"})
+    assert weak == Scene.from_row(weak.row)
+    assert weak.folder == ("n_blocks=9/level=0/law=slip_weakening/slip_distance=1e-07/direction=x")
+    assert weak.arguments.endswith("--vary law=slip_weakening --vary slip_distance=1e-07")
+
+
 def test_folders_and_options_name_every_level():
     assert CUT.folder == (
         "n_blocks-120/level-3/n_p-58/n_s-62/n_p2-8/n_s2-2/n_p3-8/n_s3-2/along_3-y/direction-x"

@@ -68,6 +68,34 @@ def test_a_constant_may_be_an_axis_of_a_grid():
     assert Scene(9, varied={"slider_velocity": 1e-3, "gamma": 0, "step": 1e-8}) in scenes
 
 
+def test_a_law_may_be_an_axis_with_its_constant():
+    axes = {"law": ["slip_weakening"], "slip_distance": [1e-8, 1e-7]}
+    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
+    weak = changed("scenes", "weak", to=grid)
+    check(weak, SCHEMA)
+    scenes = [e.scene for e in ensembles(weak)["weak"]]
+    assert scenes[1] == Scene(9, varied={"law": "slip_weakening", "slip_distance": 1e-7})
+
+
+@pytest.mark.parametrize(
+    ("axes", "sentence"),
+    [
+        ({"law": ["slip_weakening"]}, "slip_distance must be positive with slip_weakening"),
+        ({"slip_distance": [1e-7]}, "slip_distance must be zero with coulomb, not 1e-07"),
+        ({"speed_scale": [-1.0]}, "speed_scale must be finite and zero or positive, not -1.0"),
+    ],
+)
+def test_a_group_whose_law_lacks_its_constant_is_refused_by_name(axes, sentence):
+    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
+    with pytest.raises(ValueError, match=rf"^scenes\.weak: Material\.{sentence}"):
+        check(changed("scenes", "weak", to=grid), SCHEMA)
+
+
+def test_there_is_no_other_law():
+    with pytest.raises(ValueError, match=r"^material\.law is not valid: 'stribeck' is not one of"):
+        check(changed("material", "law", to="stribeck"), SCHEMA)
+
+
 def test_gaps_may_follow_the_pillars():
     halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
     assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]

@@ -44,6 +44,24 @@ def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_
     assert (configuration["integrator"], configuration["duration"]) == ("rk4", 4e-6)
 
 
+def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
+    """From the prelude to the table, and weaker friction is another one."""
+    scene = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
+    law = ("--vary", "law=slip_weakening", "--vary", "slip_distance=1e-7")
+    files = prelude, weak, plain, whole = [tmp_path / name for name in ("p", "w", "c", "t")]
+    springblock("prelude", *scene, *law, "--output", prelude)
+    springblock("simulate", *scene, *law, *ONE, "--prelude", prelude, "--output", weak)
+    springblock("simulate", *scene, *ONE, "--output", plain)
+    springblock("aggregate", weak, plain, "--configuration", "none", "--output", whole)
+    assert all(file.exists() for file in files)
+    table = pq.read_table(whole)
+    rows = {row["law"]: row for row in table.to_pylist()}
+    assert rows["slip_weakening"]["varied"] == "law=slip_weakening, slip_distance=1e-07"
+    assert rows["slip_weakening"]["slip_distance"] == 1e-7
+    assert (rows["coulomb"]["slip_distance"], rows["coulomb"]["speed_scale"]) == (0.0, 0.0)
+    assert rows["slip_weakening"]["static_friction"] > rows["coulomb"]["static_friction"]
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -59,6 +77,8 @@ def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_
         (["--material", "gama=3"], "'--material': 'gama' is no constant; there are youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
         (["--material", "density=-1"], "Material.density must be finite and positive, not -1.0"),
+        (["--vary", "law=slip_weakening"], "Material.slip_distance must be positive with slip_"),
+        (["--material", "law=stribeck"], "'--material': Material.law must be one of coulomb, "),
         (["--prelude", "absent.npz"], "'--prelude': File 'absent.npz' does not exist"),
     ],
 )

@@ -1,5 +1,7 @@
 """What the leapfrog leaves out changes no bit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,10 @@ def assert_same_to_the_bit(one, other, fields):
 
 
 MOTION = ("ux", "uy", "wx", "wy", "t_det")
+WEAKENING = {
+    "slip": replace(FAST, law="slip_weakening", slip_distance=2e-8),
+    "velocity": replace(FAST, law="velocity_weakening", speed_scale=0.1),
+}
 
 
 @pytest.mark.parametrize("band", [1, 2, 5, None])
@@ -63,6 +69,20 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
     assert_same_to_the_bit(all_rows.blocks, awake_rows.blocks, MOTION)
     assert_same_to_the_bit(all_rows, awake_rows, ("ledger",))
     assert_same_to_the_bit(plain, quick, Samples._fields)
+
+
+@pytest.mark.parametrize("law", WEAKENING)
+@pytest.mark.parametrize("surface", SURFACES)
+def test_so_it_is_where_friction_weakens(surface, law):
+    """As if all rows slid at every step, with the same law."""
+    awake, quick = (start(SURFACES[surface], 0, material=WEAKENING[law]) for _ in range(2))
+    restless, constants = awake
+    for k in range(4000):  # each call begins with all rows awake
+        leapfrog.advance(restless, constants, k, 1, 1, Samples.empty(1))
+    follow(*quick, 4000)
+    assert np.isfinite(restless.blocks.t_det).any()
+    assert_same_to_the_bit(restless.blocks, quick[0].blocks, MOTION)
+    assert_same_to_the_bit(restless, quick[0], ("ledger",))
 
 
 @pytest.mark.parametrize("band", [1, 2, 5])

@@ -1,5 +1,7 @@
 """Several cores: the same bits as one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,6 +46,23 @@ def test_every_bit_is_as_on_one_core(name, band_rows, cores):
     assert (
         samples.switches.sum() > np.isfinite(alone[0].blocks.t_det).sum() > 0
     )  # some let go again
+
+
+@pytest.mark.parametrize("cores", [2, 3])
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"law": "slip_weakening", "slip_distance": 2e-8},
+        {"law": "velocity_weakening", "speed_scale": 0.1},
+    ],
+)
+def test_so_it_is_where_friction_weakens(law, cores):
+    pattern, how = PATTERNS["pillared"], {"material": replace(FAST, **law), "duration": 6e-6}
+    surface = pattern.contact, *draw_friction(30, seed=0)
+    one, other = (simulate(*surface, **how, cores=k) for k in (1, cores))
+    assert one.switches.sum() > 100
+    for name in ("force", "t_det", "switches", "displacement", "velocity"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
 
 
 def test_what_a_prelude_keeps_is_the_same():

@@ -428,7 +428,14 @@ def solve(
     duration, sample_interval : s
     accuracy : 1
         Relative tolerance of each step; the default or less, see `STOP_SPEED`.
+
+    Raises
+    ------
+    ValueError
+        Where the law of friction is not Coulomb's.
     """
+    if material.law != "coulomb":
+        raise ValueError(f"law must be coulomb for the reference solution, not {material.law}")
     units = _Units.of(material)
     system = _System(contact, mu_static, mu_dynamic, material)
     # a millionth of an interval keeps the last sample where the quotient is rounded down

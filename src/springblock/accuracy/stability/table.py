@@ -6,7 +6,16 @@ from typing import Any
 
 import pyarrow as pa
 
-from springblock.accuracy.stability import block, load, overflow, rest, size, step, surface
+from springblock.accuracy.stability import (
+    block,
+    load,
+    overflow,
+    rest,
+    size,
+    step,
+    surface,
+    weakening,
+)
 from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.solver import INTEGRATORS
 from springblock.tables import column
@@ -24,6 +33,7 @@ SCHEMA = pa.schema(
             "K_s/K_int; strain: F_n/(K_s l), how far a block slips over l; damping: gamma/omega, "
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
+            "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
             "size: N; rest: number of steps; overflow: the value that is too much",
         ),
         column("expected", pa.string(), "1", "outcome that the case must have"),
@@ -37,7 +47,7 @@ SCHEMA = pa.schema(
     ]
 )
 
-KINDS = (step, block, surface, load, size, rest, overflow)
+KINDS = (step, block, surface, weakening, load, size, rest, overflow)
 
 
 def all_cases() -> Iterator[Case]:
