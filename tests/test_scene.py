@@ -60,7 +60,7 @@ def test_constants_of_its_own_belong_to_a_scene():
 def test_a_law_is_text_among_the_constants():
     weak = Scene(9, varied={"slip_distance": "1e-7", "law": "slip_weakening"})
     assert weak == Scene.from_row(weak.row)
-    assert weak.folder == ("n_blocks=9/level=0/law=slip_weakening/slip_distance=1e-07/direction=x")
+    assert weak.folder == ("n_blocks-9/level-0/law-slip_weakening/slip_distance-1e-07/direction-x")
     assert weak.arguments.endswith("--vary law=slip_weakening --vary slip_distance=1e-07")
 
 

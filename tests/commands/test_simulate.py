@@ -263,4 +263,4 @@ def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted, ch
 def test_a_run_that_fails_is_named(springblock, tmp_path):
     soft = ("--material", "youngs_modulus=1e4", "--step", 1e-6, "--sample-interval", 1e-5)
     refusal = springblock("simulate", *FLAT, *ONE, *soft, "--output", tmp_path / "a", refused=True)
-    assert "n_blocks=6/level=0/direction=x, seed 3: at t = " in refusal
+    assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal

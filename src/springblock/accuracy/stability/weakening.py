@@ -7,6 +7,7 @@ way, or at W = (mu_s - mu_d)/v_c with its speed.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -130,9 +131,10 @@ def is_coulomb(integrator: str, law: str, least: float) -> Outcome:
 
     Leapfrog's is so to the bit; Runge-Kutta turns slow blocks at once, which Coulomb's do not.
     """
+    limit: dict[str, Any] = {"law": law, LIMITS[law]: least}
     pulls = [
         Pull(integrator, pulled_at(SPEED, material), 2e-8)
-        for material in (replace(UNDAMPED, law=law, **{LIMITS[law]: least}), UNDAMPED)
+        for material in (replace(UNDAMPED, **limit), UNDAMPED)
     ]
     run, plain = (pull.simulate(uniform(3, MU_STATIC, MU_DYNAMIC)) for pull in pulls)
     word = "the same" if np.array_equal(run.t_det, plain.t_det) else "differs"
