@@ -19,15 +19,16 @@ def test_the_example_runs(tmp_path, monkeypatch):
     """One surface from the command line, and then in Python."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(film, "FRAMES", 20)  # quicker
-    commands = re.findall(r"^    springblock (.* --output \S+)$", README, re.MULTILINE)
-    assert [words.split()[0] for words in commands] == ["show", "simulate", "plot", "animate"]
+    commands = re.findall(r"^    springblock (.* --output \S+|info .*)$", README, re.MULTILINE)
+    names = ["show", "simulate", "plot", "animate", "simulate", "plot", "info"]
+    assert [words.split()[0] for words in commands] == names
     for words in commands:
         main(words.split(), standalone_mode=False)
     names = {}
     for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
         exec(example, names)
     assert names["stored"].scene == Scene(60, 10, 10)
-    written = {"surface.png", "run.parquet", "run.png", "run.gif"}
+    written = {"surface.png", "run.parquet", "run.png", "run.gif", "fast.parquet", "velocity.png"}
     assert {file.name for file in tmp_path.iterdir()} == written
     assert 0.5 < names["run"].static_friction < 1.0
     assert abs(names["run"].energy.relative_residual) < ENERGY_TOLERANCE
