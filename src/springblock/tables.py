@@ -317,7 +317,7 @@ class Record(Visible):
     @property
     def contact(self) -> NDArray[np.bool_]:
         """Blocks in contact with the substrate, (N, N), [y, x]."""
-        return self.scene.pattern.contact
+        return self.scene.contact
 
     @property
     def name(self) -> str:

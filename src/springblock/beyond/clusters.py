@@ -54,7 +54,7 @@ class Clusters(NamedTuple):
 
 def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
     """Sizes of clusters of precursors, and of what chance would make of them."""
-    rng, contact = np.random.default_rng(seed), runs[0].scene.pattern.contact
+    rng, contact = np.random.default_rng(seed), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
     observed = np.array([mean_size(mask) for mask in masks])
     anywhere = np.array(

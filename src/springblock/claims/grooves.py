@@ -84,7 +84,7 @@ def detached_between(run: Run, blocks: Mask) -> float:
 
 def resting_core(run: Record) -> float:
     """Share of the blocks off the edges yet to detach at the lowest force between load peaks."""
-    contact = run.scene.pattern.contact
+    contact = run.scene.contact
     return 1.0 - detached_between(run, contact & ~edge(contact))
 
 
@@ -118,7 +118,7 @@ def edge(contact: Mask) -> Mask:
 def grooved_parts(scene: Scene) -> dict[str, Mask]:
     """Masks over a grooved pillar, [y_p, x_p], of its parts in the order of the paper."""
     (y, x), size = scene.pattern.origins[0], scene.n_p
-    contact = scene.pattern.contact[y : y + size, x : x + size]
+    contact = scene.contact[y : y + size, x : x + size]
     edges, (rows, columns) = edge(contact), np.indices(contact.shape)
     transverse = contact & ((columns == 0) | (columns == size - 1))
     external = contact & ~transverse & ((rows == 0) | (rows == size - 1))
@@ -237,7 +237,7 @@ def edges_make_first_peak(evidence: Evidence) -> Iterator[Finding]:
     """Between the load peaks nearly all edges have let go."""
 
     def detached(run: Record) -> float:
-        return detached_between(run, edge(run.scene.pattern.contact))
+        return detached_between(run, edge(run.scene.contact))
 
     name = "share of the edges detached at the lowest force between the load peaks"
     return _with_both_peaks(evidence, name, detached, (NEARLY_ALL, INF))
@@ -247,7 +247,7 @@ def equal_parts(evidence: Evidence) -> Iterator[Finding]:
     """What detaches before the lowest force between the load peaks is half of the surface."""
 
     def detached(run: Record) -> float:
-        return detached_between(run, run.scene.pattern.contact)
+        return detached_between(run, run.scene.contact)
 
     name = "share of the contact blocks detached at the lowest force between the load peaks"
     return _with_both_peaks(evidence, name, detached, _EQUAL)
@@ -269,7 +269,7 @@ def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
     """The edges let go before the rest, sliding along or across the grooves."""
     for lengths, *scenes in slid_both_ways(evidence):
         for scene, name in zip(scenes, _WAYS_OF_SLIDING, strict=True):
-            contact = scene.pattern.contact
+            contact = scene.contact
             edges = edge(contact)
             later = [
                 (run.t_det[contact & ~edges].mean() - run.t_det[edges].mean()) / run.t_avg

@@ -136,7 +136,7 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
 
 def border(scene: Scene) -> Mask:
     """Blocks on the borders of pillars or beside those, (N, N)."""
-    field, size = np.zeros(scene.pattern.contact.shape, bool), scene.n_p
+    field, size = np.zeros(scene.contact.shape, bool), scene.n_p
     from_edge = np.minimum(np.arange(size), np.arange(size)[::-1])
     for y, x in scene.pattern.origins:
         pillar = np.minimum.outer(from_edge, from_edge) < _BORDER

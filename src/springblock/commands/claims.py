@@ -57,7 +57,7 @@ def _stress(preludes: Iterable[Path], records: Records) -> dict[Scene, Array]:
     loaded = {prelude.surface: prelude for prelude in map(Prelude.read, preludes)}
     found = {}
     for scene, runs in records.items():
-        contact = scene.pattern.contact
+        contact = scene.contact
         prelude = loaded.get(surface(contact, heading(scene.direction)))
         if prelude is None or scene.varied:
             continue

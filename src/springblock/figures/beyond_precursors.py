@@ -65,7 +65,7 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
     rng = np.random.default_rng(0)
     for scene, runs in shown.items():
         masks, color = [precursors(run) for run in runs], pillar_look(scene.n_p)["color"]
-        anywhere = [shuffled(mask, scene.pattern.contact, rng) for mask in masks]
+        anywhere = [shuffled(mask, scene.contact, rng) for mask in masks]
         _draw_shares(ax, masks, color, linestyle="-", label=pillar_name(scene.n_p))
         _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
         _draw_shares(ax, mixed(masks, rng), color, linestyle=":", linewidth=0.9)
