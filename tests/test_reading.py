@@ -56,7 +56,7 @@ def test_a_file_without_snapshots_is_one_of_none(runs, tmp_path):
 
 def test_a_run_says_in_one_line_which_it_is(runs, tmp_path):
     (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
-    scene = "n_blocks=6, level=1, n_p=2, n_s=1, direction=x, seed 3"
+    scene = "n_blocks = 6, level = 1, n_p = 2, n_s = 1, direction = x, seed = 3"
     assert repr(run).startswith(f"<{scene}: static friction ")
     assert "\n" not in repr(run)
 
