@@ -3,10 +3,11 @@
 Taken literally, with friction opposite to the velocity of each *stage*, the method does not
 converge: the stage velocities of a slow block alternate in sign, and it creeps instead of coming
 to rest. Here friction keeps one direction through all four stages: against the velocity that a
-moving block has in the middle of the step, against F_mot of one that has just let go. A
-block whose velocity has turned back at the end of the step stops there; a block at rest stays
-through all stages. Without friction the method is of fourth order. Releases are placed within their
-steps, which makes it second order across them; stops fall on step boundaries.
+moving block has in the middle of the step, against F_mot of one that has just let go. Where it
+weakens, each stage has a friction of its own size. A block whose velocity has turned back at the
+end of the step stops there; a block at rest stays through all stages. Without friction the method
+is of fourth order. Releases are placed within their steps, which makes it second order across them;
+stops fall on step boundaries.
 """
 
 import math
