@@ -166,7 +166,7 @@ def test_a_caption_follows_the_grid():
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
     assert source.in_words(ensembles, {}, weak).endswith(
-        "Material of the paper, but law = slip_weakening and slip_distance = 2e-08."
+        "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
     )
     one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
     assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."

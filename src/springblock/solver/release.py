@@ -10,7 +10,7 @@ way at step k, with a velocity of θ a. Only the few blocks that let go need F_k
 where their neighbours have been, afterwards and outside the loops over all blocks.
 
 Where friction weakens as a block moves, it lets go without a drop: a is what F_mot has risen by
-since then. Its way is of third order in h and its velocity of second, wherever in the step it began.
+since then. Its way is of third order in h and its velocity of second, whatever share that was.
 """
 
 import math
