@@ -165,6 +165,10 @@ def test_a_caption_follows_the_grid():
         "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
         "(seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
+    weak = Material(law="slip_weakening", slip_distance=2e-8)
+    assert source.in_words(ensembles, {}, weak).endswith(
+        "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
+    )
     one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
     assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]

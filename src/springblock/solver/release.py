@@ -8,6 +8,9 @@ before, has let go a share θ of a step before step k,
 It has moved since: with a for the velocity that the net force adds in one step, it is θ² a/2 on its
 way at step k, with a velocity of θ a. Only the few blocks that let go need F_k-1. It follows from
 where their neighbours have been, afterwards and outside the loops over all blocks.
+
+Where friction weakens as a block moves, it lets go without a drop: a is what F_mot has risen by
+since then. Its way is of third order in h and its velocity of second, whatever share that was.
 """
 
 import math

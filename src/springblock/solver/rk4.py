@@ -3,10 +3,11 @@
 Taken literally, with friction opposite to the velocity of each *stage*, the method does not
 converge: the stage velocities of a slow block alternate in sign, and it creeps instead of coming
 to rest. Here friction keeps one direction through all four stages: against the velocity that a
-moving block has in the middle of the step, against F_mot of one that has just let go. A
-block whose velocity has turned back at the end of the step stops there; a block at rest stays
-through all stages. Without friction the method is of fourth order. Releases are placed within their
-steps, which makes it second order across them; stops fall on step boundaries.
+moving block has in the middle of the step, against F_mot of one that has just let go. Where it
+weakens, each stage has a friction of its own size. A block whose velocity has turned back at the
+end of the step stops there; a block at rest stays through all stages. Without friction the method
+is of fourth order. Releases are placed within their steps, which makes it second order across them;
+stops fall on step boundaries.
 """
 
 import math
@@ -187,11 +188,19 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         stage.dy[b] += further * released.ay[m]
 
 
+@njit(inline="always")
+def _taken_in_stage(blocks, law, stage, b):
+    """Friction where a stage has got to, and at its speed."""
+    ex, ey, way = stage.ex[b], stage.ey[b], way_of(law, b)
+    way += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
+    speed = abs(stage.wx[b] * ex + stage.wy[b] * ey)
+    return resistance(law, way, speed, 0.0, blocks.static[b], blocks.dynamic[b])
+
+
 @njit(**JIT)
 def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
     """Take one stage on the rows of a band; returns the squared speed."""
-    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    static, dynamic = blocks.static, blocks.dynamic
+    ux, uy, wx, wy, dynamic = blocks.ux, blocks.uy, blocks.wx, blocks.wy, blocks.dynamic
     su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total = 0.0
@@ -201,9 +210,7 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
         for x in range(ONE, band.n + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
-            way = way_of(law, b) + (su[b] - ux[b]) * ex[b] + (sv[b] - uy[b]) * ey[b]
-            speed = abs(vx * ex[b] + vy * ey[b])
-            taken = resistance(law, way, speed, 0.0, static[b], dynamic[b])
+            taken = dynamic[b] if law is None else _taken_in_stage(blocks, law, stage, b)
             ax = s[FORCE_X + own + x] - damping * vx - taken * ex[b]
             ay = s[FORCE_Y + own + x] - damping * vy - taken * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
