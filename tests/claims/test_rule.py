@@ -22,6 +22,7 @@ from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
 from springblock.commands.claims import _by_scene, _stress
 from springblock.scene import Scene
+from springblock.setup import Setup
 from springblock.statistics import mean_interval, share_interval, students_t
 from springblock.surfaces import BlockMap
 from springblock.tables import SUMMARY, rows_to_table, write
@@ -245,8 +246,7 @@ def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
 
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.commands.claims.read_records", lambda batches: [])
-    texts = {"integrator": "leapfrog", "distribution": "normal"}
-    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | texts
+    row = dict.fromkeys(SUMMARY.names, 0) | Setup().constants | Scene(12).row
     table, claims, text = (tmp_path / name for name in ("table", "claims.parquet", "claims.md"))
     runs = [row | {"t_avg": 1.0 + 0.001 * seed, "seed": seed} for seed in range(ENOUGH)]
     write(rows_to_table(runs, SUMMARY), table, {})
