@@ -73,6 +73,8 @@ def _rule(path: Path) -> str:
         return "simulate"
     if path.stem.startswith("compile-"):
         return "compile"
+    if path.parent.name == "surfaces":
+        return "mask"
     if path.stem in _figures():
         return "figures"
     if path.parent.name == "production" or path.stem == "production_table":

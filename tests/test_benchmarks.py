@@ -186,7 +186,7 @@ def test_a_study_that_has_not_been_run_is_missing():
 def jobs_of_the_workflow():
     """Rules that leave a benchmark file, and the path of one such file."""
     wildcards = {"scene": "n_blocks=12/level=0/direction=x", "first": "0", "last": "4"}
-    wildcards |= {"integrator": "rk4", "table": "correlation"}
+    wildcards |= {"integrator": "rk4", "table": "correlation", "mask": "islands-1a2b3c4d"}
     for file in sorted((ROOT / "workflow/rules").glob("*.smk")):
         for text in re.split(r"^ *rule\b", file.read_text(), flags=re.MULTILINE)[1:]:
             for path in re.findall(r'benchmarks/(.*?)"', text):
@@ -202,6 +202,7 @@ def jobs_of_the_workflow():
 def test_every_job_of_the_workflow_counts_for_its_step():
     step = {
         "compile_integrator": "compile",
+        "mask_topography": "mask",
         "prelude_scene": "prelude",
         "simulate_batch": "simulate",
         "aggregate_part": "aggregate",

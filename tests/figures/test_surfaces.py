@@ -45,6 +45,14 @@ def test_a_row_shows_the_mask_the_mean_times_and_the_force():
     assert len(drawing(3).axes) == 8
 
 
+def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
+    one, other = runs(2)
+    short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
+    (image,) = surfaces.draw({"short": [one, short]}).axes[1].images
+    known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
+    np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
+
+
 def test_each_row_is_named_after_its_scene():
     names = [text.get_text() for ax in drawing(1).axes for text in ax.texts]
     assert names.count("n_blocks=9, n_rows=6, mask=islands-1a2b3c4d, direction=x") == 2

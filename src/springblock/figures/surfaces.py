@@ -26,10 +26,11 @@ FIGURE = Declaration(
     caption=f"""Each surface of the group `surfaces`: at the left which blocks are in contact; in
     the middle their first detachment times t_det over t_max, means over realisations, blue before
     the force maximum and red after it, on a scale of its own for each, and grey where there is no
-    contact; at the right the friction force over the normal force, mean with {INTERVALS}, up to 20
-    single runs, and t_max, the mean over realisations, as a dotted line. Runs end after a set time,
-    or after the first minimum behind their force maximum; from where the first has ended the force
-    is dotted, the mean over those that go on, and it ends with half of them.""",
+    contact or a run in which the block has not let go; at the right the friction force over the
+    normal force, mean with {INTERVALS}, up to 20 single runs, and t_max, the mean over
+    realisations, as a dotted line. Runs end after a set time, or after the first minimum behind
+    their force maximum; from where the first has ended the force is dotted, the mean over those
+    that go on, and it ends with half of them.""",
     source=Realisations(groups=("surfaces",), keys=("folder",)),
 )
 
@@ -75,7 +76,7 @@ def mean_times(runs: "Sequence[Record]") -> Array:
 
 
 def _draw_times(picture: Figure, ax: Axes, bar: Axes, times: Array) -> None:
-    low, high = min(np.nanmin(times), 0.999), max(np.nanmax(times), 1.001)
-    norm = TwoSlopeNorm(1.0, float(low), float(high))
+    shown = np.append(times[np.isfinite(times)], (0.999, 1.001))
+    norm = TwoSlopeNorm(1.0, float(shown.min()), float(shown.max()))
     image = ax.imshow(times, BEFORE_AFTER, norm=norm, origin="lower", interpolation="nearest")
     picture.colorbar(image, bar).set_label(r"mean $t_\mathrm{det}/t_\mathrm{max}$")
