@@ -8,6 +8,7 @@ from springblock.accuracy.surfaces import drawn
 from springblock.checkpoint import Checkpoint
 
 PILLARS = Pattern.pillars(12, 4, 2)
+WEAKENING = Material(law="slip_weakening", slip_distance=5e-8)
 LONG = 1.6e-4  #: s, 80 pauses; blocks slide from 126 µs on
 TAKEN = 70  #: pauses before the run is stopped, at 140 µs
 EACH_PAUSE = 1e-9  #: s between two writings
@@ -56,9 +57,11 @@ def answer(run):
     return [field.tobytes() for field in fields], run.energy, run.steps
 
 
+@pytest.mark.parametrize("material", [Material(), WEAKENING], ids=lambda material: material.law)
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
-def test_a_run_that_goes_on_is_the_run_that_was_not_stopped(stopped, saved, integrator):
+def test_a_run_that_goes_on_is_the_run_that_was_not_stopped(stopped, saved, integrator, material):
     how = {"integrator": integrator, "snapshot_times": (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)}
+    how["material"] = material
     whole = pull(**how)
     assert whole.t_first < 1.4e-4  # there are detachments before it is stopped and after
     assert np.nanmax(whole.t_det) > 1.4e-4

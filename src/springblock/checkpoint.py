@@ -106,7 +106,8 @@ def _read(path: Path) -> dict[str, Any]:
 
 def _fields(state: State) -> list[Array]:
     """All that a run goes on from; what it works in is filled anew."""
-    return [*state.blocks, *state.work, state.ledger]
+    of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
+    return [*state.blocks, *state.work, state.ledger, *of_law]
 
 
 def _digest(content: bytes) -> str:

@@ -59,6 +59,7 @@ def simulate(
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
     cores: int = 1,
+    periodic: bool = False,
     progress: bool = False,
     checkpoint: str | Path | None = None,
     checkpoint_interval: float = 300.0,
@@ -69,9 +70,9 @@ def simulate(
 
     Parameters
     ----------
-    contact : (N, N) bool, or 0 and 1, [y, x]
+    contact : (N_y, N_x) bool, or 0 and 1, [y, x]
         Blocks in contact with the substrate, as `Pattern.contact`.
-    mu_static, mu_dynamic : (N, N) float, or one number for all blocks
+    mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
         Microscopic friction coefficients; not read outside the contact.
     material : Material
     direction : "x", "y" or an angle from x in degrees
@@ -93,6 +94,9 @@ def simulate(
         save time and change nothing.
     cores : int
         On which the leapfrog follows one large surface, to the bit as on one.
+    periodic : bool
+        Whether springs join opposite edges, which are free otherwise. Each side then holds at
+        least 3 blocks.
     progress : bool
         Whether to count samples on stderr.
     checkpoint : Path
@@ -110,7 +114,7 @@ def simulate(
         Where a spring collapses, bursts or becomes NaN, with time and block; or where a run
         without duration does not come to its end.
     """
-    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic)
+    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
     setup = Setup(material, integrator, step, sample_interval)
     advance, towards = on_cores(integrator, cores), heading(direction)
     stops = [
@@ -125,8 +129,9 @@ def simulate(
     limit = _LAST_RESORT * _lone_release_time(contact, mu_static, mu_dynamic, material)
 
     surface = contact, mu_static, mu_dynamic
-    motion = _Motion(setup, advance, *prepare(*surface, material, towards, setup.method, step))
-    here = conditions(contact, setup, towards)
+    state, constants = prepare(*surface, material, towards, setup.method, step, periodic=periodic)
+    motion = _Motion(setup, advance, state, constants)
+    here = conditions(contact, setup, towards, periodic)
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
         belongs = belonging(here, surface[1:], duration=end, snapshot_times=stops)
@@ -176,7 +181,7 @@ class _Motion:
                 "sample_interval"
             )
         if not self.samples:
-            self.samples, taken = prelude.start(self.state, latest)
+            self.samples, taken = prelude.start(self.state, self.constants, latest)
             self.record.append(taken)
 
     def resume(self, kept: Checkpoint) -> list[Array]:
@@ -230,19 +235,20 @@ class _Motion:
         return np.hypot(x, y)
 
     def displacement(self) -> Array:
-        """(2, N, N) m."""
-        blocks, n = self.state.blocks, int(self.constants.n)
-        u = np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])
+        """(2, N_y, N_x) m."""
+        blocks, grid = self.state.blocks, self.constants.grid
+        u = np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
         return self.setup.material.spacing * u
 
     def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
         """Turn what has been recorded into SI units."""
-        n, material, step = int(self.constants.n), self.setup.material, self.setup.step
-        t_det = step * unpadded(self.state.blocks.t_det, n)
+        grid, material, step = self.constants.grid, self.setup.material, self.setup.step
+        n_y, n_x = grid.shape
+        t_det = step * unpadded(self.state.blocks.t_det, grid)
         t_det = np.where(np.isfinite(t_det), t_det, np.nan)
         time = self.setup.every * step * np.arange(self.samples + 1.0)
         velocity, heat = self.setup.method.at_step(self.state, self.constants, self.steps)
-        velocity = np.stack([unpadded(w, n) for w in velocity]) * material.spacing / step
+        velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
         force = self._newton() * self.force()
         energy = self._energy(velocity, heat)
         if not math.isfinite(energy.relative_residual):
@@ -253,14 +259,14 @@ class _Motion:
             detachments=self._first_detachments(),
             switches=np.concatenate([samples.switches for samples in self.record]),
             t_det=t_det,
-            normal_force=material.block_load * n * n,
+            normal_force=material.block_load * n_y * n_x,
             energy=energy,
             steps=self.steps,
             displacement=self.displacement(),
             velocity=velocity,
             snapshots=np.array(snapshots).reshape(-1, *velocity.shape),
             snapshot_times=self.setup.sample_interval * np.array(stops, float),
-            contact=unpadded(self.state.blocks.static, n) > 0.0,
+            contact=unpadded(self.state.blocks.static, grid) > 0.0,
         )
 
     def _newton(self) -> float:
@@ -286,7 +292,9 @@ class _Motion:
         work_in = joule * ledger[WORK] - 0.5 * float(last_pull @ slide) * material.spacing
         return Energy(
             work_in=float(work_in),
-            elastic=elastic_energy(displacement, slider, material),
+            elastic=elastic_energy(
+                displacement, slider, material, bool(self.constants.grid.periodic)
+            ),
             kinetic=0.5 * material.mass * float(np.sum(velocity**2)),
             friction=joule * heat,
             viscous=float(material.gamma * material.mass * material.spacing**2 / self.setup.step)
