@@ -26,7 +26,9 @@ from springblock.solver.lattice import (
     band_from,
     book,
     close_edge,
+    close_rows,
     keep_peaks,
+    place,
 )
 from springblock.solver.laws import heat, keep_way, resistance, way_of
 from springblock.solver.release import room, share_of_step
@@ -111,8 +113,8 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
     wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
     for row in range(band.start, band.stop):
-        i, own = row * band.pitch, (row - band.start) * band.pitch
-        for x in range(ONE, band.n + ONE):
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+        for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             if static[b] == 0.0:
                 continue
@@ -140,15 +142,13 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
 @njit(**JIT)
 def _look_around(blocks, stage, released, row, x, constants):
     """Reconstruct the displacements around a block at the step's start, and one step before."""
-    n, now, before = np.int64(constants.n), released.now, released.before
+    now, before = released.now, released.before
     for j in range(3):
         for i in range(3):
-            y, z = row + j - 1, x + i - 1
-            b = y * np.int64(constants.pitch) + z
-            inside = 0 <= y < n and 1 <= z <= n
-            ux, uy = (blocks.ux[b], blocks.uy[b]) if inside else (np.nan, np.nan)
+            b = place(row + j - 1, x + i - 1, constants.grid)
+            ux, uy = (blocks.ux[b], blocks.uy[b]) if b >= 0 else (np.nan, np.nan)
             now[0, j + 1, i + 1], now[1, j + 1, i + 1] = ux, uy
-            if inside and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
+            if b >= 0 and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
                 ux, uy = (
                     ux - blocks.wx[b] + 0.5 * stage.ax[b],
                     uy - blocks.wy[b] + 0.5 * stage.ay[b],
@@ -167,18 +167,18 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     slider = slide[0] * k, slide[1] * k
     near = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0  # (h/limit)²
     for m in range(count):
-        b = released.row[m] * np.int64(constants.pitch) + released.x[m]
+        b = place(released.row[m], released.x[m], constants.grid)
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
         keep_way(law, b, 0.0)
     for m in range(count):
         row, x = released.row[m], released.x[m]
-        b = row * np.int64(constants.pitch) + x
+        b = place(row, x, constants.grid)
         _look_around(blocks, stage, released, row, x, constants)
         threshold = max(blocks.static[b], blocks.dynamic[b])
         share = share_of_step(released, threshold, constants.springs, slider, slide)
         released.share[m] = 0.5 if np.isnan(share) else share
     for m in range(count):
-        b, share = released.row[m] * np.int64(constants.pitch) + released.x[m], released.share[m]
+        b, share = place(released.row[m], released.x[m], constants.grid), released.share[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
         share += near * (0.5 - share)
@@ -205,9 +205,9 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total = 0.0
     for row in range(band.start, band.stop):
-        i, own = row * band.pitch, (row - band.start) * band.pitch
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         squares = 0.0
-        for x in range(ONE, band.n + ONE):
+        for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
             taken = dynamic[b] if law is None else _taken_in_stage(blocks, law, stage, b)
@@ -225,12 +225,12 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
             pu[b] = wx[b] + reach * ax
             pv[b] = wy[b] + reach * ay
         total += squares
-        close_edge(su, sv, i, band.n)
+        close_edge(su, sv, row, band.grid)
     return weight * total
 
 
 @njit(**JIT)
-def _finish(blocks, law, stage, n, pitch, squares):
+def _finish(blocks, law, stage, grid, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
     `squares` is what the stages have summed up already.
@@ -240,10 +240,10 @@ def _finish(blocks, law, stage, n, pitch, squares):
     su, sv, pu, pv = stage.ux, stage.uy, stage.wx, stage.wy
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total_x, total_y, total_heat = 0.0, 0.0, 0.0
-    for row in range(n):
-        i = row * pitch
+    for row in range(grid.n_y):
+        i = row * grid.pitch
         sum_x, sum_y, rubbed = 0.0, 0.0, 0.0
-        for x in range(ONE, n + ONE):
+        for x in range(ONE, grid.n_x + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
@@ -259,8 +259,8 @@ def _finish(blocks, law, stage, n, pitch, squares):
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
         total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + rubbed
-        close_edge(ux, uy, i, n)
-        close_edge(su, sv, i, n)
+        close_edge(ux, uy, row, grid)
+        close_edge(su, sv, row, grid)
     return Totals(total_x, total_y, total_heat, squares)
 
 
@@ -274,13 +274,14 @@ def _begin(blocks, stage):
 @njit(**JIT)
 def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
     """As `advance`, with room for what is known between stages and for the blocks that let go."""
-    blocks, law, s, n = state.blocks, state.law, state.scratch, constants.n
+    blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
     damping, switches = constants.damping, np.int64(0)
     for k in range(first, first + steps):
         squares, count = 0.0, np.int64(0)
         for weight, node, reach in STAGES:
             slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
-            for start in range(U(0), n, constants.band_rows):
+            close_rows(stage.ux, stage.uy, grid)
+            for start in range(U(0), grid.n_y, constants.band_rows):
                 band = band_from(start, constants)
                 row, column = forces_on_band(
                     stage.ux, stage.uy, band, every_row, s, constants.springs, slider
@@ -293,7 +294,7 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
                 squares += _take_stage(blocks, law, stage, weight, reach, band, s, damping)
         if count > 0:
             _place_releases(blocks, law, stage, released, count, constants, k)
-        totals = _finish(blocks, law, stage, n, constants.pitch, squares)
+        totals = _finish(blocks, law, stage, grid, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
 
@@ -301,7 +302,7 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
 @njit(**JIT_WITH_ARRAYS)
 def advance(state, constants, first, steps, every, samples):
     """See `Integrator.advance`."""
-    n, stage = constants.n, Stage(*state.work)
-    every_row, released = np.ones(n + ONE, np.bool_), room(np.int64(n * n))
+    grid, stage = constants.grid, Stage(*state.work)
+    every_row, released = np.ones(grid.n_y + ONE, np.bool_), room(np.int64(grid.n_y * grid.n_x))
     _begin(state.blocks, stage)
     return _follow(state, stage, constants, first, steps, every, samples, every_row, released)
