@@ -19,8 +19,9 @@ from scipy.optimize import brentq
 from springblock import Material, Pattern, compute_prelude, simulate
 from springblock.accuracy import reference
 from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import Samples, prepare
 
-INTEGRATORS = ["leapfrog", "rk4"]
 FAST = Material(gamma=0.0, slider_velocity=5e-3)
 MASS, K_S, LOAD, SPEED = FAST.mass, FAST.k_s, FAST.block_load, FAST.slider_velocity
 OMEGA = FAST.omega_min
@@ -103,6 +104,30 @@ def test_steady_sliding_takes_the_force_of_its_speed(scale, integrator):
     run = pull(material, integrator, 1e-8, 1e-5)
     force = 0.6 * LOAD + DROP / (1.0 + SPEED / scale) + gamma * MASS * SPEED
     assert run.force[-1] == pytest.approx(force, rel=1e-11, abs=0)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("step", [2.0e-8, 1.9e-8, 1.7e-8])
+def test_the_way_of_the_first_slip_is_the_displacement(step, integrator):
+    """Wherever in its step the release was placed: friction has weakened as far as that."""
+    method, steps = INTEGRATORS[integrator], math.ceil(RELEASE / step) + 1
+    state, constants = prepare(*uniform(1, 1.0, 0.6), SLIP, (0.6, 0.8), method, step)
+    for first, more in ((0, steps), (steps, 1), (steps + 1, 5)):
+        method.advance(state, constants, first, more, more, Samples.empty(1))
+        moved = np.hypot(state.blocks.ux[1], state.blocks.uy[1])
+        assert moved > 0.0
+        assert state.law.way[1] == pytest.approx(moved, rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_on_a_periodic_surface_a_law_knows_no_place(law):
+    """Rolled coefficients roll the detachments, to the bit."""
+    contact, *mu = flat(6, seed=6)
+    how = {"material": LAWS[law], "periodic": True, "duration": 2e-5}
+    run = simulate(contact, *mu, **how)
+    rolled = simulate(contact, *(np.roll(field, (2, 3), (0, 1)) for field in mu), **how)
+    assert np.isfinite(run.t_det).all()
+    np.testing.assert_array_equal(rolled.t_det, np.roll(run.t_det, (2, 3), (0, 1)))
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
