@@ -152,7 +152,8 @@ class Solver:
     def velocity(self) -> tuple[Array, Array]:
         """Both components, (N, N) each, views."""
         blocks = self.state.blocks
-        return unpadded(blocks.wx, self.n), unpadded(blocks.wy, self.n)
+        grid = self.constants.grid
+        return unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)
 
     @property
     def moving(self) -> str:

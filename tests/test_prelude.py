@@ -9,7 +9,7 @@ from springblock.prelude import HOLDING
 from springblock.setup import STEP
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import prepare
-from springblock.solver.springs import band_rows
+from springblock.solver.springs import Grid
 
 PILLARS = Pattern.pillars(12, 4, 2)
 
@@ -26,8 +26,8 @@ def answer(run):
 
 def skipped(prelude, *scene):
     """Sample intervals that a run does not have to do."""
-    state, _ = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
-    return prelude.start(state, latest=np.inf)[0]
+    state, constants = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
+    return prelude.start(state, constants, latest=np.inf)[0]
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -58,7 +58,7 @@ def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction,
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 def test_so_it_is_for_a_surface_of_several_bands(integrator):
     surface = Pattern.pillars(48, 10, 14)
-    assert band_rows(surface.n_blocks) < surface.n_blocks
+    assert Grid.of(surface.contact.shape).band_rows < surface.n_blocks
     how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
     scene, prelude = drawn(surface, seed=1), compute_prelude(surface.contact, **how)
     assert prelude.samples.max() > 0

@@ -217,6 +217,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"duration": True}, "duration must be a number of seconds"),
         ({"sample_interval": [2e-7]}, "sample_interval must be a number of seconds"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number of seconds"),
+        ({"periodic": 1}, "periodic must be True or False, not 1"),
     ],
 )
 def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
@@ -227,10 +228,13 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"contact": array(True, bool, (2, 3))}, r"contact must have the shape \(N, N\)"),
-        ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N, N\)"),
+        ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N_y, N_x\)"),
+        ({"contact": array(True, bool, (2, 5000))}, r"the shape \(2, 5000\); .* goes up to 4096"),
+        ({"contact": array(True, bool, (0, 2))}, "contact is False everywhere"),
+        ({"periodic": True}, r"shape \(2, 2\); with periodic edges each side must hold at least 3"),
         ({"contact": array(False, bool)}, "contact is False everywhere"),
         ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape \(2, 2\)"),
+        ({"contact": array(True, bool, (2, 3))}, r"mu_static must have the shape \(2, 3\)"),
         ({"mu_dynamic": array(0.6, shape=())}, r"mu_dynamic must have the shape \(2, 2\)"),
         ({"mu_static": [[1, 1], [1, math.nan]]}, "mu_static must be finite and not negative"),
         ({"mu_dynamic": array(math.inf)}, "mu_dynamic must be finite and not negative"),

@@ -129,7 +129,7 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         force = loop.advance(CHECK_STEPS)
         state, constants = prepare(*surface, material, (1.0, 0.0), LEAPFROG, step)
         blocks, samples = state.blocks, Samples.empty(CHECK_STEPS)
-        ours = [unpadded(field, loop.n) for field in blocks]
+        ours = [unpadded(field, constants.grid) for field in blocks]
         ours[2][:], ours[3][:] = velocity
         LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
         found = {

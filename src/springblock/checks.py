@@ -11,11 +11,15 @@ from springblock.solver.springs import MAX_BLOCKS
 
 Array = NDArray[np.float64]
 
+#: Blocks of the shortest side with periodic edges: on a shorter one a block is its own neighbour,
+#: or twice that of another.
+_SHORTEST_PERIOD = 3
+
 
 def checked_surface(
-    contact: ArrayLike, mu_static: ArrayLike, mu_dynamic: ArrayLike
+    contact: ArrayLike, mu_static: ArrayLike, mu_dynamic: ArrayLike, periodic: Any = False
 ) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Return contact and coefficients, (N, N) each, the latter zero outside the contact.
+    """Return contact and coefficients, (N_y, N_x) each, the latter zero outside the contact.
 
     Raises
     ------
@@ -25,10 +29,19 @@ def checked_surface(
     mask = np.asarray(contact)
     if mask.dtype != np.bool_:
         raise TypeError(f"contact must be an array of bool, not of {mask.dtype}")
-    if mask.ndim != 2 or mask.shape[0] != mask.shape[1]:
-        raise ValueError(f"contact must have the shape (N, N), not {mask.shape}")
-    if mask.shape[0] > MAX_BLOCKS:
-        raise ValueError(f"contact has N = {mask.shape[0]}; this solver goes up to {MAX_BLOCKS}")
+    if mask.ndim != 2:
+        raise ValueError(f"contact must have the shape (N_y, N_x), not {mask.shape}")
+    if max(mask.shape) > MAX_BLOCKS:
+        raise ValueError(
+            f"contact has the shape {mask.shape}; this solver goes up to {MAX_BLOCKS} blocks a side"
+        )
+    if not isinstance(periodic, bool):
+        raise TypeError(f"periodic must be True or False, not {periodic!r}")
+    if periodic and min(mask.shape) < _SHORTEST_PERIOD:
+        raise ValueError(
+            f"contact has the shape {mask.shape}; with periodic edges each side must hold at least "
+            f"{_SHORTEST_PERIOD} blocks"
+        )
     if not mask.any():
         raise ValueError("contact is False everywhere: at least one block must bear the load")
     fields = []

@@ -38,19 +38,27 @@ def _stretch_squared(
 
 
 def elastic_energy(
-    displacement: NDArray[np.float64], slider: NDArray[np.float64], material: Material
+    displacement: NDArray[np.float64],
+    slider: NDArray[np.float64],
+    material: Material,
+    periodic: bool = False,
 ) -> float:
-    """Energy in all springs, J, of displacements (2, N, N) in m under a slider at (2,) in m."""
+    """Energy in all springs, J, of displacements (2, N_y, N_x) in m under a slider at (2,) in m.
+
+    On a periodic surface springs across the edges are among them.
+    """
     length, k_int = material.spacing, material.k_int
-    d = displacement
+    d, every = displacement, slice(None)
+    if periodic:  # with images of the first row and column, whose own springs are not counted again
+        d, every = np.pad(d, ((0, 0), (0, 1), (0, 1)), mode="wrap"), slice(-1)
     springs = (
-        (k_int, d[:, :, 1:] - d[:, :, :-1], length, 0.0),
-        (k_int, d[:, 1:, :] - d[:, :-1, :], 0.0, length),
+        (k_int, d[:, every, 1:] - d[:, every, :-1], length, 0.0),
+        (k_int, d[:, 1:, every] - d[:, :-1, every], 0.0, length),
         (k_int / 2.0, d[:, 1:, 1:] - d[:, :-1, :-1], length, length),
         (k_int / 2.0, d[:, 1:, :-1] - d[:, :-1, 1:], -length, length),
     )
     internal = sum(
         0.5 * k * float(np.sum(_stretch_squared(apart, *rest))) for k, apart, *rest in springs
     )
-    hung = 0.5 * material.k_s * float(np.sum((slider[:, None, None] - d) ** 2))
+    hung = 0.5 * material.k_s * float(np.sum((slider[:, None, None] - displacement) ** 2))
     return internal + hung

@@ -23,7 +23,7 @@ from springblock.files import whole_file
 from springblock.material import Material
 from springblock.setup import PAPER, Setup
 from springblock.solver import on_cores
-from springblock.solver.lattice import Samples, State, prepare, unpadded
+from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
 
 Array = NDArray[np.float64]
 
@@ -56,9 +56,8 @@ class Prelude:
 
     @property
     def surface(self) -> str:
-        """Pattern and direction of its scene, as `surface` writes them."""
-        n, mask, _, towards, *_ = json.loads(self.conditions)
-        return json.dumps([n, mask, towards])
+        """Pattern, edges and direction of its scene, as `surface` writes them."""
+        return json.dumps(json.loads(self.conditions)[:4])
 
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
@@ -71,41 +70,44 @@ class Prelude:
         with np.load(path) as stored:
             return cls(**{**stored, "conditions": str(stored["conditions"])})
 
-    def start(self, state: State, latest: float) -> tuple[int, Samples]:
+    def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
         """Move `state`, at rest so far, on to the latest stored state that is valid for it.
 
         No further than `latest` sample intervals. Returns the sample intervals gone by and their
         samples; none if no stored state will do.
         """
-        blocks, n = state.blocks, len(state.in_contact)
-        bound = unpadded(blocks.static, n) > 0.0
-        threshold = unpadded(np.maximum(blocks.static, blocks.dynamic), n)[bound] ** 2
+        blocks, grid = state.blocks, constants.grid
+        bound = unpadded(blocks.static, grid) > 0.0
+        threshold = unpadded(np.maximum(blocks.static, blocks.dynamic), grid)[bound] ** 2
         holds = (self.peak * (1.0 + _SLACK) <= threshold).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:
             return 0, Samples.empty(0)
         last = int(fit[-1])
         for field, stored in zip(blocks[:4], self.fields[last], strict=True):
-            unpadded(field, n)[~bound] = stored
-        for field in (blocks.ux, blocks.uy):
-            field.reshape(n, -1)[:, n + 1 :] = unpadded(field, n)[:, -1:]  # see `close_edge`
+            unpadded(field, grid)[~bound] = stored
+        close_edges(blocks.ux, blocks.uy, grid)
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
         return skipped, Samples(force_x, force_y, np.zeros(skipped, np.int64))
 
 
-def surface(contact: NDArray[np.bool_], towards: tuple[float, float]) -> str:
-    """Pattern and direction as text."""
-    return json.dumps([len(contact), np.packbits(contact).tobytes().hex(), towards])
-
-
-def conditions(contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float]) -> str:
-    """All that the motion before the first detachment depends on, as text."""
+def surface(
+    contact: NDArray[np.bool_], towards: tuple[float, float], periodic: bool = False
+) -> str:
+    """Pattern, edges and direction as text."""
     mask = np.packbits(contact).tobytes().hex()
-    constants = dict(setup.material.items())
+    return json.dumps([contact.shape, periodic, mask, towards])
+
+
+def conditions(
+    contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float], periodic: bool
+) -> str:
+    """All that the motion before the first detachment depends on, as text."""
+    pulled = json.loads(surface(contact, towards, periodic))
     how = setup.integrator, setup.step, setup.every
-    return json.dumps([len(contact), mask, constants, towards, *how])
+    return json.dumps([*pulled, dict(setup.material.items()), *how])
 
 
 def compute_prelude(
@@ -116,6 +118,7 @@ def compute_prelude(
     step: float = STEP,
     sample_interval: float = SAMPLE_INTERVAL,
     cores: int = 1,
+    periodic: bool = False,
     mu_static: ArrayLike | None = None,
 ) -> Prelude:
     """Load a surface whose blocks never let go, until most seeds would have let one go.
@@ -125,11 +128,11 @@ def compute_prelude(
     block lets go.
     """
     ones = np.ones(np.shape(contact))
-    mask, _, _ = checked_surface(contact, ones, ones)
+    mask, _, _ = checked_surface(contact, ones, ones, periodic)
     setup, towards = Setup(material, integrator, step, sample_interval), heading(direction)
     nothing = np.zeros(mask.shape)
     state, constants = prepare(
-        mask, ones, nothing, material, towards, setup.method, step, keep_peak=True
+        mask, ones, nothing, material, towards, setup.method, step, True, periodic
     )
     advance, every, blocks, peak = (
         on_cores(integrator, cores),
@@ -144,7 +147,7 @@ def compute_prelude(
     record, holding = [Samples.empty(0)], 1.0
     while holding >= HOLDING[-1]:
         done, taken = (len(record) - 1) * _BETWEEN, Samples.empty(_BETWEEN)
-        fields = np.array([unpadded(field, len(mask))[~mask] for field in blocks[:4]])
+        fields = np.array([unpadded(field, constants.grid)[~mask] for field in blocks[:4]])
         # takes the place of an earlier state that as many of the shares may start from
         passed = sum(holding < share for share in HOLDING)
         kept[passed] = done, fields, peak[bound], state.ledger.copy()
@@ -160,7 +163,7 @@ def compute_prelude(
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
     force = np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1)
     return Prelude(
-        conditions=conditions(mask, setup, towards),
+        conditions=conditions(mask, setup, towards, periodic),
         samples=samples,
         fields=moving,
         peak=peaks,

@@ -23,13 +23,13 @@ class Realisation:
     force: Array  #: (n,) N, |ΣF_s|
     detachments: NDArray[np.int64]  #: (n,) blocks that detached for the first time in the interval
     switches: NDArray[np.int64]  #: (n,) blocks that went from rest to sliding, again or not
-    t_det: Array  #: (N, N) s, first detachment; NaN where never or not in contact
-    normal_force: float  #: P l² N², N
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    normal_force: float  #: P l² N_y N_x, N
     energy: Energy  #: at the end, J
     steps: int  #: of the integrator
-    displacement: Array  #: (2, N, N) m, components x and y, at the end
-    velocity: Array  #: (2, N, N) m/s, at the end
-    snapshots: Array = field(repr=False)  #: (k, 2, N, N) m, displacement at the times asked for
+    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
+    velocity: Array  #: (2, N_y, N_x) m/s, at the end
+    snapshots: Array = field(repr=False)  #: (k, 2, N_y, N_x) m, displacement at the times asked for
 
     @property
     def t_max(self) -> float:
@@ -38,12 +38,12 @@ class Realisation:
 
     @property
     def static_friction(self) -> float:
-        """Global static friction coefficient: the maximum of the force over P l² N²."""
+        """Global static friction coefficient: the maximum of the force over P l² N_y N_x."""
         return float(self.force.max()) / self.normal_force
 
     @property
     def dynamic_friction(self) -> float:
-        """Mean of force over P l² N² after the first minimum that follows the peak.
+        """Mean of force over P l² N_y N_x after the first minimum that follows the peak.
 
         Over the samples that the run holds; the force still oscillates there. NaN where the run
         ends before, or the force does not fall.

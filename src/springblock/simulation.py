@@ -55,6 +55,7 @@ def simulate(
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
     cores: int = 1,
+    periodic: bool = False,
 ) -> Realisation:
     """Pull one surface from rest and record how it lets go.
 
@@ -62,9 +63,9 @@ def simulate(
 
     Parameters
     ----------
-    contact : (N, N) bool, [y, x]
+    contact : (N_y, N_x) bool, [y, x]
         Blocks in contact with the substrate, as `Pattern.contact`.
-    mu_static, mu_dynamic : (N, N) float
+    mu_static, mu_dynamic : (N_y, N_x) float
         Microscopic friction coefficients; not read outside the contact.
     material : Material
     direction : "x", "y" or an angle from x in degrees
@@ -85,6 +86,9 @@ def simulate(
         save time and change nothing.
     cores : int
         On which the leapfrog follows one large surface, to the bit as on one.
+    periodic : bool
+        Whether springs join opposite edges, which are free otherwise. Each side then holds at
+        least 3 blocks.
 
     Raises
     ------
@@ -94,7 +98,7 @@ def simulate(
         Where a spring collapses, bursts or becomes NaN, with time and block; or where a run
         without duration does not come to its end.
     """
-    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic)
+    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
     setup = Setup(material, integrator, step, sample_interval)
     advance, towards = on_cores(integrator, cores), heading(direction)
     stops = [
@@ -109,9 +113,10 @@ def simulate(
     limit = _LAST_RESORT * _lone_release_time(contact, mu_static, mu_dynamic, material)
 
     surface = contact, mu_static, mu_dynamic
-    motion = _Motion(setup, advance, *prepare(*surface, material, towards, setup.method, step))
+    state, constants = prepare(*surface, material, towards, setup.method, step, periodic=periodic)
+    motion = _Motion(setup, advance, state, constants)
     if prelude is not None:
-        here = conditions(contact, setup, towards)
+        here = conditions(contact, setup, towards, periodic)
         motion.skip(prelude, here, min([*stops, math.inf if end is None else end]) - 1)
     snapshots = []
     while not motion.is_over(end, limit):
@@ -152,7 +157,7 @@ class _Motion:
                 "this prelude belongs to another scene, material, integrator, step or "
                 "sample_interval"
             )
-        self.samples, taken = prelude.start(self.state, latest)
+        self.samples, taken = prelude.start(self.state, self.constants, latest)
         self.record.append(taken)
 
     def proceed(self, until: int) -> None:
@@ -198,19 +203,20 @@ class _Motion:
         return np.hypot(x, y)
 
     def displacement(self) -> Array:
-        """(2, N, N) m."""
-        blocks, n = self.state.blocks, int(self.constants.n)
-        u = np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])
+        """(2, N_y, N_x) m."""
+        blocks, grid = self.state.blocks, self.constants.grid
+        u = np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
         return self.setup.material.spacing * u
 
     def result(self, snapshots: list[Array]) -> Realisation:
         """Turn what has been recorded into SI units."""
-        n, material, step = int(self.constants.n), self.setup.material, self.setup.step
-        t_det = step * unpadded(self.state.blocks.t_det, n)
+        grid, material, step = self.constants.grid, self.setup.material, self.setup.step
+        n_y, n_x = grid.shape
+        t_det = step * unpadded(self.state.blocks.t_det, grid)
         t_det = np.where(np.isfinite(t_det), t_det, np.nan)
         time = self.setup.every * step * np.arange(self.samples + 1.0)
         velocity, heat = self.setup.method.at_step(self.state, self.constants, self.steps)
-        velocity = np.stack([unpadded(w, n) for w in velocity]) * material.spacing / step
+        velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
         force = self._newton() * self.force()
         energy = self._energy(velocity, heat)
         if not math.isfinite(energy.relative_residual):
@@ -221,12 +227,12 @@ class _Motion:
             detachments=self._first_detachments(),
             switches=np.concatenate([samples.switches for samples in self.record]),
             t_det=t_det,
-            normal_force=material.block_load * n * n,
+            normal_force=material.block_load * n_y * n_x,
             energy=energy,
             steps=self.steps,
             displacement=self.displacement(),
             velocity=velocity,
-            snapshots=np.array(snapshots).reshape(-1, 2, n, n),
+            snapshots=np.array(snapshots).reshape(-1, 2, n_y, n_x),
         )
 
     def _newton(self) -> float:
@@ -252,7 +258,9 @@ class _Motion:
         work_in = joule * ledger[WORK] - 0.5 * float(last_pull @ slide) * material.spacing
         return Energy(
             work_in=float(work_in),
-            elastic=elastic_energy(displacement, slider, material),
+            elastic=elastic_energy(
+                displacement, slider, material, bool(self.constants.grid.periodic)
+            ),
             kinetic=0.5 * material.mass * float(np.sum(velocity**2)),
             friction=joule * heat,
             viscous=float(material.gamma * material.mass * material.spacing**2 / self.setup.step)

@@ -13,9 +13,9 @@ STEP, EVERY = 2e-8, 10
 FAST = Material(slider_velocity=5e-3)
 
 
-def random_contact(n, share):
-    contact = np.random.default_rng(3).random((n, n)) < share
-    contact[n // 2] = False  # a row without contact among others
+def random_contact(n_y, n_x, share):
+    contact = np.random.default_rng(3).random((n_y, n_x)) < share
+    contact[n_y // 2] = False  # a row without contact among others
     return contact
 
 
@@ -23,15 +23,17 @@ SURFACES = {
     "flat": Pattern.flat(12).contact,
     "pillars": Pattern.pillars(12, 3, 3).contact,
     "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1, along="x").contact,
-    "random": random_contact(13, 0.6),
+    "random": random_contact(13, 13, 0.6),
+    "oblong": random_contact(9, 21, 0.6),
+    "narrow": random_contact(23, 3, 0.8),
     "one block": np.outer([0, 1, 0], [0, 1, 0]).astype(bool),
 }
 
 
-def start(contact, seed, keep_peak=False, material=FAST):
-    n = len(contact)
-    mu = draw_friction(n, seed)
-    return prepare(contact, *mu, material, (0.8, 0.6), leapfrog, STEP, keep_peak)
+def start(contact, seed, keep_peak=False, material=FAST, periodic=False):
+    n_y, n_x = contact.shape
+    mu = (field[:n_y, :n_x] for field in draw_friction(max(n_y, n_x), seed))
+    return prepare(contact, *mu, material, (0.8, 0.6), leapfrog, STEP, keep_peak, periodic)
 
 
 def follow(state, constants, steps):
@@ -49,14 +51,15 @@ MOTION = ("ux", "uy", "wx", "wy", "t_det")
 
 
 @pytest.mark.parametrize("band", [1, 2, 5, None])
+@pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("surface", SURFACES)
-def test_rows_at_rest_are_left_alone_to_the_bit(surface, band):
+def test_rows_at_rest_are_left_alone_to_the_bit(surface, periodic, band):
     """A run that keeps the peak of |F_mot| looks at every block in every step.
 
     Nor does it matter how many rows a band has; None is the solver's choice, here all of them.
     """
-    all_rows, constants = start(SURFACES[surface], 0, keep_peak=True)
-    awake_rows, _ = start(SURFACES[surface], 0)
+    all_rows, constants = start(SURFACES[surface], 0, keep_peak=True, periodic=periodic)
+    awake_rows, _ = start(SURFACES[surface], 0, periodic=periodic)
     banded = constants if band is None else constants._replace(band_rows=np.uint64(band))
     plain, quick = follow(all_rows, constants, 4000), follow(awake_rows, banded, 4000)
     assert np.isfinite(awake_rows.blocks.t_det).any()  # something has happened
@@ -79,28 +82,32 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
-    rows, blocks = leapfrog.make_rows.py_func(state.in_contact, 12), state.blocks
+    rows, blocks = leapfrog.make_rows.py_func(state.in_contact, 12, False), state.blocks
     assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.wx, blocks.wy))
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
-    sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.n, pull)
+    sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.grid.n_x, pull)
     assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.sliding[:] = False
     rows.wake[:] = sure
-    leapfrog.wake(rows, sure - 1)
+    leapfrog.wake(rows, sure - 1, False)
     assert not rows.awake.any()
-    leapfrog.wake(rows, sure)
+    leapfrog.wake(rows, sure, False)
     assert rows.awake[:12].all()
 
 
-@pytest.mark.parametrize("moving", range(4))
-def test_a_moving_row_wakes_its_neighbours(moving):
-    rows = leapfrog.make_rows.py_func(np.ones(4, bool), 4)
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("moving", range(5))
+def test_a_moving_row_wakes_its_neighbours(moving, periodic):
+    """Across periodic edges, too: the row beyond the last one is the first."""
+    rows = leapfrog.make_rows.py_func(np.ones(5, bool), 5, periodic)
     rows.sliding[:] = False
     rows.sliding[moving + 1] = 5
     rows.wake[:] = 1000
-    leapfrog.wake(rows, 7)
-    np.testing.assert_array_equal(rows.awake[:4], abs(np.arange(4) - moving) <= 1)
+    leapfrog.wake(rows, 7, periodic)
+    apart = abs(np.arange(5) - moving)
+    near = (apart <= 1) | (periodic & (apart == 4))
+    np.testing.assert_array_equal(rows.awake, [*near, periodic and near[0]])
 
 
 @pytest.mark.parametrize("surface", ["pillars", "grooves", "random"])

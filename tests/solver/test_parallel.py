@@ -7,32 +7,32 @@ from springblock import Material, Pattern, compute_prelude, draw_friction, simul
 from springblock.solver import leapfrog, parallel
 from springblock.solver.lattice import Samples, prepare
 
-PATTERNS = {
-    "flat": Pattern.flat(30),
-    "pillared": Pattern.pillars(30, 10, 5),
-    "grooved": Pattern.pillars(30, 28, 2).grooved(8, 2),
-    "small": Pattern.flat(3),
+SURFACES = {
+    "flat": Pattern.flat(30).contact,
+    "pillared": Pattern.pillars(30, 10, 5).contact,
+    "grooved": Pattern.pillars(30, 28, 2).grooved(8, 2).contact,
+    "small": Pattern.flat(3).contact,
+    "oblong": Pattern.pillars(30, 10, 5).contact[:, :11],
 }
 FAST = Material(slider_velocity=0.05)  # lets go, stops and lets go again within microseconds
 STEPS, EVERY = 400, 10
 
 
 def start(name, band_rows, **options):
-    pattern, step = PATTERNS[name], 2e-8
-    coefficients = draw_friction(pattern.n_blocks, seed=0)
+    contact, step = SURFACES[name], 2e-8
+    coefficients = (mu[:, : contact.shape[1]] for mu in draw_friction(len(contact), seed=0))
     heading = np.cos(0.3), np.sin(0.3)
-    state, constants = prepare(
-        pattern.contact, *coefficients, FAST, heading, leapfrog, step, **options
-    )
+    state, constants = prepare(contact, *coefficients, FAST, heading, leapfrog, step, **options)
     return state, constants._replace(band_rows=np.uint64(band_rows))
 
 
-@pytest.mark.parametrize("name", PATTERNS)
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("name", SURFACES)
 @pytest.mark.parametrize("band_rows", [1, 2, 7])
 @pytest.mark.parametrize("cores", [1, 2, 3, 40])
-def test_every_bit_is_as_on_one_core(name, band_rows, cores):
+def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
     """However many bands a share holds: one, two, more."""
-    alone, together = (start(name, band_rows) for _ in range(2))
+    alone, together = (start(name, band_rows, periodic=periodic) for _ in range(2))
     samples, others = (Samples.empty(STEPS // EVERY) for _ in range(2))
     assert leapfrog.advance(*alone, 0, STEPS, EVERY, samples) == (STEPS, -1, -1)
     assert parallel.advance(*together, 0, STEPS, EVERY, others, cores) == (STEPS, -1, -1)

@@ -10,6 +10,7 @@ from springblock.solver.springs import (
     Q_MIN,
     SERIES_ERROR,
     SERIES_RANGE,
+    Grid,
     forces_on_band,
     g,
     scratch,
@@ -55,8 +56,8 @@ def exact_forces(u):
 
 def broken_spring(u):
     """Row, and column from one, of the first broken spring that is found; column 0 if none is."""
-    n, ends = u.shape[-1], with_border(u)
-    found = forces_on_band(*ends, rows(n, 0, n), np.ones(n + 1, bool), scratch(), *SPRINGS)
+    n, ends, grid = u.shape[-1], with_border(u), Grid.of(u.shape[1:])
+    found = forces_on_band(*ends, rows(grid, 0, n), np.ones(n + 1, bool), scratch(), *SPRINGS)
     return tuple(map(int, found))
 
 

@@ -2,21 +2,19 @@
 
 import numpy as np
 
-from springblock.accuracy.surfaces import Array, uniform
+from springblock.accuracy.surfaces import Array
 from springblock.material import Material
 from springblock.simulation import SimulationError
 from springblock.solver import INTEGRATORS
-from springblock.solver.lattice import Samples, prepare, unpadded
+from springblock.solver.lattice import Samples, close_edges, close_rows, prepare, unpadded
 from springblock.solver.springs import (
     FORCE_X,
     FORCE_Y,
     Band,
+    Grid,
     Springs,
-    band_rows,
     forces_on_band,
-    pitch,
     scratch,
-    width,
 )
 
 UNDAMPED = Material(gamma=0.0)
@@ -26,35 +24,42 @@ STIFFNESS = 0.25
 SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
 
 
-def with_border(displacement: Array) -> list[Array]:
-    """Lay a displacement (2, N, N) out as the kernels want it, its edges free of strain."""
-    beyond = pitch(displacement.shape[-1]) - displacement.shape[-1] - 1
-    return [np.pad(u, ((0, 0), (1, beyond)), mode="edge").ravel() for u in displacement]
+def with_border(displacement: Array, periodic: bool = False) -> list[Array]:
+    """Lay a displacement (2, N_y, N_x) out as the kernels want it, its edges free of strain."""
+    grid = Grid.of(displacement.shape[1:], periodic)
+    fields = [np.zeros((int(grid.n_y) + periodic) * int(grid.pitch)) for _ in displacement]
+    for field, u in zip(fields, displacement, strict=True):
+        unpadded(field, grid)[:] = u
+    close_edges(*fields, grid)
+    close_rows(*fields, grid)
+    return fields
 
 
-def spring_forces(displacement: Array, band: int | None = None) -> Array:
-    """Return F_int/(K_int l), (2, N, N), by the compiled bands, for displacements in units of l.
+def spring_forces(displacement: Array, band: int | None = None, periodic: bool = False) -> Array:
+    """Return F_int/(K_int l), (2, N_y, N_x), by the compiled bands, for displacements in l.
 
     Bands are of as many rows as the solver chooses, or of `band`.
     """
-    n = displacement.shape[-1]
-    ux, uy = with_border(displacement)
-    s, every_row = scratch(), np.ones(n + 1, bool)
-    band = band or band_rows(n)
+    grid = Grid.of(displacement.shape[1:], periodic)
+    n_y, n_x = grid.shape
+    ux, uy = with_border(displacement, periodic)
+    s, every_row = scratch(), np.ones(n_y + 1, bool)
+    band = band or grid.band_rows
     forces = []
-    for start in range(0, n, band):
-        stop = min(start + band, n)
-        _, broken = forces_on_band(ux, uy, rows(n, start, stop), every_row, s, *SPRINGS)
+    for start in range(0, n_y, band):
+        stop = min(start + band, n_y)
+        _, broken = forces_on_band(ux, uy, rows(grid, start, stop), every_row, s, *SPRINGS)
         if broken:
             raise SimulationError(f"a spring in rows {start} to {stop} has collapsed or burst")
-        found = [s[int(field) :][: (stop - start) * pitch(n)] for field in (FORCE_X, FORCE_Y)]
-        forces.append(np.reshape(found, (2, -1, pitch(n)))[:, :, 1 : n + 1])
+        pitch = int(grid.pitch)
+        found = [s[int(field) :][: (stop - start) * pitch] for field in (FORCE_X, FORCE_Y)]
+        forces.append(np.reshape(found, (2, -1, pitch))[:, :, 1 : n_x + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
 
 
-def rows(n: int, start: int, stop: int) -> Band:
-    """Rows [start, stop) of N with a border, as the kernels want them."""
-    return Band(*map(np.uint64, (start, stop, n, pitch(n), width(np.uint64(n)))))
+def rows(grid: Grid, start: int, stop: int) -> Band:
+    """Rows [start, stop) of a lattice, as the kernels want them."""
+    return Band(np.uint64(start), np.uint64(stop), grid)
 
 
 def swing(
@@ -63,20 +68,21 @@ def swing(
     step: float,
     integrator: str = "leapfrog",
     material: Material = UNDAMPED,
+    periodic: bool = False,
 ) -> Array:
-    """Let a frictionless lattice go from `displacement` (2, N, N), in l, under a resting slider.
+    """Let a frictionless lattice go from `displacement` (2, N_y, N_x), in l, the slider at rest.
 
     Returns its displacement after so many steps.
     """
-    method, n = INTEGRATORS[integrator], displacement.shape[-1]
-    surface = uniform(n, 0.0, 0.0)
-    state, constants = prepare(*surface, material, (0.0, 0.0), method, step)
-    blocks = state.blocks
+    method, shape = INTEGRATORS[integrator], displacement.shape[1:]
+    surface = np.ones(shape, bool), np.zeros(shape), np.zeros(shape)
+    state, constants = prepare(*surface, material, (0.0, 0.0), method, step, periodic=periodic)
+    blocks, grid = state.blocks, constants.grid
     blocks.static[:] = 0.0
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):
-        unpadded(field, n)[:] = u
-        field.reshape(n, -1)[:, n + 1 :] = u[:, -1:]
+        unpadded(field, grid)[:] = u
+    close_edges(blocks.ux, blocks.uy, grid)
     done = method.advance(state, constants, 0, steps, steps, Samples.empty(1))[0]
     if done < steps:
         raise SimulationError(f"a spring has collapsed or burst in step {done}")
-    return np.stack([unpadded(u, n) for u in (blocks.ux, blocks.uy)])
+    return np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])

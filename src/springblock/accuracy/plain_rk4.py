@@ -31,16 +31,16 @@ class Solution:
 
 @njit(cache=True)
 def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
-    n = contact.shape[0]
+    n_y, n_x = contact.shape
     k_int, k_s, mass, length, gamma, speed = c
-    for y in range(n):
-        for x in range(n):
+    for y in range(n_y):
+        for x in range(n_x):
             fx = k_s * (speed * t - r[y, x, 0])
             fy = -k_s * r[y, x, 1]
             for dy in range(-1, 2):
                 for dx in range(-1, 2):
                     i, j = y + dy, x + dx
-                    if (dx == 0 and dy == 0) or i < 0 or j < 0 or i >= n or j >= n:
+                    if (dx == 0 and dy == 0) or i < 0 or j < 0 or i >= n_y or j >= n_x:
                         continue
                     ex = length * dx + r[i, j, 0] - r[y, x, 0]
                     ey = length * dy + r[i, j, 1] - r[y, x, 1]
@@ -62,17 +62,17 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
 
 @njit(cache=True)
 def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det):
-    n = contact.shape[0]
-    r, v = np.zeros((n, n, 2)), np.zeros((n, n, 2))
-    sliding = np.zeros((n, n), np.bool_)
-    driving, unused = np.zeros((n, n)), np.zeros((n, n))
-    a1, a2, a3, a4 = (np.zeros((n, n, 2)), np.zeros((n, n, 2)),
-                      np.zeros((n, n, 2)), np.zeros((n, n, 2)))  # fmt: skip
+    n_y, n_x = contact.shape
+    r, v = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2))
+    sliding = np.zeros((n_y, n_x), np.bool_)
+    driving, unused = np.zeros((n_y, n_x)), np.zeros((n_y, n_x))
+    a1, a2, a3, a4 = (np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)),
+                      np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)))  # fmt: skip
     for k in range(every * samples):
         t = k * h
         _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, driving)
-        for y in range(n):
-            for x in range(n):
+        for y in range(n_y):
+            for x in range(n_x):
                 if contact[y, x] and not sliding[y, x] and driving[y, x] > mu_s_load[y, x]:
                     sliding[y, x] = True
                     if np.isnan(t_det[y, x]):
@@ -86,15 +86,15 @@ def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det
         _accelerations(r + h * v3, v4, sliding, contact, mu_d_load, t + h, c, a4, unused)
         r += h / 6 * (v + 2 * v2 + 2 * v3 + v4)
         new = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        for y in range(n):
-            for x in range(n):
+        for y in range(n_y):
+            for x in range(n_x):
                 back = v[y, x, 0] * new[y, x, 0] + v[y, x, 1] * new[y, x, 1] < 0.0
                 if contact[y, x] and sliding[y, x] and back:
                     sliding[y, x] = False
                     new[y, x, :] = 0.0
         v = new
         if (k + 1) % every == 0:
-            fx = c[1] * (n * n * c[5] * (t + h) - r[:, :, 0].sum())
+            fx = c[1] * (n_y * n_x * c[5] * (t + h) - r[:, :, 0].sum())
             force[(k + 1) // every] = np.sqrt(fx**2 + (c[1] * r[:, :, 1].sum()) ** 2)
 
 

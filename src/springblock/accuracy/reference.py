@@ -70,8 +70,8 @@ class Reference:
 
     time: Array  #: (n,) s, multiples of the sample interval
     force: Array  #: (n,) N, |sum of F_s| at these times
-    t_det: Array  #: (N, N) s, first detachment; NaN where never or not in contact
-    static_friction: float  #: greatest sampled force over P l² N²
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    static_friction: float  #: greatest sampled force over P l² N_y N_x
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
     relative_residual: float  #: what the energy balance misses, over the slider's work
@@ -98,24 +98,26 @@ class _Units:
 class _Lattice:
     """Springs between blocks: a list of bonds and its incidence matrix for both components.
 
-    Scaled units. Displacements have the shape (2, n, k): component, block (y * N + x), and any
+    Scaled units. Displacements have the shape (2, n, k): component, block (y * N_x + x), and any
     number k of states to be evaluated at once.
     """
 
-    def __init__(self, size: int, spacing: float, stiffness: float) -> None:
-        index = np.arange(size * size).reshape(size, size)
+    def __init__(
+        self, lattice: tuple[int, int], periodic: bool, spacing: float, stiffness: float
+    ) -> None:
+        n_y, n_x = lattice
         first, second, axes, stiffnesses = [], [], [], []
         for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5)):
-            for y in range(size - dy):
-                for x in range(max(0, -dx), size - max(0, dx)):
-                    first.append(index[y, x])
-                    second.append(index[y + dy, x + dx])
+            for y, x in np.ndindex(lattice):
+                if periodic or (y + dy < n_y and 0 <= x + dx < n_x):
+                    first.append(y * n_x + x)
+                    second.append((y + dy) % n_y * n_x + (x + dx) % n_x)
                     axes.append((dx * spacing, dy * spacing))
                     stiffnesses.append(k * stiffness)
         bonds = np.arange(len(first))
         ends = np.concatenate([first, second]).astype(int)
         signs = np.repeat([-1.0, 1.0], len(bonds))
-        shape = (len(bonds), size * size)
+        shape = (len(bonds), n_y * n_x)
         difference = sparse.csr_array((signs, (np.tile(bonds, 2), ends)), shape=shape)
         self._difference = sparse.block_diag([difference, difference], format="csr")
         self._net = sparse.csr_array(-self._difference.T)
@@ -157,13 +159,17 @@ class _System:
     """
 
     def __init__(
-        self, contact: Flags, mu_static: Array, mu_dynamic: Array, material: Material
+        self,
+        contact: Flags,
+        mu_static: Array,
+        mu_dynamic: Array,
+        material: Material,
+        periodic: bool,
     ) -> None:
         units = _Units.of(material)
-        size = contact.shape[0]
-        self.n = size * size
+        self.n = contact.size
         spacing = material.spacing / units.length
-        self._lattice = _Lattice(size, spacing, material.k_int / material.k_s)
+        self._lattice = _Lattice(contact.shape, periodic, spacing, material.k_int / material.k_s)
         self._drift = np.array([[material.slider_velocity / units.speed], [0.0]])
         self._gamma = material.gamma * units.time
         touching = contact.ravel()
@@ -417,20 +423,23 @@ def solve(
     duration: float = 1.3e-4,
     sample_interval: float = 2e-7,
     accuracy: float = ACCURACY,
+    periodic: bool = False,
 ) -> Reference:
     """Solve the model for one surface, from rest at t = 0, pulled along x.
 
     Parameters
     ----------
-    contact : (N, N) bool, [y, x]
-    mu_static, mu_dynamic : (N, N) float
+    contact : (N_y, N_x) bool, [y, x]
+    mu_static, mu_dynamic : (N_y, N_x) float
         Friction coefficients; not read outside the contact.
     duration, sample_interval : s
     accuracy : 1
         Relative tolerance of each step; the default or less, see `STOP_SPEED`.
+    periodic : bool
+        Whether springs join opposite edges.
     """
     units = _Units.of(material)
-    system = _System(contact, mu_static, mu_dynamic, material)
+    system = _System(contact, mu_static, mu_dynamic, material, periodic)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     recorder = _Recorder(system, np.minimum(samples, duration) / units.time)

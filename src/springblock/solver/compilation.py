@@ -54,14 +54,18 @@ class _Restrict(Compiler):  # type: ignore[misc]
         return super().define_pipelines()
 
 
-#: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.
+#: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum. References to
+#: arrays are not counted, which costs an atomic operation for each array in each call.
 JIT = {
     "cache": True,
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract", "nsz"},
     "pipeline_class": _Restrict,
+    "_nrt": False,
 }
+#: For functions that make arrays, and hold them while others work on them.
+JIT_WITH_ARRAYS = {**JIT, "_nrt": True}
 
 
 @intrinsic

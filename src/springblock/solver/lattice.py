@@ -21,13 +21,11 @@ from springblock.solver.springs import (
     LANES,
     ONE,
     Band,
+    Grid,
     Springs,
     U,
     aligned,
-    band_rows,
-    pitch,
     scratch,
-    width,
 )
 
 Array = NDArray[np.float64]
@@ -38,7 +36,10 @@ WORK, RUBBED, SQUARES = range(3)
 
 
 class Blocks(NamedTuple):
-    """What is known of each block; every array has N rows of `pitch` numbers."""
+    """What is known of each block; every array has N_y rows of `pitch` numbers.
+
+    With periodic edges there is one more, an image of the first as `close_rows` leaves it.
+    """
 
     ux: Array  #: displacement
     uy: Array
@@ -57,7 +58,7 @@ class State(NamedTuple):
     work: tuple[Array, ...]  #: lattice-sized fields of the integrator's own
     ledger: Array  #: (3,) sums over steps, see `WORK`
     peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
-    in_contact: NDArray[np.bool_]  #: (N,) rows that hold any block in contact
+    in_contact: NDArray[np.bool_]  #: (N_y,) rows that hold any block in contact
 
     def copy(self) -> "State":
         """Return a state that shares no memory with this one."""
@@ -67,8 +68,7 @@ class State(NamedTuple):
 class Constants(NamedTuple):
     """Constants of one run."""
 
-    n: np.uint64  #: N
-    pitch: np.uint64
+    grid: Grid
     band_rows: np.uint64
     springs: Springs
     damping: float  #: gamma h
@@ -152,28 +152,29 @@ def prepare(
     integrator: Integrator,
     step: float,
     keep_peak: bool = False,
+    periodic: bool = False,
 ) -> tuple[State, Constants]:
     """Lay out one run, at rest and free of strain, in the kernels' units.
 
-    `heading` is the unit vector of the slider's motion.
+    `heading` is the unit vector of the slider's motion; opposite edges are joined if `periodic`.
     """
-    n = contact.shape[0]
-    row = pitch(n)
+    grid = Grid.of(contact.shape, periodic)
+    n_y, n_x = contact.shape
     # m per step, per N
     compliance = step * integrator.force_time(step, material.gamma) / material.mass
     velocity_per_force = compliance / material.spacing
-    load = material.block_load * n * n / np.count_nonzero(contact)  # F_n, N
+    load = material.block_load * n_y * n_x / np.count_nonzero(contact)  # F_n, N
 
     fields = count()
 
     def padded(values: Array, beyond: float) -> Array:
         lattice = field()
         lattice[:] = beyond
-        unpadded(lattice, n)[:] = values
+        unpadded(lattice, grid)[:] = values
         return lattice
 
     def field() -> Array:
-        return aligned(n * row, 9 * next(fields))
+        return aligned((n_y + periodic) * int(grid.pitch), 9 * next(fields))
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
     dynamic = np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)
@@ -183,7 +184,7 @@ def prepare(
             uy=field(),
             wx=field(),
             wy=field(),
-            t_det=padded(np.full((n, n), np.inf), np.inf),
+            t_det=padded(np.full((n_y, n_x), np.inf), np.inf),
             static=padded(static, 0.0),
             dynamic=padded(dynamic, np.inf),
         ),
@@ -195,9 +196,8 @@ def prepare(
     )
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(
-        n=np.uint64(n),
-        pitch=np.uint64(row),
-        band_rows=np.uint64(band_rows(n)),
+        grid=grid,
+        band_rows=np.uint64(grid.band_rows),
         springs=Springs.of(material.k_int * compliance, material.k_s * compliance),
         damping=material.gamma * step,
         slider_x=slide * heading[0],
@@ -206,27 +206,63 @@ def prepare(
     return state, constants
 
 
-def unpadded(field: Array, n: int) -> Array:
-    """View of a flat field as (N, N), [y, x], without its border."""
-    return field.reshape(n, -1)[:, 1 : n + 1]
+def unpadded(field: Array, grid: Grid) -> Array:
+    """View of a flat field as (N_y, N_x), [y, x], without its border."""
+    n_y, n_x = grid.shape
+    return field.reshape(-1, int(grid.pitch))[:n_y, 1 : n_x + 1]
 
 
 @njit(inline="always")
 def band_from(start, constants):
     """Return the band that begins with row `start`."""
-    n = constants.n
-    stop = min(start + constants.band_rows, n)
-    return Band(start, stop, n, constants.pitch, width(n))
+    grid = constants.grid
+    return Band(start, min(start + constants.band_rows, grid.n_y), grid)
 
 
 @njit(inline="always")
-def close_edge(ux, uy, i, n):
-    """Let the spring across the eastern edge of a row be free of strain, and those of phantoms."""
+def close_edge(ux, uy, row, grid):
+    """Let the spring across the eastern edge of a row be free of strain, and those of phantoms.
+
+    On a periodic surface the row goes on from its beginning.
+    """
+    i, n = row * grid.pitch, grid.n_x
+    if grid.periodic is not None:
+        for x in range(n + ONE, grid.width + U(2)):
+            ux[i + x], uy[i + x] = ux[i + x - n], uy[i + x - n]
+        return
     last_x, last_y = ux[i + n], uy[i + n]
     for lane in range(LANES):  # always as many, which takes no loop
-        x = width(n) + U(2 + lane - LANES)
+        x = grid.width + U(2 + lane - LANES)
         ux[i + x] = last_x if x > n else ux[i + x]
         uy[i + x] = last_y if x > n else uy[i + x]
+
+
+@njit(**JIT)
+def close_edges(ux, uy, grid):
+    """Do so for all rows."""
+    for row in range(grid.n_y):
+        close_edge(ux, uy, row, grid)
+
+
+@njit(**JIT)
+def close_rows(ux, uy, grid):
+    """Let an image of the first row follow the last one, on a periodic surface.
+
+    To be done before blocks move: the last row still needs the first one when that has moved.
+    """
+    if grid.periodic is not None:
+        beyond = grid.n_y * grid.pitch
+        for x in range(grid.pitch):
+            ux[beyond + x], uy[beyond + x] = ux[x], uy[x]
+
+
+@njit(inline="always")
+def place(y, x, grid):
+    """Return where block (y, x), x from 1, or its image stands; -1 beyond a free edge."""
+    n_y, n_x = np.int64(grid.n_y), np.int64(grid.n_x)
+    if grid.periodic is not None:
+        y, x = y % n_y, (x - 1) % n_x + 1
+    return y * np.int64(grid.pitch) + x if 0 <= y < n_y and 1 <= x <= n_x else np.int64(-1)
 
 
 @njit(**JIT)
@@ -234,8 +270,8 @@ def keep_peaks(peak, band, s):
     """Keep the largest |F_mot|² of each block in a band, for a prelude."""
     if peak is not None:
         for row in range(band.start, band.stop):
-            i, own = row * band.pitch, (row - band.start) * band.pitch
-            for x in range(ONE, band.width + ONE):
+            i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+            for x in range(ONE, band.grid.width + ONE):
                 fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
                 peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
@@ -246,7 +282,7 @@ def book(ledger, samples, constants, totals, switches, k, first, every):
 
     Returns the switches that no sample holds yet.
     """
-    blocks, k_s = constants.n * constants.n, constants.springs.k_s
+    blocks, k_s = constants.grid.n_y * constants.grid.n_x, constants.springs.k_s
     force_x = k_s * (blocks * constants.slider_x * (k + 1) - totals.x)
     force_y = k_s * (blocks * constants.slider_y * (k + 1) - totals.y)
     ledger[WORK] += force_x * constants.slider_x + force_y * constants.slider_y

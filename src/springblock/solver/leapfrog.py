@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
 from springblock.solver.friction import coulomb
 from springblock.solver.lattice import (
     RUBBED,
@@ -25,7 +25,9 @@ from springblock.solver.lattice import (
     band_from,
     book,
     close_edge,
+    close_rows,
     keep_peaks,
+    place,
 )
 from springblock.solver.release import force_in, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
@@ -70,10 +72,10 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 class Rows(NamedTuple):
     """What is kept of each row."""
 
-    in_contact: NDArray[np.bool_]  #: (N,) whether it holds any block in contact
-    awake: NDArray[np.bool_]  #: (N + 1,) whether it is looked at in this step
+    in_contact: NDArray[np.bool_]  #: (N_y,) whether it holds any block in contact
+    awake: NDArray[np.bool_]  #: (N_y + 1,) whether it is looked at in this step
     wake: NDArray[np.int64]  #: (N,) step at which to wake it at the latest
-    sliding: NDArray[np.bool_]  #: (N + 2,) whether any block slides, with a row beyond each edge
+    sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block slides, with a row beyond each edge
     switching: NDArray[np.int64]  #: (N,) blocks that slide from rest, if for an instant
     released: NDArray[np.int64]  #: (N,) those among them that were at rest before this step
     waiting: NDArray[np.bool_]  #: (N,) whether any block has yet to detach
@@ -83,11 +85,11 @@ class Rows(NamedTuple):
     squares: Array
 
 
-@njit(**JIT)
-def make_rows(in_contact, n):
-    """Rows as if every one of them moved."""
+@njit(**JIT_WITH_ARRAYS)
+def make_rows(in_contact, n, periodic):
+    """Rows as if every one of n moved."""
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
-    awake[n] = False
+    awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
     return Rows(
         in_contact=in_contact,
@@ -105,9 +107,13 @@ def make_rows(in_contact, n):
 
 
 @njit(inline="always")
-def _without_phantoms(ux, uy, i, band, sum_x, sum_y):
+def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
     """Sums over a row less those over its phantoms, which have not moved."""
-    phantoms, x = float(band.width - band.n), i + band.n + ONE
+    if grid.periodic is not None:
+        for x in range(grid.n_x + ONE, grid.width + ONE):
+            sum_x, sum_y = sum_x - ux[i + x], sum_y - uy[i + x]
+        return sum_x, sum_y
+    phantoms, x = float(grid.width - grid.n_x), i + grid.n_x + ONE
     return sum_x - phantoms * ux[x], sum_y - phantoms * uy[x]
 
 
@@ -137,10 +143,10 @@ def _move_rows_in_contact(blocks, rows, band, s, turned, a):
     for row in range(band.start, band.stop):
         if not (rows.in_contact[row] and rows.awake[row]):
             continue
-        i, own = row * band.pitch, (row - band.start) * band.pitch
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         slide, switch = False, False
         sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
-        for x in range(ONE, band.width + ONE):
+        for x in range(ONE, band.grid.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             vx, vy = wx[b], wy[b]
@@ -163,9 +169,13 @@ def _move_rows_in_contact(blocks, rows, band, s, turned, a):
             heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE] = slide
-        more = _count_switches(blocks, turned, i, band.n) if switch else (np.int64(0), np.int64(0))
+        more = (
+            _count_switches(blocks, turned, i, band.grid.n_x)
+            if switch
+            else (np.int64(0), np.int64(0))
+        )
         rows.switching[row], rows.released[row] = more
-        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
+        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
 
@@ -179,13 +189,13 @@ def _move_free_rows(blocks, rows, band, s, a):
     for row in range(band.start, band.stop):
         if rows.in_contact[row]:
             continue
-        i, own = row * band.pitch, (row - band.start) * band.pitch
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         sum_x, sum_y, squares = 0.0, 0.0, 0.0
-        for x in range(ONE, band.width + ONE):
+        for x in range(ONE, band.grid.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
-            new_x, new_y = (new_x, new_y) if x <= band.n else (0.0, 0.0)
+            new_x, new_y = (new_x, new_y) if x <= band.grid.n_x else (0.0, 0.0)
             there_x, there_y = ux[b] + new_x, uy[b] + new_y
             wx[b] = new_x
             wy[b] = new_y
@@ -194,7 +204,7 @@ def _move_free_rows(blocks, rows, band, s, a):
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
             squares = add(squares, new_x * new_x + new_y * new_y)
-        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band, sum_x, sum_y)
+        rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.squares[row] = squares
 
 
@@ -204,8 +214,8 @@ def _find_released(blocks, released, count, band, s, row):
 
     Nothing but F_mot has moved them: friction has left them its direction.
     """
-    i, own = row * band.pitch, (row - band.start) * band.pitch
-    for x in range(ONE, band.n + ONE):
+    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+    for x in range(ONE, band.grid.n_x + ONE):
         b = i + x
         wx, wy = blocks.wx[b], blocks.wy[b]
         if blocks.static[b] > 0.0 and (wx != 0.0 or wy != 0.0):
@@ -221,19 +231,18 @@ def _find_released(blocks, released, count, band, s, row):
 @njit(**JIT)
 def _look_around(blocks, released, row, x, constants, slider):
     """Reconstruct the displacements around a block at step k, and before it."""
-    now, n, a = released.now, np.int64(constants.n), math.exp(-constants.damping)
+    now, before = released.now, released.before
+    grid, a = constants.grid, math.exp(-constants.damping)
     for j in range(5):
         for i in range(5):
-            y, z = row + j - 2, x + i - 2
-            b = y * np.int64(constants.pitch) + z
-            inside = 0 <= y < n and 1 <= z <= n
-            now[0, j, i] = blocks.ux[b] - blocks.wx[b] if inside else np.nan
-            now[1, j, i] = blocks.uy[b] - blocks.wy[b] if inside else np.nan
-    released.before[:] = now[:, 1:4, 1:4]
+            b = place(row + j - 2, x + i - 2, grid)
+            now[0, j, i] = blocks.ux[b] - blocks.wx[b] if b >= 0 else np.nan
+            now[1, j, i] = blocks.uy[b] - blocks.wy[b] if b >= 0 else np.nan
     for j in range(3):
         for i in range(3):
-            b = (row + j - 1) * np.int64(constants.pitch) + x + i - 1
-            if np.isnan(now[0, j + 1, i + 1]) or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
+            b = place(row + j - 1, x + i - 1, grid)
+            before[0, j, i], before[1, j, i] = now[0, j + 1, i + 1], now[1, j + 1, i + 1]
+            if b < 0 or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
                 continue
             fx, fy = force_in(now, j + 1, i + 1, constants.springs, slider)
             wx, wy = blocks.wx[b], blocks.wy[b]
@@ -241,8 +250,8 @@ def _look_around(blocks, released, row, x, constants, slider):
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
             rubbed = blocks.dynamic[b] / math.hypot(mean_x, mean_y)
             rubbed = math.copysign(rubbed, mean_x * wx + mean_y * wy)
-            released.before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
-            released.before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
+            before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
+            before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
 
 
 @njit(**JIT)
@@ -260,13 +269,13 @@ def place_releases(blocks, rows, released, count, constants, k):
     near = (springs.k_s + 6.0 * springs.kappa) / 4.0  # (h/limit)²
     for m in range(count):
         row, x = released.row[m], released.x[m]
-        b = row * np.int64(constants.pitch) + x
+        b = place(row, x, constants.grid)
         _look_around(blocks, released, row, x, constants, slider)
         threshold = max(blocks.static[b], blocks.dynamic[b])
         released.share[m] = share_of_step(released, threshold, springs, slider, slide)
     for m in range(count):
         row, share = released.row[m], released.share[m]
-        b = row * np.int64(constants.pitch) + released.x[m]
+        b = place(row, released.x[m], constants.grid)
         if np.isnan(share):
             continue
         ax, ay = released.ax[m], released.ay[m]
@@ -283,7 +292,7 @@ def place_releases(blocks, rows, released, count, constants, k):
         rubbed = blocks.dynamic[b] * math.sqrt(a2) * (moved + 0.5 * (share - 0.5))
         rows.heat[row] += rubbed + a2 * (0.125 - near / 8.0 - 0.5 * block * moved * moved)
         rows.squares[row] += (speed * speed - 1.0) * a2
-        close_edge(blocks.ux, blocks.uy, U(row) * constants.pitch, constants.n)
+        close_edge(blocks.ux, blocks.uy, U(row), constants.grid)
 
 
 @njit(**JIT)
@@ -316,9 +325,9 @@ def _steps_at_rest(static, s, own, i, n, pull):
 @njit(**JIT)
 def _settle(blocks, rows, released, count, band, s, pull, now):
     """See to what rows of a band have done; returns what `move_band` does."""
-    n, switches = band.n, np.int64(0)
+    n, switches = band.grid.n_x, np.int64(0)
     for row in range(band.start, band.stop):
-        i = row * band.pitch
+        i = row * band.grid.pitch
         if rows.in_contact[row] and rows.awake[row]:
             switches += rows.switching[row]
             if rows.released[row] > 0:
@@ -326,9 +335,9 @@ def _settle(blocks, rows, released, count, band, s, pull, now):
             if rows.switching[row] > 0 and rows.waiting[row]:
                 rows.waiting[row] = _note_detachments(blocks, i, n, now)
             elif not rows.sliding[row + ONE] and rows.wake[row] <= now:
-                own = (row - band.start) * band.pitch
+                own = (row - band.start) * band.grid.pitch
                 rows.wake[row] = now + _steps_at_rest(blocks.static, s, own, i, n, pull)
-        close_edge(blocks.ux, blocks.uy, i, n)
+        close_edge(blocks.ux, blocks.uy, row, band.grid)
     return switches, count
 
 
@@ -347,13 +356,18 @@ def move_band(blocks, peak, rows, released, count, band, s, constants, now):
 
 
 @njit(**JIT)
-def wake(rows, now):
+def wake(rows, now, periodic):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
-    for row in range(len(rows.wake)):
+    n = len(rows.wake)
+    if periodic:
+        rows.sliding[0], rows.sliding[n + 1] = rows.sliding[n], rows.sliding[1]
+    for row in range(n):
         disturbed = rows.sliding[row] or rows.sliding[row + 1] or rows.sliding[row + 2]
         if disturbed:
             rows.wake[row] = now + 1  # and look again when all is at rest
         rows.awake[row] = disturbed or rows.wake[row] <= now
+    if periodic:
+        rows.awake[n] = rows.awake[0]
 
 
 @njit(**JIT)
@@ -369,20 +383,16 @@ def totals(rows):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`.
-
-    A row at rest among rows at rest is left alone until one of its blocks may let go, which
-    changes no bit.
-    """
-    blocks, s, n = state.blocks, state.scratch, constants.n
-    rows, released = make_rows(state.in_contact, np.int64(n)), room(np.int64(n * n))
+def _follow(state, constants, first, steps, every, samples, rows, released):
+    """As `advance`, with room for rows and for the blocks that let go."""
+    blocks, s, grid = state.blocks, state.scratch, constants.grid
     switches = np.int64(0)
     for k in range(first, first + steps):
         slider, count = (constants.slider_x * k, constants.slider_y * k), np.int64(0)
         if state.peak is None:  # a prelude looks at every block in every step
-            wake(rows, k)
-        for start in range(U(0), n, constants.band_rows):
+            wake(rows, k, grid.periodic is not None)
+        close_rows(blocks.ux, blocks.uy, grid)
+        for start in range(U(0), grid.n_y, constants.band_rows):
             band = band_from(start, constants)
             row, column = forces_on_band(
                 blocks.ux, blocks.uy, band, rows.awake, s, constants.springs, slider
@@ -397,3 +407,16 @@ def advance(state, constants, first, steps, every, samples):
             place_releases(blocks, rows, released, count, constants, k)
         switches = book(state.ledger, samples, constants, totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`.
+
+    A row at rest among rows at rest is left alone until one of its blocks may let go, which
+    changes no bit.
+    """
+    grid = constants.grid
+    rows = make_rows(state.in_contact, np.int64(grid.n_y), grid.periodic is not None)
+    released = room(np.int64(grid.n_y * grid.n_x))
+    return _follow(state, constants, first, steps, every, samples, rows, released)

@@ -19,6 +19,7 @@ from springblock.solver.lattice import (
     State,
     band_from,
     book,
+    close_rows,
 )
 from springblock.solver.leapfrog import Rows, make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Released, room
@@ -37,11 +38,13 @@ class Share(NamedTuple):
 
 def shares(constants: Constants, cores: int) -> list[Share]:
     """Divide the bands of a lattice among so many cores, or fewer where there are fewer bands."""
-    size, n = int(constants.band_rows), int(constants.n)
-    bands = -(-n // size)
+    size, (n_y, n_x) = int(constants.band_rows), constants.grid.shape
+    bands = -(-n_y // size)
     cuts = np.unique(np.linspace(0, bands, min(cores, bands) + 1).astype(int)) * size
     return [
-        Share(U(start), U(min(stop, n)), scratch(), scratch(), room((min(stop, n) - start) * n))
+        Share(
+            U(start), U(min(stop, n_y)), scratch(), scratch(), room((min(stop, n_y) - start) * n_x)
+        )
         for start, stop in zip(cuts[:-1].tolist(), cuts[1:].tolist(), strict=True)
     ]
 
@@ -50,7 +53,7 @@ def shares(constants: Constants, cores: int) -> list[Share]:
 def _forces_on_end(blocks, rows, band, s, springs, slider):
     """Forces of a band, and first what the row below pulls it with."""
     if band.start > 0:
-        below = Band(band.start - ONE, band.start, band.n, band.pitch, band.width)
+        below = Band(band.start - ONE, band.start, band.grid)
         row, column = forces_on_band(blocks.ux, blocks.uy, below, rows.awake, s, springs, slider)
         if column > 0:
             return row, column
@@ -108,12 +111,13 @@ def advance(
     cores: int,
 ) -> tuple[int, int, int]:
     """As `leapfrog.advance`, on so many cores."""
-    rows, switches = make_rows(state.in_contact, int(constants.n)), 0
-    released, parts = room(int(constants.n) ** 2), shares(constants, cores)
+    (n_y, n_x), periodic = constants.grid.shape, constants.grid.periodic is not None
+    rows, switches = make_rows(state.in_contact, n_y, periodic), 0
+    released, parts = room(n_y * n_x), shares(constants, cores)
     with ThreadPoolExecutor(len(parts)) as executor:
         for k in range(first, first + steps):
             if state.peak is None:
-                wake(rows, k)
+                wake(rows, k, periodic)
             more, count, row, column = _step(executor, state, rows, parts, released, constants, k)
             if column > 0:
                 return k - first, row, column - 1
@@ -138,6 +142,7 @@ def _step(
     """Move all blocks; returns switches and releases, and row and column of a broken spring."""
     slider = constants.slider_x * k, constants.slider_y * k
     blocks, peak = state.blocks, state.peak
+    close_rows(blocks.ux, blocks.uy, constants.grid)
     looked = list(executor.map(lambda part: _look(blocks, rows, part, constants, slider), parts))
     for row, column in looked:
         if column > 0:

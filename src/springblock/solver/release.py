@@ -17,23 +17,23 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS
 from springblock.solver.springs import Array, g
 
 
 class Released(NamedTuple):
     """Room for the blocks that let go in one step, and for the surroundings of one of them."""
 
-    row: NDArray[np.int64]  #: (N²,)
-    x: NDArray[np.int64]  #: (N²,) column, from 1
-    ax: Array  #: (N²,) velocity that the net force adds to each in one step
+    row: NDArray[np.int64]  #: (N_y N_x,)
+    x: NDArray[np.int64]  #: (N_y N_x,) column, from 1
+    ax: Array  #: (N_y N_x,) velocity that the net force adds to each in one step
     ay: Array
-    share: Array  #: (N²,) θ
+    share: Array  #: (N_y N_x,) θ
     now: Array  #: (2, 5, 5) displacements at step k, [y, x]; NaN beyond the edges
     before: Array  #: (2, 3, 3) of the middle at step k - 1
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def room(blocks):
     """Room for this many blocks; as long as it is not touched it takes no memory."""
     return Released(

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT, add
+from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
 from springblock.solver.lattice import (
     RUBBED,
     Array,
@@ -25,7 +25,9 @@ from springblock.solver.lattice import (
     band_from,
     book,
     close_edge,
+    close_rows,
     keep_peaks,
+    place,
 )
 from springblock.solver.release import room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
@@ -106,8 +108,8 @@ def _set_out(blocks, stage, released, count, band, s, damping, now):
     wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
     for row in range(band.start, band.stop):
-        i, own = row * band.pitch, (row - band.start) * band.pitch
-        for x in range(ONE, band.n + ONE):
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+        for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             if static[b] == 0.0:
                 continue
@@ -129,15 +131,13 @@ def _set_out(blocks, stage, released, count, band, s, damping, now):
 @njit(**JIT)
 def _look_around(blocks, stage, released, row, x, constants):
     """Reconstruct the displacements around a block at the step's start, and one step before."""
-    n, now, before = np.int64(constants.n), released.now, released.before
+    now, before = released.now, released.before
     for j in range(3):
         for i in range(3):
-            y, z = row + j - 1, x + i - 1
-            b = y * np.int64(constants.pitch) + z
-            inside = 0 <= y < n and 1 <= z <= n
-            ux, uy = (blocks.ux[b], blocks.uy[b]) if inside else (np.nan, np.nan)
+            b = place(row + j - 1, x + i - 1, constants.grid)
+            ux, uy = (blocks.ux[b], blocks.uy[b]) if b >= 0 else (np.nan, np.nan)
             now[0, j + 1, i + 1], now[1, j + 1, i + 1] = ux, uy
-            if inside and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
+            if b >= 0 and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
                 ux, uy = (
                     ux - blocks.wx[b] + 0.5 * stage.ax[b],
                     uy - blocks.wy[b] + 0.5 * stage.ay[b],
@@ -156,17 +156,17 @@ def _place_releases(blocks, stage, released, count, constants, k):
     slider = slide[0] * k, slide[1] * k
     near = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0  # (h/limit)²
     for m in range(count):
-        b = released.row[m] * np.int64(constants.pitch) + released.x[m]
+        b = place(released.row[m], released.x[m], constants.grid)
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
     for m in range(count):
         row, x = released.row[m], released.x[m]
-        b = row * np.int64(constants.pitch) + x
+        b = place(row, x, constants.grid)
         _look_around(blocks, stage, released, row, x, constants)
         threshold = max(blocks.static[b], blocks.dynamic[b])
         share = share_of_step(released, threshold, constants.springs, slider, slide)
         released.share[m] = 0.5 if np.isnan(share) else share
     for m in range(count):
-        b, share = released.row[m] * np.int64(constants.pitch) + released.x[m], released.share[m]
+        b, share = place(released.row[m], released.x[m], constants.grid), released.share[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
         share += near * (0.5 - share)
@@ -184,9 +184,9 @@ def _take_stage(blocks, stage, weight, reach, band, s, damping):
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total = 0.0
     for row in range(band.start, band.stop):
-        i, own = row * band.pitch, (row - band.start) * band.pitch
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         squares = 0.0
-        for x in range(ONE, band.n + ONE):
+        for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
             ax = s[FORCE_X + own + x] - damping * vx - dynamic[b] * ex[b]
@@ -203,12 +203,12 @@ def _take_stage(blocks, stage, weight, reach, band, s, damping):
             pu[b] = wx[b] + reach * ax
             pv[b] = wy[b] + reach * ay
         total += squares
-        close_edge(su, sv, i, band.n)
+        close_edge(su, sv, row, band.grid)
     return weight * total
 
 
 @njit(**JIT)
-def _finish(blocks, stage, n, pitch, squares):
+def _finish(blocks, stage, grid, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
     `squares` is what the stages have summed up already.
@@ -218,10 +218,10 @@ def _finish(blocks, stage, n, pitch, squares):
     su, sv, pu, pv = stage.ux, stage.uy, stage.wx, stage.wy
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total_x, total_y, total_heat = 0.0, 0.0, 0.0
-    for row in range(n):
-        i = row * pitch
+    for row in range(grid.n_y):
+        i = row * grid.pitch
         sum_x, sum_y, heat = 0.0, 0.0, 0.0
-        for x in range(ONE, n + ONE):
+        for x in range(ONE, grid.n_x + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
@@ -235,12 +235,12 @@ def _finish(blocks, stage, n, pitch, squares):
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
         total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + heat
-        close_edge(ux, uy, i, n)
-        close_edge(su, sv, i, n)
+        close_edge(ux, uy, row, grid)
+        close_edge(su, sv, row, grid)
     return Totals(total_x, total_y, total_heat, squares)
 
 
-@njit(**JIT)
+@njit(**JIT_WITH_ARRAYS)
 def _begin(blocks, stage):
     """Let the first stage be where the blocks are; without friction any direction will do."""
     stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
@@ -248,16 +248,15 @@ def _begin(blocks, stage):
 
 
 @njit(**JIT)
-def advance(state, constants, first, steps, every, samples):
-    """See `Integrator.advance`."""
-    blocks, s, n, stage = state.blocks, state.scratch, constants.n, Stage(*state.work)
-    _begin(blocks, stage)
-    every_row, released, switches = np.ones(n + ONE, np.bool_), room(np.int64(n * n)), np.int64(0)
+def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
+    """As `advance`, with room for what is known between stages and for the blocks that let go."""
+    blocks, s, grid, switches = state.blocks, state.scratch, constants.grid, np.int64(0)
     for k in range(first, first + steps):
         squares, count = 0.0, np.int64(0)
         for weight, node, reach in STAGES:
             slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
-            for start in range(U(0), n, constants.band_rows):
+            close_rows(stage.ux, stage.uy, grid)
+            for start in range(U(0), grid.n_y, constants.band_rows):
                 band = band_from(start, constants)
                 row, column = forces_on_band(
                     stage.ux, stage.uy, band, every_row, s, constants.springs, slider
@@ -270,6 +269,15 @@ def advance(state, constants, first, steps, every, samples):
                 squares += _take_stage(blocks, stage, weight, reach, band, s, constants.damping)
         if count > 0:
             _place_releases(blocks, stage, released, count, constants, k)
-        totals = _finish(blocks, stage, n, constants.pitch, squares)
+        totals = _finish(blocks, stage, grid, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
+
+
+@njit(**JIT_WITH_ARRAYS)
+def advance(state, constants, first, steps, every, samples):
+    """See `Integrator.advance`."""
+    grid, stage = constants.grid, Stage(*state.work)
+    every_row, released = np.ones(grid.n_y + ONE, np.bool_), room(np.int64(grid.n_y * grid.n_x))
+    _begin(state.blocks, stage)
+    return _follow(state, stage, constants, first, steps, every, samples, every_row, released)

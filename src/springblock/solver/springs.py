@@ -13,12 +13,14 @@ the springs of some block leave the polynomial's range are computed again with t
 A row is worked on in short loops, first what its springs pull with, then what its blocks feel: in
 one long loop the processor would run out of registers before it could overlap the work on several
 blocks. Rows are filled up with phantoms to whole vectors: places that hold the displacement of the
-last block, feel no diagonal spring, and never move.
+last block, feel no diagonal spring, and never move. With periodic edges they are images of the
+first blocks of their row, and beyond the last row stands an image of the first one: springs across
+the edges are computed as all others are.
 
 Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
 """
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -39,11 +41,15 @@ SERIES_DEGREE = 6
 #: A spring may shrink to half its rest length and grow to twice it: -3/4 < q < 3.
 Q_MIN, Q_MAX = -0.75, 3.0
 
-#: A lattice row may hold at most this many blocks.
+#: A side of the lattice may hold at most this many blocks.
 MAX_BLOCKS = 4096
 
 #: Rows are worked on in bands of about this many blocks.
 _BAND_BLOCKS = 2048
+
+#: So many columns of a band are worked on together: what their springs pull with stays in the
+#: nearest cache.
+_TILE = np.uint64(256)
 
 #: Rows are filled up with phantoms to a multiple of this many blocks: no vector is cut short.
 LANES = 8
@@ -59,14 +65,50 @@ FORCE_X, FORCE_Y = _FIELDS[:2]
 EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FIELDS
 
 
+class Grid(NamedTuple):
+    """How the blocks of a lattice are laid out."""
+
+    n_y: np.uint64  #: rows
+    n_x: np.uint64  #: blocks of a row
+    width: np.uint64  #: blocks of a row with its phantoms
+    pitch: np.uint64  #: numbers from one row to the next: a border, the width and a border
+    #: Whether opposite edges are joined. None where they are free: kernels are then compiled as if
+    #: there were no others.
+    periodic: Literal[True] | None
+
+    @classmethod
+    def of(cls, shape: tuple[int, int], periodic: bool = False) -> "Grid":
+        """Return the layout of (N_y, N_x) blocks."""
+        n_y, n_x = shape
+        width = -(-n_x // LANES) * LANES
+        return cls(U(n_y), U(n_x), U(width), U(width + LANES), periodic or None)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(N_y, N_x)."""
+        return int(self.n_y), int(self.n_x)
+
+    @property
+    def band_rows(self) -> int:
+        """Rows of one band."""
+        fit = min(1 + (_BAND_BLOCKS - 1) // int(self.n_x), _FIELD // int(self.pitch))
+        return min(int(self.n_y), fit)
+
+
 class Band(NamedTuple):
     """Rows [start, stop) of a lattice, which are worked on together."""
 
     start: np.uint64
     stop: np.uint64
-    n: np.uint64  #: blocks of a row
-    pitch: np.uint64  #: numbers from one row to the next
-    width: np.uint64  #: blocks of a row with its phantoms
+    grid: Grid
+
+
+class Columns(NamedTuple):
+    """Columns [start, stop) of a band, from 1, which are worked on together."""
+
+    springs: np.uint64  #: where their springs begin: those from the west are among them
+    start: np.uint64
+    stop: np.uint64
 
 
 class Springs(NamedTuple):
@@ -82,23 +124,7 @@ class Springs(NamedTuple):
         return cls(kappa, tuple((kappa * series()).tolist()), k_s)
 
 
-def pitch(n: int) -> int:
-    """Numbers from one row of n blocks to the next: a border, the blocks, phantoms and a border."""
-    return int(width(U(n))) + LANES
-
-
-def band_rows(n: int) -> int:
-    """Rows of n blocks in one band."""
-    return min(n, 1 + (_BAND_BLOCKS - 1) // n)
-
-
-@register_jitable
-def width(n):
-    """Blocks of a row of n with its phantoms."""
-    return (n + U(LANES - 1)) // U(LANES) * U(LANES)
-
-
-@register_jitable
+@njit(inline="always")
 def one_row(s):
     """View of those fields of scratch that hold one row."""
     return s[2 * _FIELD :]
@@ -177,39 +203,44 @@ def _enter(s, x, apart, east, north, ne, nw):
 
 
 @njit(inline="always")
-def _places(row, band):
+def _places(row, grid):
     """Return where a row and the next one stand.
 
-    The last row has no next one: with itself in its place, northern springs are free of strain.
+    Before a free edge there is no next one: with the row itself in its place, northern springs are
+    free of strain.
     """
-    i = row * band.pitch
-    return i, i + band.pitch if row + ONE < band.n else i
+    i = row * grid.pitch
+    return i, i + grid.pitch if row + ONE < grid.n_y or grid.periodic is not None else i
 
 
 @njit(inline="always")
-def _last_diagonal(row, n):
-    """Return the first x without diagonal springs to the north: the last block, or in the last row
-    all of them."""
-    return n if row + ONE < n else ONE
+def _last_diagonal(row, grid):
+    """Return the first x without diagonal springs to the north.
+
+    With free edges that is the last block, or in the last row the first one.
+    """
+    if grid.periodic is not None:
+        return grid.width + ONE
+    return grid.n_x if row + ONE < grid.n_y else ONE
 
 
 @njit(inline="always")
-def _pulls_by_series(ux, uy, row, band, s, c):
-    """Enter what the springs from a row pull with, kappa q g(q) (e + d); is any out of range?
+def _pulls_by_series(ux, uy, row, band, columns, s, c):
+    """Enter what the springs from a row pull with, kappa q g(q) (e + d); are all within range?
 
     Diagonal springs are entered as if they were as stiff as axial ones; `_gather` halves them.
     """
-    i, j = _places(row, band)
-    edge, outside = _last_diagonal(row, band.n), False
-    for x in range(ONE, band.width + ONE):
+    i, j = _places(row, band.grid)
+    edge, within = _last_diagonal(row, band.grid), True
+    for x in range(columns.springs, columns.stop):
         apart = _apart(ux, uy, i, j, x)
         q = _stretch(apart)
         p = _series(q, c)
-        q_squared = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
-        outside = outside | (not q_squared <= SERIES_RANGE**2)  # also for NaN
+        q_squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+        within = within & (q_squared <= SERIES_RANGE**2)  # False for NaN
         ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
         _enter(s, x, apart, q[0] * p[0], q[1] * p[1], ne, nw)
-    return outside
+    return within
 
 
 @njit(inline="always")
@@ -218,12 +249,12 @@ def _is_whole(q):
 
 
 @njit(inline="always")
-def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
+def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
     """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
-    n = band.n
-    i, j = _places(row, band)
-    edge, broken = _last_diagonal(row, n), np.int64(n + ONE)
-    for x in range(ONE, band.width + ONE):
+    n = band.grid.n_x
+    i, j = _places(row, band.grid)
+    edge, broken = _last_diagonal(row, band.grid), np.int64(n + ONE)
+    for x in range(columns.springs, columns.stop):
         apart = _apart(ux, uy, i, j, x)
         q = _stretch(apart)
         inside = x < edge
@@ -237,16 +268,30 @@ def _pulls_by_closed_form(ux, uy, row, band, s, kappa):
 
 
 @njit(inline="always")
-def _gather(ux, uy, row, band, s, force, k_s, slider):
+def _close_springs(s, grid):
+    """Let the springs from the last block of a row come to the first one, on a periodic surface.
+
+    Nothing comes to it across a free edge: there, no one writes to these places.
+    """
+    if grid.periodic is not None:
+        n = grid.n_x
+        s[EAST_X], s[EAST_Y] = s[EAST_X + n], s[EAST_Y + n]
+        s[NE_X], s[NE_Y], s[NW_X], s[NW_Y] = s[NE_X + n], s[NE_Y + n], s[NW_X + n], s[NW_Y + n]
+
+
+@njit(inline="always")
+def _gather(ux, uy, row, band, columns, s, force, k_s, slider):
     """Enter F_mot of the blocks of a row, from what the springs from it and from below pull with.
 
     What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
     seen from the north and from the south, from the east and from the west, so that a mirrored
     scene moves as a mirror image to the last bit.
     """
-    i, own, (sx, sy) = row * band.pitch, (row - band.start) * band.pitch, slider
-    e_x = e_y = ne_x = ne_y = nw_x = nw_y = 0.0
-    for x in range(ONE, band.width + ONE):
+    pitch, (sx, sy) = band.grid.pitch, slider
+    i, own, w = row * pitch, (row - band.start) * pitch, columns.start - ONE
+    e_x, e_y = s[EAST_X + w], s[EAST_Y + w]
+    ne_x, ne_y, nw_x, nw_y = s[NE_X + w], s[NE_Y + w], s[NW_X + w], s[NW_Y + w]
+    for x in range(columns.start, columns.stop):
         # Of the column to the west: east, north-east, and the one that goes there from here.
         w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
         e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
@@ -260,54 +305,71 @@ def _gather(ux, uy, row, band, s, force, k_s, slider):
 
 
 @njit(**JIT)
-def _forces_by_series(ux, uy, first, band, needed, s, force, springs, slider):
-    """Enter F_mot of a band from row `first` on.
+def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, slider):
+    """Enter F_mot of columns of a band from row `first` on.
 
     Rows are left out where neither they nor the next row are `needed`. Returns the first row with
     a spring out of range, which is not entered, or the band's stop.
     """
     for row in range(first, band.stop):
         if needed[row] or needed[row + ONE]:
-            if _pulls_by_series(ux, uy, row, band, s, springs.series):
+            if not _pulls_by_series(ux, uy, row, band, columns, s, springs.series):
                 return row
-            _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+            _close_springs(s, band.grid)
+            _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return band.stop
 
 
 @njit(**JIT)
-def _forces_by_closed_form(ux, uy, row, band, s, force, springs, slider):
+def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider):
     """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
-    broken = _pulls_by_closed_form(ux, uy, row, band, s, springs.kappa)
+    broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
     if broken == 0:
-        _gather(ux, uy, row, band, s, force, springs.k_s, slider)
+        _close_springs(s, band.grid)
+        _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return broken
 
 
 @njit(**JIT)
-def _clear_below(band, s):
-    """Let nothing lie below the first row."""
-    for x in range(ONE, band.width + ONE):
-        s[BELOW_X + x], s[BELOW_Y + x] = 0.0, 0.0
+def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
+    """As `forces_on_band`, once what pulls the first row from below is known."""
+    end = band.grid.width + ONE
+    whole = band.grid.periodic is not None  # such a row goes on from its end
+    tile = band.grid.width if whole else _TILE
+    for first in range(ONE, end, tile):
+        start = U(first)
+        columns = Columns(start - U(LANES) if start > 1 else start, start, min(start + tile, end))
+        row, broken = band.start, U(0)
+        while row < band.stop and broken == 0:
+            row = _forces_by_series(ux, uy, row, band, columns, needed, pulls, s, springs, slider)
+            if row < band.stop:
+                broken = _forces_by_closed_form(
+                    ux, uy, row, band, columns, pulls, s, springs, slider
+                )
+                row += ONE
+        if broken > 0:
+            return row - ONE, broken
+    return band.stop, U(0)
 
 
 @njit(**JIT)
 def forces_on_band(ux, uy, band, needed, s, springs, slider):
     """Put F_mot of a band, under a slider at (x, y), into FORCE_X and FORCE_Y of scratch `s`.
 
-    Bands come in ascending order. Rows that are not `needed`, (N + 1,), are not computed, or not
+    Bands come in ascending order. Rows that are not `needed`, (N_y + 1,), are not computed, or not
     right. Returns row and column (from 1) of a spring that has collapsed, burst or become NaN;
     column 0 if there is none.
     """
-    pulls = one_row(s)
+    pulls, grid = one_row(s), band.grid
     if band.start == 0:
-        _clear_below(band, pulls)
-    row = _forces_by_series(ux, uy, band.start, band, needed, pulls, s, springs, slider)
-    while row < band.stop:
-        broken = _forces_by_closed_form(ux, uy, row, band, pulls, s, springs, slider)
-        if broken > 0:
-            return row, broken
-        row = _forces_by_series(ux, uy, row + ONE, band, needed, pulls, s, springs, slider)
-    return row, U(0)
+        for x in range(ONE, grid.width + ONE):
+            pulls[BELOW_X + x], pulls[BELOW_Y + x] = 0.0, 0.0
+        if grid.periodic is not None:  # the last row lies below the first
+            last = Band(grid.n_y - ONE, grid.n_y, grid)
+            row, broken = _forces_on_rows(ux, uy, last, needed, pulls, s, springs, slider)
+            if broken > 0:
+                return row, broken
+    return _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider)
 
 
 def scratch() -> Array:
