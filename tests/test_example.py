@@ -1,7 +1,6 @@
 """Surfaces of one's own in the study: planned as in the example, and from end to end."""
 
 import shutil
-from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -133,9 +132,6 @@ def test_a_changed_image_is_another_surface(study, changed):
     assert (jobs["prelude_scene"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 4, 1)
 
 
-@pytest.mark.skipif(
-    "periodic" not in signature(simulate).parameters, reason="the solver has free edges alone"
-)
 def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     """From batches of the study; correlated coefficients, too, go around the edges."""
     grid = {"n_blocks": [12], "n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2}

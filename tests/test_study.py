@@ -280,7 +280,7 @@ def test_rectangles_and_edges_are_part_of_a_grid(surfaces):
         ({"material": {"correlation_length": [-1.0]}}, "correlation_length must be .* zero or pos"),
         ({"material": {"correlation_length": [1.0]}}, "own: correlation_length = 1.0 m must not"),
         ({"n_blocks": [5000]}, "scenes.own: N is 5000; the solver goes up to 4096"),
-        ({"edges": "periodic", "n_rows": [2]}, "periodic edges need 3 blocks each way, not 2"),
+        ({"edges": "periodic", "n_rows": [2]}, "periodic edges each side must hold at least 3"),
         ({"edges": "closed"}, "scenes.own.edges is not valid: 'closed'"),
     ],
 )

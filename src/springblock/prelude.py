@@ -144,8 +144,8 @@ def compute_prelude(
     step: float = STEP,
     sample_interval: float = SAMPLE_INTERVAL,
     cores: int = 1,
-    mu_static: ArrayLike | None = None,
     periodic: bool = False,
+    mu_static: ArrayLike | None = None,
 ) -> Prelude:
     """Load a surface whose blocks never let go, until most seeds would have let one go.
 

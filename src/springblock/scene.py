@@ -153,9 +153,14 @@ class Scene:
         return self.n_rows or self.n_blocks, self.n_blocks
 
     @property
+    def is_periodic(self) -> bool:
+        """Whether the surface goes on as it begins, both ways."""
+        return self.edges == "periodic"
+
+    @property
     def is_papers(self) -> bool:
         """Whether the paper might have this surface: square, with edges, and nothing from files."""
-        return not (self.n_rows or self.edges != "free" or any(getattr(self, key) for key in MAPS))
+        return not (self.n_rows or self.is_periodic or any(getattr(self, key) for key in MAPS))
 
     @property
     def is_drawn(self) -> bool:
@@ -241,7 +246,7 @@ class Scene:
 
     @property
     def _edges(self) -> dict[str, str]:
-        return {"edges": self.edges} if self.edges != "free" else {}
+        return {"edges": self.edges} if self.is_periodic else {}
 
 
 def in_order(constants: Mapping[str, Any]) -> Varied:

@@ -11,6 +11,7 @@ import jsonschema
 import numpy as np
 
 from springblock.asperities import check_draws
+from springblock.checks import checked_surface
 from springblock.material import Material
 from springblock.scene import LENGTHS, MAPS, Scene, Varied
 from springblock.setup import Setup
@@ -24,8 +25,6 @@ Configuration = Mapping[str, Any]
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
-#: Blocks along a periodic edge, so that each has neighbours of its own on both sides.
-_AROUND = 3
 #: Realisations below which a correlation has no interval.
 _CORRELATED = 3
 
@@ -122,11 +121,10 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     scene, sample_interval = ensemble.scene, setup.sample_interval
-    _ = scene.contact
-    if max(scene.shape) > MAX_BLOCKS:
+    if max(scene.shape) > MAX_BLOCKS:  # before there is an array of them
         raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
-    if scene.edges == "periodic" and min(scene.shape) < _AROUND:
-        raise ValueError(f"periodic edges need {_AROUND} blocks each way, not {min(scene.shape)}")
+    ones = np.ones(scene.shape)
+    checked_surface(scene.contact, ones, ones, scene.is_periodic)
     _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(

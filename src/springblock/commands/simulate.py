@@ -95,16 +95,12 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
     """mu_static and mu_dynamic, (N_y, N_x) each: drawn, unless the scene has them from files."""
-    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.edges == "periodic")
+    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.is_periodic)
     of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
     return (
         mu_static if of_static is None else of_static.values,
         mu_dynamic if of_dynamic is None else of_dynamic.values,
     )
-
-
-def _edges(scene: Scene) -> dict[str, Any]:
-    return {"periodic": True} if scene.edges == "periodic" else {}
 
 
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
@@ -144,9 +140,9 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     announce(setup.integrator, cores)
     with one_sentence():
-        contact, direction, mu = scene.contact, scene.direction, scene.mu_static_field
-        how = {"mu_static": mu and mu.values, "cores": cores, **_edges(scene), **vars(setup)}
-        compute_prelude(contact, direction=direction, **how).save(output)
+        known = scene.mu_static_field and scene.mu_static_field.values
+        how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
+        compute_prelude(scene.contact, direction=scene.direction, **how).save(output)
 
 
 @click.command("simulate")
@@ -210,7 +206,7 @@ def simulate_batch(
 def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
     """Run one realisation."""
     drawn = coefficients(scene, seed, setup.material)
-    options |= {"direction": scene.direction, **_edges(scene), **vars(setup)}
+    options |= {"direction": scene.direction, "periodic": scene.is_periodic, **vars(setup)}
     try:
         run = simulate(scene.contact, *drawn, **options)
     except SimulationError as error:

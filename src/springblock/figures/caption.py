@@ -54,7 +54,7 @@ def _surface(scene: Scene) -> str:
 def _own(scene: Scene) -> list[str]:
     """What else a surface has that those of the paper have not."""
     rows = f"n_rows = {scene.n_rows}" if scene.n_rows else ""
-    edges = "" if scene.edges == "free" else f"{scene.edges} edges"
+    edges = "periodic edges" if scene.is_periodic else ""
     fields = {"mu_static": scene.mu_static_field, "mu_dynamic": scene.mu_dynamic_field}
     return [rows, edges, *(f"{name} from {field}" for name, field in fields.items() if field)]
 
