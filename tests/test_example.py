@@ -67,12 +67,12 @@ def changed(study):
 
 def records(study, *parts):
     """Realisations in the folder of this scene."""
-    folder = study / "results/realisations/n_blocks=12" / name(study) / "/".join(parts)
+    folder = study / "results/realisations/n_blocks-12" / name(study) / "/".join(parts)
     return read_records(sorted(folder.glob("seeds-*.parquet")))
 
 
 def name(study):
-    return f"mask={BlockMap.mask(study / 'islands.png')}"
+    return f"mask-{BlockMap.mask(study / 'islands.png')}"
 
 
 def test_the_example_can_be_planned(study):
@@ -85,7 +85,7 @@ def test_the_example_can_be_planned(study):
 
 
 def test_a_batch_brings_its_mask_along(study):
-    runs = records(study, "direction=x")
+    runs = records(study, "direction-x")
     assert [run.seed for run in runs] == [0, 1, 2]
     for run in runs:
         np.testing.assert_array_equal(run.scene.contact, ISLANDS)
@@ -93,7 +93,7 @@ def test_a_batch_brings_its_mask_along(study):
 
 
 def test_a_study_simulates_what_python_does(study):
-    for run in records(study, "direction=x"):
+    for run in records(study, "direction-x"):
         alone = simulate(ISLANDS, *draw_friction(12, run.seed))
         assert alone.t_det.tobytes() == run.t_det.tobytes()
     weibull = ("distribution=weibull", "correlation_length=3e-05", "direction=x")
@@ -140,7 +140,7 @@ def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     configuration = ("tiny.yaml", "around.yaml")
     outcome = snakemake(study, "--", "surfaces", configuration=configuration)
     assert outcome.returncode == 0, outcome.stderr
-    batches = sorted((study / "results/realisations/n_blocks=12/n_rows=6").rglob("seeds-*.parquet"))
+    batches = sorted((study / "results/realisations/n_blocks-12/n_rows-6").rglob("seeds-*.parquet"))
     runs = read_records(batches)
     assert {run.t_det.shape for run in runs} == {(6, 12)}
     assert {run.scene.edges for run in runs} == {"periodic"}
