@@ -224,7 +224,8 @@ def test_the_command_finds_the_scene_of_a_prelude(tmp_path):
 
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.commands.claims.read_records", lambda batches: [])
-    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | {"integrator": "leapfrog"}
+    texts = {"integrator": "leapfrog", "law": "coulomb"}
+    row = dict.fromkeys(SUMMARY.names, 0) | Scene(12).row | texts
     table, claims, text = (tmp_path / name for name in ("table", "claims.parquet", "claims.md"))
     write(rows_to_table([row | {"t_avg": 1.0}], SUMMARY), table, {})
     options = {"realisations": table, "configuration": "0", "output": claims, "page": text}
