@@ -96,7 +96,7 @@ def test_a_study_simulates_what_python_does(study):
     for run in records(study, "direction-x"):
         alone = simulate(ISLANDS, *draw_friction(12, run.seed))
         assert alone.t_det.tobytes() == run.t_det.tobytes()
-    weibull = ("distribution=weibull", "correlation_length=3e-05", "direction=x")
+    weibull = ("distribution-weibull", "correlation_length-3e-05", "direction-x")
     for run in records(study, *weibull):
         assert run.material.distribution == "weibull"
         alone = simulate(ISLANDS, *draw_friction(12, run.seed, run.material))
@@ -105,7 +105,7 @@ def test_a_study_simulates_what_python_does(study):
 
 def test_coefficients_from_files_are_not_drawn(study):
     mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", "weak mu.npy"))
-    parts = (f"mu_static_field={mu}", f"mu_dynamic_field={weak}", "direction=y")
+    parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
     (run,) = records(study, *parts)
     alone = simulate(ISLANDS, mu.values, weak.values, direction="y")
     assert alone.t_det.tobytes() == run.t_det.tobytes()

@@ -93,7 +93,10 @@ def keep_way(law, b, way):
 
 
 def _for_each_law(stub, coulomb, slip_weakening, velocity_weakening):
-    """Let a stub stand for the function of the law that it is called with."""
+    """Let a stub stand for the function of the law that it is called with.
+
+    LLVM inlines them; numba, told to do so by itself, loses the store in `_keep_way`.
+    """
     functions = {
         None: coulomb,
         SlipWeakening: slip_weakening,
