@@ -63,7 +63,7 @@ class Prelude:
     @property
     def constants(self) -> dict[str, Any]:
         """Constants of the material that was loaded, by name."""
-        return dict(json.loads(self.conditions)[2])
+        return dict(json.loads(self.conditions)[4])
 
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
