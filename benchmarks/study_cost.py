@@ -69,13 +69,13 @@ def _figures() -> frozenset[str]:
 
 def _rule(path: Path) -> str:
     """Kind of job that left this file."""
-    if path.stem.startswith("seeds="):
+    if path.stem.startswith("seeds-"):
         return "simulate"
     if path.stem.startswith("compile-"):
         return "compile"
     if path.parent.name == "surfaces":
         return "mask"
-    if path.stem in _figures():
+    if path.stem in _figures() or path.stem.startswith("sweep_"):
         return "figures"
     if path.parent.name == "production" or path.stem == "production_table":
         return "production"

@@ -55,7 +55,7 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
 
 def test_each_row_is_named_after_its_scene():
     names = [text.get_text() for ax in drawing(1).axes for text in ax.texts]
-    assert names.count("n_blocks=9, n_rows=6, mask=islands-1a2b3c4d, direction=x") == 2
+    assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
 
 
 def test_its_caption_names_what_is_ones_own():
