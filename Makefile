@@ -70,7 +70,7 @@ lock:
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
-	    --group dev --extra study pyproject.toml && \
+	    --group dev --extra study --extra mp4 pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers
 
 clean:

@@ -21,6 +21,8 @@ class Withhold:
 
 sys.meta_path.insert(0, Withhold())
 
+import click
+
 from springblock import Pattern, draw_friction, simulate
 from springblock.cli import main
 
@@ -35,6 +37,12 @@ for command in (
     "compare {folder}/run.parquet {folder}/run.parquet",
 ):
     main(command.split(), standalone_mode=False)
+try:
+    main("animate {folder}/run.parquet --output {folder}/c.mp4".split(), standalone_mode=False)
+except click.ClickException as refusal:
+    assert "springblock[mp4]" in str(refusal)
+else:
+    raise AssertionError("there is nothing that could write it")
 """
 
 
@@ -44,8 +52,8 @@ def named(requirements):
 
 
 def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
-    withheld = named(PROJECT["optional-dependencies"]["study"])
-    assert "snakemake" in withheld
+    withheld = set().union(*map(named, PROJECT["optional-dependencies"].values()))
+    assert {"snakemake", "imageio_ffmpeg"} <= withheld
     script = USE.format(withheld=withheld, folder=str(tmp_path))
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

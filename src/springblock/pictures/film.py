@@ -46,7 +46,7 @@ def write(run: Run, path: Path) -> None:
     Raises
     ------
     ValueError
-        Where the suffix is another one.
+        Where the suffix is another one, or MP4 is not installed.
     """
     if path.suffix not in _WRITERS:
         raise ValueError(f"films are written as {' or '.join(_WRITERS)}, not as {path.suffix!r}")
@@ -207,7 +207,12 @@ def _gif(drawn: list[Frame], file: Path) -> None:
 
 
 def _mp4(drawn: list[Frame], file: Path) -> None:
-    from imageio_ffmpeg import write_frames
+    try:
+        from imageio_ffmpeg import write_frames
+    except ModuleNotFoundError:
+        raise ValueError(
+            "films of type MP4 need the package imageio-ffmpeg, springblock[mp4]; GIF does not"
+        ) from None
 
     height, width, _ = drawn[0].shape
     film = write_frames(
