@@ -222,14 +222,14 @@ def test_what_cannot_be_correlated_is_refused(decaying):
 
 def test_the_command_takes_one_scene_that_has_sides():
     pillars, near, small = (
-        SimpleNamespace(scene=Scene(24, *lengths), t_det=np.ones((24, 24)))
+        SimpleNamespace(scene=Scene(24, *lengths), t_det=np.ones((24, 24)), constants={})
         for lengths in ((6, 6), (6, 2), (3, 3))
     )
     kinds = [columns["side"] for columns, _ in _sides([pillars, pillars])]
     assert kinds == ["x", "y"]
-    with pytest.raises(ValueError, match=r"one scene is correlated, not .*n_s=6.* and .*n_s=2"):
+    with pytest.raises(ValueError, match=r"one scene is correlated, not .*n_s-6.* and .*n_s-2"):
         next(_sides([pillars, near]))
-    with pytest.raises(ValueError, match=r"n_p=3.* has no whole sides"):
+    with pytest.raises(ValueError, match=r"n_p-3.* has no whole sides"):
         next(_sides([small]))
 
 
