@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter, NullLocator
 
 from springblock.figures import style
 from springblock.figures.ensembles import BAR, FRICTION, LAG
@@ -43,6 +44,7 @@ OBSERVABLES: dict[str, Observable] = {
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
+_NAMED = 6  #: places that stand below a logarithmic axis themselves, at most
 _WIDE = 24  #: characters of a line's name from which on names stand below each other
 _LEFT, _WIDTH, _HEIGHT, _BELOW, _BETWEEN, _LINE = 16.0, 71.0, 38.0, 11.0, 5.0, 3.6  #: mm
 
@@ -112,7 +114,7 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
         if len(observables) > 1:
             style.panel_letter(ax, "abcdefgh"[i], left=12.0, above=1.0)
         if i < len(observables) - 1:
-            ax.set_xticklabels([])
+            ax.tick_params(labelbottom=False)
             ax.set_xlabel("")
     if len(found) > 1:
         handles = picture.axes[0].get_legend_handles_labels()
@@ -131,6 +133,10 @@ def _draw_panel(
     places = sorted({place for line in found.values() for place in line})
     if places[0] > 0.0 and places[-1] >= _DECADE * places[0]:
         ax.set_xscale("log")
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        if len(places) <= _NAMED:
+            ax.set_xticks(places, [f"{place:g}" for place in places])
+            ax.xaxis.set_minor_locator(NullLocator())
     ax.set_xlabel(_axis(over))
     ax.set_ylabel(seen.label)
 
