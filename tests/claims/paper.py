@@ -240,7 +240,7 @@ def around(name: str, value: float, half: float, prefix: str = "ci") -> Row:
 def correlation() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r": r, "realisations": 60}
+            {**scene.row, "side": side, "r": r, "realisations": 240}
             | around("correlation", np.exp(-r / decay), 0.03)
             | around("residual", 0.01, 0.002, prefix="residual")
             for side, decay in sides.items()
@@ -253,7 +253,7 @@ def correlation() -> dict[Scene, list[Row]]:
 def lengths() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r_last": 6, "realisations": 60}
+            {**scene.row, "side": side, "r_last": 6, "realisations": 240}
             | around("l_c", value, 0.2)
             | around("tail", value, 0.3, prefix="tail")
             for side, value in sides.items()
