@@ -1,7 +1,8 @@
 # What goes beyond the paper: maps and sweeps, which take longer than the paper itself.
 
-#: Groups of the study that its questions look at, too.
-BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles"]
+#: Groups that its questions look at, of the study and beyond it; the others decide claims.
+BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles", "lattice", "disorder", "layer", "peaks"]
+BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 
 rule beyond_page:

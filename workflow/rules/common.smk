@@ -75,10 +75,10 @@ def ensembles(part, groups=None):
 
 
 def simulated_beyond(groups):
-    """Realisations beyond the paper, of which there must be some, and of these groups."""
+    """Realisations of these groups; there must be some beyond the paper."""
     if not ensembles("beyond/"):
         raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
-    return batches(ensembles("beyond/", [*groups, *PARTS["beyond/"]]))
+    return batches(ensembles("beyond/", groups))
 
 
 def scene(wildcards):
