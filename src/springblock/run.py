@@ -31,7 +31,7 @@ class Run(Protocol):
 
     @property
     def contact(self) -> NDArray[np.bool_]:
-        """(N, N), [y, x], blocks in contact with the substrate."""
+        """(N_y, N_x), [y, x], blocks in contact with the substrate."""
 
     @property
     def detachments(self) -> Counts:
@@ -43,7 +43,7 @@ class Run(Protocol):
 
     @property
     def t_det(self) -> Array:
-        """(N, N) s, [y, x], first detachment; NaN where never or not in contact."""
+        """(N_y, N_x) s, [y, x], first detachment; NaN where never or not in contact."""
 
     @property
     def t_max(self) -> float:
@@ -63,7 +63,7 @@ class Run(Protocol):
 
     @property
     def snapshots(self) -> Array:
-        """(k, 2, N, N) m, [time, component, y, x], displacements at these times."""
+        """(k, 2, N_y, N_x) m, [time, component, y, x], displacements at these times."""
 
     @property
     def name(self) -> str:

@@ -46,6 +46,19 @@ def test_there_is_a_law_for_each_name():
     assert law.scale == pytest.approx(2e-6 * 1e-8 / 1e-5, rel=1e-15)
 
 
+@pytest.mark.parametrize("law", [None, slip(0.5, 0.1, 0.2), VelocityWeakening(0.2)])
+def test_python_and_compiled_callers_get_the_same(law):
+    """Each law is chosen by its type, in its own way."""
+    for way, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
+        plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
+        assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
+        plain = laws.heat(law, way, speed, STATIC, DYNAMIC)
+        assert plain == pytest.approx(heat(law, way, speed), rel=1e-15)
+    assert laws.way_of(law, 1) == (law.way[1] if isinstance(law, SlipWeakening) else 0.0)
+    laws.keep_way(law, 1, 0.7)
+    assert laws.way_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
+
+
 def test_friction_falls_linearly_along_the_way():
     law = slip(0.5)
     found = [resistance(law, way, 0.0, 0.0) for way in (0.0, 0.125, 0.25, 0.5, 9.0)]

@@ -68,44 +68,26 @@ def _bounded(scale: float) -> float:
     return min(max(scale, _LEAST), _MOST)
 
 
-def resistance(law, way, speed, share, static, dynamic):
-    """Return T after a way, at the mean speed V = speed + share T, for compiled callers.
+def _for_each_law(coulomb, slip_weakening, velocity_weakening):
+    """Return the function that calls the one of the law that it is given, compiled or not.
 
-    In a step of the leapfrog, `speed` is half of |v + w|, of which friction takes half of T: share
-    is -1/2. Where V is known, share is 0. T is infinite where no V will do: the block stops.
-    """
-    raise NotImplementedError
-
-
-def heat(law, way, further, static, dynamic):
-    """Return the heat of friction on a block that moves on by `further` in one step."""
-    raise NotImplementedError
-
-
-def way_of(law, b):
-    """Return the way of block b since it let go, where the law asks for it."""
-    raise NotImplementedError
-
-
-def keep_way(law, b, way):
-    """Keep it."""
-    raise NotImplementedError
-
-
-def _for_each_law(stub, coulomb, slip_weakening, velocity_weakening):
-    """Let a stub stand for the function of the law that it is called with.
-
-    LLVM inlines them; numba, told to do so by itself, loses the store in `_keep_way`.
+    Compiled callers have it chosen by type, and LLVM inlines it; numba, told to do so by itself,
+    loses the store in `_keep_way`.
     """
     functions = {
-        None: coulomb,
+        type(None): coulomb,
         SlipWeakening: slip_weakening,
         VelocityWeakening: velocity_weakening,
     }
 
-    @overload(stub, strict=False)
     def chosen(law, *arguments):
-        return functions[None if law is types.none else law.instance_class]
+        return functions[type(law)](law, *arguments)
+
+    @overload(chosen, strict=False)
+    def compiled(law, *arguments):
+        return functions[type(None) if law is types.none else law.instance_class]
+
+    return chosen
 
 
 def _resistance_dynamic(law, way, speed, share, static, dynamic):
@@ -162,7 +144,15 @@ def _keep_way(law, b, way):
     law.way[b] = way
 
 
-_for_each_law(resistance, _resistance_dynamic, _resistance_after_way, _resistance_at_speed)
-_for_each_law(heat, _heat_dynamic, _heat_along_way, _heat_at_speed)
-_for_each_law(way_of, _no_way, _way_so_far, _no_way)
-_for_each_law(keep_way, _keep_none, _keep_way, _keep_none)
+#: (law, way, speed, share, static, dynamic) -> T after a way, at the mean speed
+#: V = speed + share T. In a step of the leapfrog, `speed` is half of |v + w|, of which friction
+#: takes half of T: share is -1/2. Where V is known, share is 0. T is infinite where no V will do:
+#: the block stops.
+resistance = _for_each_law(_resistance_dynamic, _resistance_after_way, _resistance_at_speed)
+#: (law, way, further, static, dynamic) -> heat of friction on a block that moves on by `further`
+#: in one step.
+heat = _for_each_law(_heat_dynamic, _heat_along_way, _heat_at_speed)
+#: (law, b) -> way of block b since it let go, where the law asks for it.
+way_of = _for_each_law(_no_way, _way_so_far, _no_way)
+#: (law, b, way): keep it.
+keep_way = _for_each_law(_keep_none, _keep_way, _keep_none)
