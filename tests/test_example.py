@@ -1,6 +1,5 @@
 """Surfaces of one's own in the study: planned as in the example, and from end to end."""
 
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,7 @@ from PIL import Image
 from springblock import draw_friction, simulate
 from springblock.surfaces import BlockMap
 from springblock.tables import read_records
-from test_workflow import GROOVES, TINY, planned, snakemake
+from test_workflow import GROOVES, TINY, copied, planned, snakemake
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = "config/examples/islands.yaml"
@@ -40,10 +39,7 @@ FEWER = {
 @pytest.fixture(scope="module")
 def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A tiny study with a group of one's own surfaces, its table and their figure made."""
-    folder = tmp_path_factory.mktemp("study")
-    for part in ("src", "workflow", "config", "profiles"):
-        shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "Snakefile", folder)
+    folder = copied(tmp_path_factory.mktemp("study"))
     Image.fromarray(ISLANDS[::-1]).save(folder / "islands.png")
     np.save(folder / "mu.npy", np.linspace(0.8, 1.2, 144).reshape(12, 12))
     np.save(folder / "weak mu.npy", np.full((12, 12), 0.5))

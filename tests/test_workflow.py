@@ -77,13 +77,18 @@ def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dic
     return {name: int(count) for name, count in map(str.split, rows) if name != "total"}
 
 
-@pytest.fixture(scope="module")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A finished tiny study in a folder of its own."""
-    folder = tmp_path_factory.mktemp("study")
+def copied(folder: Path) -> Path:
+    """Copy all that the study consists of into a folder."""
     for part in ("src", "workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, folder / part)
     shutil.copy(ROOT / "Snakefile", folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished tiny study in a folder of its own."""
+    folder = copied(tmp_path_factory.mktemp("study"))
     (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
     outcome = snakemake(folder)
     assert outcome.returncode == 0, outcome.stderr

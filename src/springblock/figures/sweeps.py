@@ -1,4 +1,4 @@
-"""Numbers with their intervals over what they vary with: common to the figures beyond the paper."""
+"""Numbers with their intervals over what they vary with: beyond the paper and in any sweep."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any

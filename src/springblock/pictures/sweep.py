@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import cycle
 from typing import Any, NamedTuple
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, NullLocator
+from matplotlib.ticker import NullFormatter
 
 from springblock.figures import style
-from springblock.figures.ensembles import BAR, FRICTION, LAG
+from springblock.figures.ensembles import FRICTION, LAG
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
+from springblock.figures.sweeps import draw_sweep, powers
 from springblock.rows import Row
 from springblock.scene import LENGTHS, Scene
-from springblock.statistics import Interval, mean_interval
+from springblock.statistics import mean_interval
 from springblock.tables import AXES, SCENE, SETUP
 
 CAPTION = """Means over realisations with their 95 % t intervals; a single realisation has none.
@@ -129,22 +129,17 @@ def _draw_panel(
     looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
     for (name, line), (color, marker) in zip(found.items(), looks, strict=False):
         intervals = [mean_interval([seen.of(row) for row in runs]) for runs in line.values()]
-        _draw_line(ax, list(line), intervals, color=color, marker=marker, label=name)
+        draw_sweep(ax, list(line), intervals, color, marker=marker, label=name)
     places = sorted({place for line in found.values() for place in line})
-    if places[0] > 0.0 and places[-1] >= _DECADE * places[0]:
-        ax.set_xscale("log")
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        if len(places) <= _NAMED:
-            ax.set_xticks(places, [f"{place:g}" for place in places])
-            ax.xaxis.set_minor_locator(NullLocator())
     ax.set_xlabel(_axis(over))
     ax.set_ylabel(seen.label)
-
-
-def _draw_line(ax: Axes, places: list[float], intervals: list[Interval], **look: Any) -> None:
-    mean, low, high = (np.array(part, dtype=float) for part in zip(*intervals, strict=True))
-    bars = np.nan_to_num(np.array([mean - low, high - mean]))
-    ax.errorbar(places, mean, bars, **(BAR | {"linewidth": 0.8} | look))
+    if places[0] <= 0.0 or places[-1] < _DECADE * places[0]:
+        return
+    if len(places) <= _NAMED:
+        powers(ax, places, _axis(over))
+    else:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _axis(over: str) -> str:
