@@ -1,7 +1,10 @@
 """Which sources a result depends on."""
 
+import ast
 import re
 from pathlib import Path
+
+import pytest
 
 import springblock
 from springblock.sources import code_version, digest, files
@@ -38,6 +41,18 @@ def test_the_error_study_depends_on_each_of_its_own_modules():
 def test_the_digest_tells_modules_apart_and_is_part_of_the_version():
     assert digest("springblock.material") != digest("springblock.pattern")
     assert code_version("springblock.material").endswith("+" + digest("springblock.material"))
+
+
+@pytest.mark.parametrize("file", sorted(ROOT.rglob("*.py")), ids=lambda file: file.stem)
+def test_imports_are_those_that_python_sees(file):
+    statements = list(ast.walk(ast.parse(file.read_bytes())))
+    plain = {
+        alias.name for node in statements if isinstance(node, ast.Import) for alias in node.names
+    }
+    froms = [node for node in statements if isinstance(node, ast.ImportFrom) and node.module]
+    members = {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
+    seen = plain | members | {node.module for node in froms}
+    assert imported(file) == {name for name in seen if name.split(".")[0] == "springblock"}
 
 
 def rooms():

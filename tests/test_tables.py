@@ -1,5 +1,6 @@
 """Parquet files: whole or not at all, and true to what was put in."""
 
+import numpy as np
 import pyarrow as pa
 import pytest
 
@@ -72,3 +73,20 @@ def test_same_seed_same_bytes(tmp_path):
         write(rows_to_table([batch_row(SCENE, Setup(), 3, run)], BATCH), tmp_path / name, {})
         contents.append((tmp_path / name).read_bytes())
     assert contents[0] == contents[1]
+
+
+def test_columns_are_those_that_arrow_itself_would_make():
+    kinds = {"text": pa.string(), "flag": pa.bool_(), "count": pa.int8(), "length": pa.float64()}
+    kinds |= {f"{name}s": pa.list_(kind) for name, kind in kinds.items() if name != "text"}
+    rows = [
+        {"text": "", "flag": True, "count": -1, "length": np.nan, "flags": [True, False] * 9},
+        {"text": "ü, €", "flag": False, "count": 7, "length": 2, "flags": []},
+    ]
+    for row, (counts, lengths) in zip(rows, [([], [0.5]), (range(3), [])], strict=True):
+        row |= {"counts": np.array(counts, dtype=np.int8), "lengths": np.array(lengths)}
+    schema = pa.schema(kinds)
+    ours, theirs = rows_to_table(rows, schema), pa.Table.from_pylist(rows, schema)
+    ours.validate(full=True)
+    assert ours.drop("length").equals(theirs.drop("length"))
+    assert np.array_equal(ours["length"], theirs["length"], equal_nan=True)
+    assert rows_to_table([], schema).equals(pa.Table.from_pylist([], schema))

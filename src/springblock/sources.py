@@ -1,8 +1,8 @@
 """Digests of the package's own sources and of configurations: what made a result."""
 
-import ast
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
@@ -22,17 +22,24 @@ def _file(module: str) -> Path | None:
     return None
 
 
+#: An import of this package, at the top of a line or inside a function; `ast` would take 0.2 s.
+_IMPORT = re.compile(
+    rf"""
+    ^[ \t]* (?: from [ ] ({_PACKAGE} [.\w]*) [ ] import [ ] ( \( [^)]* \) | [^#\n]* )
+             | import [ ] ({_PACKAGE} [.\w]*) )
+    """,
+    re.MULTILINE | re.VERBOSE,
+)
+
+
 @cache
 def imports(file: Path) -> frozenset[str]:
     """Names of this package that a source file imports, at its top or inside a function."""
     names: set[str] = set()
-    for node in ast.walk(ast.parse(file.read_bytes())):
-        if isinstance(node, ast.Import):
-            names.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names.update(f"{node.module}.{alias.name}" for alias in node.names)
-            names.add(node.module)
-    return frozenset(name for name in names if name.split(".")[0] == _PACKAGE)
+    for home, members, module in _IMPORT.findall(file.read_text()):
+        names.add(module or home)
+        names.update(f"{home}.{member}" for member in re.findall(r"(\w+)(?: as \w+)?", members))
+    return frozenset(names)
 
 
 def files(*modules: str) -> list[Path]:

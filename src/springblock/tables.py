@@ -236,8 +236,27 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
-    """Build a table of exactly the columns of `schema`."""
-    return pa.Table.from_pylist([dict(row) for row in rows], schema=schema)
+    """Build a table of exactly the columns of `schema`; whatever else rows hold is left out."""
+    columns = [_array([row[field.name] for row in rows], field.type) for field in schema]
+    return pa.Table.from_arrays(columns, schema=schema)
+
+
+def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
+    """`pa.array` without pandas, which that loads to see whether it is given a Series."""
+    if pa.types.is_list(kind):
+        offsets = _array(np.cumsum([0, *map(len, values)]), pa.int32())
+        return pa.ListArray.from_arrays(
+            offsets, _array(np.concatenate(values or [[]]), kind.value_type)
+        )
+    if pa.types.is_string(kind):
+        text = [value.encode() for value in values]
+        offsets = np.cumsum([0, *map(len, text)], dtype=np.int32)
+        return pa.Array.from_buffers(
+            kind, len(text), [None, *map(pa.py_buffer, (offsets, b"".join(text)))]
+        )
+    numbers = np.asarray(values, dtype=kind.to_pandas_dtype())
+    packed = np.packbits(numbers, bitorder="little") if pa.types.is_boolean(kind) else numbers
+    return pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(packed)])
 
 
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:

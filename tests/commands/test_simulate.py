@@ -264,3 +264,19 @@ def test_a_run_that_fails_is_named(springblock, tmp_path):
     soft = ("--material", "youngs_modulus=1e4", "--step", 1e-6, "--sample-interval", 1e-5)
     refusal = springblock("simulate", *FLAT, *ONE, *soft, "--output", tmp_path / "a", refused=True)
     assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
+
+
+def test_a_job_loads_neither_pandas_nor_what_no_kernel_calls(tmp_path):
+    job = ["simulate", "--n-blocks", "6", "--output", str(tmp_path / "run.parquet")]
+    script = f"""if True:
+        import sys
+        from springblock.cli import main
+        main({job}, standalone_mode=False)
+        print(*sys.modules)
+        import scipy.linalg.cython_blas  # others may still have it
+    """
+    outcome = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert outcome.returncode == 0, outcome.stderr
+    loaded = set(outcome.stdout.split())
+    assert {"numba.np.arraymath", "pyarrow.parquet"} <= loaded
+    assert not {"pandas", "scipy.linalg", "matplotlib", "snakemake"} & loaded
