@@ -4,6 +4,8 @@
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make docs     bring the pages in docs up to date with the study
+# make archive  pack the study, code and results, into one file to deposit
+# make redraw   draw all figures and pages again from results at hand, as those of an archive
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
 
@@ -17,7 +19,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench bench-release docs setup lock clean
+.PHONY: all quick test bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -43,6 +45,15 @@ docs: setup
 	$(BIN)/snakemake accuracy claims figure_6
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
+
+archive: setup
+	$(BIN)/springblock archive results --output springblock-study.zip
+
+# Unpacked files have the times at which they were unpacked: --touch says that nothing is out of date.
+redraw: setup
+	$(BIN)/snakemake --touch
+	rm -rf results/figures results/*.md results/report.html
+	$(BIN)/snakemake
 
 setup: $(VENV)/installed
 

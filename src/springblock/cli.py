@@ -26,6 +26,7 @@ COMMANDS = {
     "info": "springblock.commands.files:info",
     "compare": "springblock.commands.files:compare",
     "dictionary": "springblock.commands.files:dictionary",
+    "archive": "springblock.commands.archive:archive_study",
 }
 
 
