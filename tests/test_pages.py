@@ -42,7 +42,7 @@ def follow(text: str, folder: Path) -> dict[str, object]:
     names: dict[str, object] = {}
     for language, box in BOX.findall(text):
         if language == "sh":
-            for line in box.splitlines():
+            for line in box.replace("\\\n", " ").splitlines():
                 run_line(line, folder)
         elif language == "yaml":
             name = re.match(r"# (\w+\.yaml)\n", box)
