@@ -91,3 +91,25 @@ def test_the_observables_of_the_model_are_those_of_a_run():
     assert len(rows) == 7
     for name, _, _ in rows:
         assert hasattr(Realisation, name) or name in Realisation.__dataclass_fields__
+
+
+def test_numbers_of_the_model_are_those_of_the_pages_that_it_names():
+    """In what depends on a choice; where tables are named beside a page, no page has them all."""
+    text = (
+        (DOCS / "model.md").read_text(encoding="utf-8").split("## What the paper leaves open\n")[1]
+    )
+    rows = [
+        row
+        for row in text.splitlines()
+        if re.search(r"\(`(beyond|accuracy)\.md`(, \d)?\) \|$", row)
+    ]
+    found = 0
+    for row in rows:
+        if "tables `realisations`" in row:
+            continue
+        page = re.search(r"`(beyond|accuracy)\.md`", row)[1]
+        numbers = (DOCS / f"{page}.md").read_text(encoding="utf-8").replace("+", "")
+        for value in re.findall(r"-?[\d.]+ \[-?[\d.]+, -?[\d.]+\]", row):
+            assert value in numbers
+            found += 1
+    assert found == 10
