@@ -45,6 +45,8 @@ docs: setup
 	$(BIN)/snakemake accuracy claims figure_6
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
+	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
+	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
 
 archive: setup
 	$(BIN)/springblock archive results --output springblock-study.zip

@@ -3,7 +3,10 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from precision import precision_rows, production_rows
+from springblock import Material, Realisation
 from springblock.accuracy.page import page as accuracy_page
 from springblock.accuracy.stability.table import all_cases
 from springblock.beyond import QUESTIONS
@@ -14,6 +17,7 @@ from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.dictionary import page as dictionary
 from springblock.dictionary import tables
+from springblock.tables import SETUP
 
 DOCS = Path(__file__).parents[1] / "docs"
 
@@ -57,3 +61,55 @@ def test_the_page_beyond_the_paper_is_what_the_code_writes():
 
 def test_the_dictionary_of_tables_is_what_the_code_writes():
     assert (DOCS / "tables.md").read_text() == dictionary(tables())
+
+
+def symbols(heading, text):
+    """Rows of the tables of symbols below a heading: the name in the code, and what follows it."""
+    section = text.split(f"## {heading}\n")[1].split("\n## ")[0]
+    return re.findall(r"^\| .*? \| `(\w+)` \| (\S+) \| (.*?) \|$", section, re.MULTILINE)
+
+
+def test_the_symbols_of_the_model_are_those_of_the_code():
+    """Every constant with its unit and the paper's value, and all that follows from them."""
+    rows = symbols("Symbols", (DOCS / "model.md").read_text(encoding="utf-8"))
+    constants, paper = dict(Material().items()), Material()
+    units = {column.name: column.metadata[b"unit"].decode() for column in SETUP}
+    given, derived = rows[: len(constants)], rows[len(constants) :]
+    assert [name for name, _, _ in given] == list(constants)
+    for name, unit, value in given:
+        assert unit == units[name]
+        expected = constants[name]
+        assert value == expected if isinstance(expected, str) else float(value) == expected
+    properties = {name for name, value in vars(Material).items() if isinstance(value, property)}
+    assert {name for name, _, _ in derived} == properties
+    for name, _, value in derived:
+        assert float(value.rpartition("|")[2]) == pytest.approx(getattr(paper, name), rel=5e-4)
+
+
+def test_the_observables_of_the_model_are_those_of_a_run():
+    rows = symbols("Observables", (DOCS / "model.md").read_text(encoding="utf-8"))
+    assert len(rows) == 7
+    for name, _, _ in rows:
+        assert hasattr(Realisation, name) or name in Realisation.__dataclass_fields__
+
+
+def test_numbers_of_the_model_are_those_of_the_pages_that_it_names():
+    """In what depends on a choice; where tables are named beside a page, no page has them all."""
+    text = (
+        (DOCS / "model.md").read_text(encoding="utf-8").split("## What the paper leaves open\n")[1]
+    )
+    rows = [
+        row
+        for row in text.splitlines()
+        if re.search(r"\(`(beyond|accuracy)\.md`(, \d)?\) \|$", row)
+    ]
+    found = 0
+    for row in rows:
+        if "tables `realisations`" in row:
+            continue
+        page = re.search(r"`(beyond|accuracy)\.md`", row)[1]
+        numbers = (DOCS / f"{page}.md").read_text(encoding="utf-8").replace("+", "")
+        for value in re.findall(r"-?[\d.]+ \[-?[\d.]+, -?[\d.]+\]", row):
+            assert value in numbers
+            found += 1
+    assert found == 10

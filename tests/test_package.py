@@ -1,9 +1,12 @@
 """What a user of the solver installs: `pip install .`, without what the study needs besides."""
 
+import re
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+import yaml
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -58,3 +61,12 @@ def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert {"run.png", "a.pdf", "b.pdf", "c.gif"} <= {file.name for file in tmp_path.iterdir()}
+
+
+def test_a_release_has_one_version_and_one_date():
+    """In what is installed, in what is cited, and at the head of what has changed."""
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    latest, date = re.findall(r"^## \[(\d+\.\d+\.\d+)\] - (\S+)$", changes, re.MULTILINE)[0]
+    assert {PROJECT["version"], cited["version"], latest} == {PROJECT["version"]}
+    assert str(cited["date-released"]) == date

@@ -4,6 +4,8 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
+from collections import Counter
 from pathlib import Path
 
 from springblock.accuracy.residuals import ENERGY_TOLERANCE
@@ -13,6 +15,7 @@ from springblock.scene import Scene
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGES = ("claims", "beyond")
 
 
 def test_the_example_runs(tmp_path, monkeypatch):
@@ -34,9 +37,40 @@ def test_the_example_runs(tmp_path, monkeypatch):
     assert abs(names["run"].energy.relative_residual) < ENERGY_TOLERANCE
 
 
+def run(command):
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    subprocess.run(command.split(), cwd=ROOT, env={**os.environ, "PATH": path}, check=True)
+
+
 def test_commands_that_plan_or_explain_run():
     commands = re.findall(r"snakemake -n \w+|springblock \w+ --help", README)
     assert len(commands) >= 2
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     for command in commands:
-        subprocess.run(command.split(), cwd=ROOT, env={**os.environ, "PATH": path}, check=True)
+        run(command)
+
+
+def test_the_grid_of_ones_own_can_be_planned(tmp_path):
+    lines = re.search(r"^    results: .*\n(    .*\n)+", README, re.MULTILINE)
+    (tmp_path / "mine.yaml").write_text(textwrap.dedent(lines[0]))
+    assert "`snakemake --configfile mine.yaml -- figure_6`" in README
+    run(f"snakemake --configfile {tmp_path / 'mine.yaml'} -n -- figure_6")
+
+
+def test_findings_are_those_of_the_pages():
+    """Each value with its interval stands in a page of results, and verdicts are as many."""
+    pages = {name: (ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in PAGES}
+    found = re.findall(r"[-\d.]+ \[[-\d.]+, +[-\d.]+\]", README)
+    assert len(found) == 12
+    assert [value for value in found if not any(value in page for page in pages.values())] == []
+    summary = re.findall(r"^\| \[\d+\. .*? \| \*\*([a-z ]+)\*\*", pages["claims"], re.MULTILINE)
+    verdicts = Counter(summary)
+    said = re.search(
+        r"Of (\d+) statements (\d+) are\s+reproduced, (\d+) depend on .*, (\d+) are not reproduced "
+        r"and (\d+) are not settled",
+        README,
+    )
+    names = ("reproduced", "depends on", "not reproduced", "not settled")
+    assert [int(number) for number in said.groups()] == [
+        verdicts.total(),
+        *(verdicts[name] for name in names),
+    ]

@@ -93,7 +93,8 @@ class Visible:
     def plot(self: Run) -> "Figure":
         """Draw force, detachments, the map of first detachment times, and snapshots if any.
 
-        A matplotlib figure without pyplot: `run.plot().savefig("run.png")`; notebooks show it.
+        A matplotlib figure without pyplot: `run.plot().savefig("run.png")`. Notebooks show it after
+        `%matplotlib inline`.
         """
         return import_module("springblock.pictures.still").draw(self)
 
