@@ -34,5 +34,10 @@ rule all:
         rules.report.output,
     localrule: True
     message:
-        f"The study is complete. Open its report in a browser: {Path(RESULTS, 'report.html').resolve()}\n"
-        f"Its tables and figures are in {RESULTS}"
+        f"The study is complete; its tables and figures are in {RESULTS}"
+
+
+onsuccess:
+    page = Path(RESULTS, "report.html").resolve()
+    if page.exists():
+        print(f"The study's report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)
