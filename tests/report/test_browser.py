@@ -95,6 +95,18 @@ def test_tables_are_searched_and_sorted(study, opened):
     assert firsts[0] < firsts[1]
 
 
+def test_figures_can_be_enlarged_in_their_own_box(study, opened):
+    page = opened(study / "results/report.html")
+    page.locator("nav a[href='#figures']").click()
+    frame = page.locator("#figure_6 .frame")
+    widths = []
+    for _ in range(2):
+        widths.append(frame.locator("img").bounding_box()["width"])
+        frame.press("Enter")
+        assert page.evaluate(OVERFLOW) <= 0
+    assert widths[0] <= frame.bounding_box()["width"] < widths[1]
+
+
 def test_films_wait_until_they_are_started(study, opened):
     page = opened(study / "results/report.html")
     page.locator("nav a[href='#films']").click()

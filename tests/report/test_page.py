@@ -6,14 +6,15 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock import Pattern, draw_friction, simulate
 from springblock.claims import CLAIMS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
+from springblock.cli import main
 from springblock.figures import declarations
 from springblock.report import findings, media, statements, tables, text
 from springblock.report.page import page
 from springblock.scene import Scene
+from springblock.tables import read_records
 
 
 def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
@@ -44,7 +45,8 @@ def test_findings_follow_the_numbers_and_not_the_paper():
     assert "on pillars of n_p = 6, the lowest mean of those simulated: lower by 0.1" in size
     assert re.search("On the largest, n_p = 60, it is .*: higher by 0.0", size)
     order = found["Force and detachments"]
-    assert "before it on the flat surface, n_p = 6; after it on n_p = 60" in order
+    assert "before the mean first detachment on the flat surface and pillars of n_p = 6" in order
+    assert order.endswith("; after it on pillars of n_p = 60.")
     turned = told(realisations(0.64), realisations(0.80, n_p=6, n_s=6))
     assert "the only ones simulated: higher by" in turned["Friction and the size of pillars"]
 
@@ -56,13 +58,16 @@ def test_what_the_intervals_do_not_tell_apart_is_not_said_to_differ():
     single = told(realisations(0.8, seeds=1), realisations(0.6, seeds=1, n_p=6, n_s=6))
     assert "not told apart" in single["Friction and the size of pillars"]
     assert "[no interval]" in single["Friction and the size of pillars"]
-    assert "not told from it on the flat surface" in single["Force and detachments"]
+    assert (
+        "not told from the mean first detachment on the flat surface"
+        in single["Force and detachments"]
+    )
 
 
 def test_grooves_are_compared_along_and_across():
     lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
     along, across = (realisations(f, **lengths, direction=d) for f, d in ((0.7, "x"), (0.6, "y")))
-    assert told(along, across)["Grooves"].endswith("higher 1.")
+    assert told(along, across)["Grooves"].endswith("is higher on 1 of 1 grooved surfaces.")
     (row,) = findings.grooves(findings.main_runs([*along, *across]))
     assert row.surface == "n_p/n_s = 58/62, n_p2/n_s2 = 8/2"
     assert "Grooves" not in told(along)
@@ -108,14 +113,20 @@ def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     assert shown.rows == [["1", ""], ["2", "0.123457"]]
 
 
-def test_a_film_is_told_in_words():
-    contact = Pattern.pillars(12, 3, 3).contact
-    run = simulate(contact, *draw_friction(12, seed=0))
+@pytest.mark.parametrize("duration", [None, 2e-6])
+def test_a_film_is_told_in_words(tmp_path, duration):
+    """What it shows, and nothing where the run ends before the first block lets go."""
+    options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
+    options += [] if duration is None else ["--duration", str(duration)]
+    file = tmp_path / "run.parquet"
+    main(["simulate", *options, "--output", str(file)], standalone_mode=False)
+    (run,) = read_records([file])
     said = media.in_words(run)
-    assert f"{contact.sum()} blocks in contact" in said
-    assert f"The force is largest at {1e6 * run.t_max:.1f} µs" in said
-    short = simulate(contact, *draw_friction(12, seed=0), duration=2e-6)
-    assert media.in_words(short).endswith("None of them lets go.")
+    assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 blocks")
+    if duration is None:
+        assert f"The force is largest at {1e6 * run.t_max:.1f} µs" in said
+    else:
+        assert said.endswith("None of them lets go.")
 
 
 def test_captions_are_those_that_pictures_keep(picture):

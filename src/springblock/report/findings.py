@@ -15,10 +15,11 @@ Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by sc
 
 
 class Finding(NamedTuple):
-    """A finding: its subject, and one or a few sentences."""
+    """A finding: its subject, one or a few sentences, and the figure that shows it."""
 
     subject: str
     text: str
+    figure: str = ""
 
 
 class Size(NamedTuple):
@@ -117,21 +118,29 @@ def _friction(runs: Runs) -> Finding | None:
     if (largest := pillars[-1]) != lowest:
         change = _told(_against(runs, largest, lowest))
         text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs, largest)}: {change}."
-    return Finding("Friction and the size of pillars", text)
+    return Finding("Friction and the size of pillars", text, "figure_6")
 
 
 def _order(runs: Runs) -> Finding | None:
     """Whether the force peaks before or after the mean detachment."""
-    kinds: dict[str, list[str]] = {"before": [], "after": [], "not told from": []}
+    kinds: dict[str, list[Scene]] = {}
     for scene, rows in _family(runs).items():
         lag = mean_interval(_lag(rows))
         kind = "not told from" if _open(lag) else "before" if lag.high < 0.0 else "after"
-        kinds[kind].append(f"n_p = {scene.n_p}" if scene.n_p else "the flat surface")
-    told = [f"{kind} it on {', '.join(names)}" for kind, names in kinds.items() if names]
-    if not told:
+        kinds.setdefault(kind, []).append(scene)
+    if not kinds:
         return None
-    text = f"Beside the mean first detachment, the largest force comes {'; '.join(told)}."
-    return Finding("Force and detachments", text)
+    first, *others = [f"{kind} {{}} on {_listed(scenes)}" for kind, scenes in kinds.items()]
+    told = [first.format("the mean first detachment"), *(other.format("it") for other in others)]
+    text = f"The time of the largest force is {'; '.join(told)}."
+    return Finding("Force and detachments", text, "figure_6")
+
+
+def _listed(scenes: Sequence[Scene]) -> str:
+    """Name flat surfaces and pillars."""
+    pillars = ", ".join(str(scene.n_p) for scene in scenes if scene.n_p)
+    flat = ["the flat surface"] * (not scenes[0].n_p)
+    return " and ".join(flat + [f"pillars of n_p = {pillars}"] * bool(pillars))
 
 
 def _grooves(runs: Runs) -> Finding | None:
@@ -139,12 +148,9 @@ def _grooves(runs: Runs) -> Finding | None:
     found = Counter(_word(_against(runs, *pair)) for pair in _pairs(runs))
     if not found:
         return None
-    told = ", ".join(f"{word} {number}" for word, number in found.items())
-    return Finding(
-        "Grooves",
-        f"Static friction along grooves, against that across them, is on so many grooved surfaces: "
-        f"{told}.",
-    )
+    told = ", ".join(f"{word} on {number}" for word, number in found.items())
+    which = "Static friction along the grooves, compared with that across them, is"
+    return Finding("Grooves", f"{which} {told} of {found.total()} grooved surfaces.", "figure_9")
 
 
 def _energy(runs: Runs) -> Finding | None:

@@ -9,10 +9,10 @@ import numpy as np
 from PIL import Image
 
 from springblock.figures import declarations
+from springblock.figures.caption import sample_in_words
 from springblock.figures.style import MICRO
 from springblock.pictures import film
-from springblock.run import Run
-from springblock.tables import read_records
+from springblock.tables import Record, read_records
 
 _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them
 _SWEEPS = "Sweeps"
@@ -73,11 +73,12 @@ def moving(path: Path, batch: Path) -> Film:
     return Film(path.stem, title, in_words(run), source, _webp(poster), *poster.size)
 
 
-def in_words(run: Run) -> str:
-    """Say what a film of a run shows: when the blocks let go, and where first."""
+def in_words(run: Record) -> str:
+    """Say what a film of a run shows: when how many blocks let go."""
     times = np.sort(run.t_det[np.isfinite(run.t_det)])
     blocks = int(np.count_nonzero(run.contact))
-    said = f"{run.name}: {blocks} blocks in contact."
+    surface = sample_in_words({run.scene: range(run.seed, run.seed + 1)})
+    said = f"{surface} {blocks} blocks are in contact."
     if not times.size:
         return f"{said} None of them lets go."
     shares = (0.0, 0.1, 0.5, 0.9)

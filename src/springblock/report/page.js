@@ -55,6 +55,11 @@ function sort(table, body, rows) {
   });
 }
 
+for (const frame of document.querySelectorAll(".frame")) {
+  const enlarge = () => frame.classList.toggle("large");
+  frame.addEventListener("click", enlarge);
+  frame.addEventListener("keydown", (event) => event.key === "Enter" && enlarge());
+}
 for (const box of document.querySelectorAll("div.table")) {
   const table = box.querySelector("table");
   const rows = [...table.tBodies[0].rows];

@@ -63,6 +63,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         findings=findings.findings(runs),
         sizes=findings.sizes(runs, rows.get("correlation_length", [])),
         grooves=findings.grooves(runs),
+        labels={each.name: each.label for part in parts for each, _ in part.figures},
         n_blocks=next(iter(runs)).n_blocks if runs else 0,
         statements=judged,
         counted=statements.counted(judged),

@@ -9,7 +9,8 @@ from markdown_it.token import Token
 
 from springblock.claims.page import anchor
 
-_MANY = 20  #: chapters from which on they are folded
+_SHORT = 30  #: characters of a cell that stay on one line
+_MANY = 20  #: chapters from which on the numbered ones are folded
 
 
 class Page(NamedTuple):
@@ -39,10 +40,12 @@ def rendered(name: str, markdown: str) -> Page:
 
 
 def _mark(name: str, tokens: Sequence[Token]) -> None:
-    """Give headings their anchors; those of one page must not be another's."""
+    """Give headings their anchors, which must not be another page's, and keep short cells whole."""
     for i, token in enumerate(tokens):
         if token.type == "heading_open":
             token.attrSet("id", f"{name}-{anchor(tokens[i + 1].content)}")
+        if token.type == "td_open" and len(tokens[i + 1].content) <= _SHORT:
+            token.attrSet("class", "short")
         for child in token.children or ():
             target = str(child.attrGet("href") or "")
             if target.startswith("#"):
@@ -50,17 +53,18 @@ def _mark(name: str, tokens: Sequence[Token]) -> None:
 
 
 def _folded(tokens: Sequence[Token]) -> list[Token]:
-    """Fold chapters, each below its heading."""
+    """Fold numbered chapters, each below its heading."""
     folded: list[Token] = []
-    is_open = False
-    for token in tokens:
+    opened = False
+    for i, token in enumerate(tokens):
         if token.tag == "h2" and token.type == "heading_open":
-            folded += _html("</details>" * is_open + "<details><summary>")
-            is_open = True
+            folded += _html("</details>" * opened)
+            opened = tokens[i + 1].content[:1].isdigit()
+            folded += _html("<details><summary>" * opened)
         folded.append(token)
         if token.tag == "h2" and token.type == "heading_close":
-            folded += _html("</summary>")
-    return folded + _html("</details>" * is_open)
+            folded += _html("</summary>" * opened)
+    return folded + _html("</details>" * opened)
 
 
 def _html(text: str) -> list[Token]:
