@@ -36,9 +36,11 @@ test: setup $(if $(CI),browser)
 
 # What is there serves; Chrome does as well. Only this target, and CI, install anything.
 browser:
-	@command -v chromium chromium-browser google-chrome >/dev/null || \
-	    test -d "/Applications/Google Chrome.app" || \
-	    { echo "Installing Chromium by apt-get" && apt-get install --yes --quiet chromium; }
+	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \
+	    command -v $$name >/dev/null && exit; \
+	done; \
+	test -d "/Applications/Google Chrome.app" || \
+	{ echo "Installing Chromium by apt-get" && apt-get install --yes --quiet chromium; }
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup

@@ -9,7 +9,7 @@ from markdown_it.token import Token
 
 from springblock.claims.page import anchor
 
-_SHORT = 30  #: characters of a cell that stay on one line
+_SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
 _MANY = 20  #: chapters from which on the numbered ones are folded
 
 
@@ -44,12 +44,18 @@ def _mark(name: str, tokens: Sequence[Token]) -> None:
     for i, token in enumerate(tokens):
         if token.type == "heading_open":
             token.attrSet("id", f"{name}-{anchor(tokens[i + 1].content)}")
-        if token.type == "td_open" and len(tokens[i + 1].content) <= _SHORT:
-            token.attrSet("class", "short")
+        if token.type == "td_open":
+            token.attrSet("class", _width(tokens[i + 1].content))
         for child in token.children or ():
             target = str(child.attrGet("href") or "")
             if target.startswith("#"):
                 child.attrSet("href", f"#{name}-{target[1:]}")
+
+
+def _width(content: str) -> str:
+    """How wide a cell is to be, as a class of the style sheet."""
+    size = len(content)
+    return "short" if size <= _SHORT else "long" if size > _LONG else "medium"
 
 
 def _folded(tokens: Sequence[Token]) -> list[Token]:
