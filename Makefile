@@ -1,6 +1,8 @@
 # make          set up .venv, then run the whole study with the paper's parameters
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
+# make browser  install Chromium, in which the tests click through the report (as root, on Debian or
+#               Ubuntu); without one they leave that out, where CI is set they fail
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make docs     bring the pages in docs up to date with the study
@@ -19,7 +21,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick test browser bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -27,12 +29,20 @@ all: setup
 quick: setup
 	$(BIN)/snakemake --configfile config/quick.yaml
 
-test: setup
+test: setup $(if $(CI),browser)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+# What is there serves; Chrome does as well. Only this target, and CI, install anything.
+browser:
+	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \
+	    command -v $$name >/dev/null && exit; \
+	done; \
+	test -d "/Applications/Google Chrome.app" || \
+	{ echo "Installing Chromium by apt-get" && apt-get install --yes --quiet chromium; }
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup

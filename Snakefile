@@ -16,6 +16,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/beyond.smk"
+include: "workflow/rules/report.smk"
 
 
 rule all:
@@ -30,6 +31,13 @@ rule all:
             suffix=["pdf", "png"],
         ),
         rules.accuracy.output if config["accuracy"] else [],
+        rules.report.output,
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"
+
+
+onsuccess:
+    page = Path(RESULTS, "report.html").resolve()
+    if page.exists():
+        print(f"The study's report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)

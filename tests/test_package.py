@@ -11,7 +11,7 @@ import yaml
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 #: How packages are imported that are called otherwise.
-MODULES = {"pyyaml": "yaml"}
+MODULES = {"pyyaml": "yaml", "markdown-it-py": "markdown_it"}
 
 USE = """
 import sys

@@ -38,6 +38,12 @@ def test_the_error_study_depends_on_each_of_its_own_modules():
     assert not {"page.py", "block.py"} & compared
 
 
+def test_the_report_depends_on_its_template():
+    found = names("springblock.commands.report")
+    assert {"page.html", "page.css", "page.js", "findings.py"} <= found
+    assert "page.html" not in names("springblock.commands.claims")
+
+
 def test_the_digest_tells_modules_apart_and_is_part_of_the_version():
     assert digest("springblock.material") != digest("springblock.pattern")
     assert code_version("springblock.material").endswith("+" + digest("springblock.material"))

@@ -54,6 +54,15 @@ FIGURES = {
 }
 
 
+FILMS = {"film_flat", "film_pillars", "film_grooves"}
+
+
+def with_sources(study: Path) -> dict[str, str]:
+    """Environment in which the copy's own package comes first."""
+    paths = [str(study / "src"), os.environ.get("PYTHONPATH", "")]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+
+
 def snakemake(
     study: Path, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)
 ) -> subprocess.CompletedProcess[str]:
@@ -61,7 +70,7 @@ def snakemake(
     return subprocess.run(
         [sys.executable, "-m", "snakemake", "--configfile", *configuration, *options],
         cwd=study,
-        env={**os.environ, "PYTHONPATH": str(study / "src")},
+        env=with_sources(study),
         capture_output=True,
         text=True,
         check=False,
@@ -82,16 +91,6 @@ def copied(folder: Path) -> Path:
     for part in ("src", "workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, folder / part)
     shutil.copy(ROOT / "Snakefile", folder)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A finished tiny study in a folder of its own."""
-    folder = copied(tmp_path_factory.mktemp("study"))
-    (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
-    outcome = snakemake(folder)
-    assert outcome.returncode == 0, outcome.stderr
     return folder
 
 
@@ -159,6 +158,8 @@ def test_each_job_leaves_a_log_and_a_benchmark(study):
         "correlation",
         "correlation_length",
         "claims",
+        *FILMS,
+        "report",
         *FIGURES,
     }
     for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
@@ -265,7 +266,7 @@ def test_a_printed_command_runs_by_hand(study):
     (command,) = re.findall(r"^Shell command: (.+)$", outcome.stdout, re.MULTILINE)
     drawn.unlink()
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    by_hand = {**os.environ, "PATH": path, "PYTHONPATH": str(study / "src")}
+    by_hand = {**with_sources(study), "PATH": path}
     subprocess.run(command, shell=True, cwd=study, env=by_hand, check=True)
     assert drawn.exists()
 
@@ -281,7 +282,7 @@ def test_an_edited_solver_runs_the_simulations_again(study, edited):
 
 @pytest.mark.parametrize("edited", ["src/springblock/figures/figure_3.py"], indirect=True)
 def test_an_edited_figure_draws_that_figure_again(study, edited):
-    assert set(planned(study)) == {"figure_3", "all"}
+    assert set(planned(study)) == {"figure_3", "report", "all"}
 
 
 @pytest.mark.parametrize("edited", ["config/README.md"], indirect=True)

@@ -23,6 +23,7 @@ COMMANDS = {
     "claims": "springblock.commands.claims:claims",
     "beyond": "springblock.commands.beyond:beyond",
     "figure": "springblock.commands.figure:figure",
+    "report": "springblock.commands.report:report",
     "info": "springblock.commands.files:info",
     "compare": "springblock.commands.files:compare",
     "dictionary": "springblock.commands.files:dictionary",

@@ -11,6 +11,7 @@ from typing import Any
 
 _PACKAGE = "springblock"
 _ROOT = Path(__file__).parent
+_TEMPLATES = (".html", ".css", ".js")
 
 
 def _file(module: str) -> Path | None:
@@ -43,13 +44,18 @@ def imports(file: Path) -> frozenset[str]:
 
 
 def files(*modules: str) -> list[Path]:
-    """Source files of modules of this package and of all that they import from it."""
+    """Source files of modules of this package and of all that they import from it.
+
+    To a package belong the templates beside it.
+    """
     found: set[Path] = set()
     waiting = list(modules)
     while waiting:
         file = _file(waiting.pop())
         if file and file not in found:
             found.add(file)
+            if file.name == "__init__.py":
+                found.update(path for path in file.parent.iterdir() if path.suffix in _TEMPLATES)
             waiting.extend(imports(file))
     return sorted(found)
 

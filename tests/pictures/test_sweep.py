@@ -43,6 +43,14 @@ def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
     assert any("$n_{p}$ = 20" in name for name in found)
 
 
+def test_the_caption_names_surfaces_and_seeds():
+    runs = [{**at(speed).row, "seed": seed} for speed in SPEEDS[:2] for seed in range(3)]
+    said = sweep.caption(runs)
+    assert said.startswith("Means over realisations with their 95 % t intervals")
+    assert "N = 120, sliding direction x. Flat" in said
+    assert "slider_velocity=0.00025 (seeds 0 to 2)" in said
+
+
 def test_points_are_means_and_bars_t_intervals(two_lines):
     ax = sweep.draw(two_lines, "slider_velocity", ["static_friction"]).axes[0]
     (flat, *_) = (c for c in ax.containers if "level = 0" in str(c.get_label()))

@@ -10,6 +10,7 @@ from snakemake.exceptions import WorkflowError
 
 from springblock import Material, sources, study
 from springblock.figures import declarations
+from springblock.figures.declaration import having
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -54,6 +55,13 @@ SWEEPS = {
 }
 #: Those that the study draws by itself.
 CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
+
+#: What is filmed, by group: the ensemble on the surface that a figure shows.
+FILMS = {
+    group: ENSEMBLE[""][scene.folder]
+    for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
+    for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
+}
 
 # Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
@@ -158,3 +166,9 @@ def is_part_of_all(figure):
     if declared.category not in CATEGORIES:
         return False
     return not declared.upon_request or all(Path(file).exists() for file in needed(figure))
+
+
+def there_already(*files):
+    """Those of these results that have been made, which belongs to no step of the study itself."""
+    results = [Path(RESULTS, file) for file in files]
+    return [str(file) for file in results if file.exists()]

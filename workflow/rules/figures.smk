@@ -13,7 +13,8 @@ for figure, declared in FIGURES.items():
                 f"{RESULTS}/figures/{figure}.png",
                 caption="../report/caption.rst",
                 category=declared.category,
-                labels={"figure": figure.removeprefix("figure_"), "shows": declared.title},
+                # A second label with two values would make the report a blank page.
+                labels={"figure": f"{figure.removeprefix('figure_')}: {declared.title}"},
             ),
         log:
             f"{RESULTS}/logs/{figure}.log",
@@ -47,7 +48,7 @@ for name, sweep in SWEEPS.items():
             png=report(
                 f"{RESULTS}/figures/sweep_{name}.png",
                 category="Sweeps",
-                labels={"figure": name, "shows": f"over {sweep['over']}"},
+                labels={"figure": f"{name}: over {sweep['over']}"},
             ),
         log:
             f"{RESULTS}/logs/sweep_{name}.log",

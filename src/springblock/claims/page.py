@@ -95,17 +95,22 @@ def _contents(numbered: Sequence[tuple[int, Sequence[Row]]]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     parts = []
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
-        lines = [[_link(i, part[0]), _in_short(part[0]), _decided(part)] for i, part in group]
+        lines = [[_link(i, part[0]), _in_short(part[0]), decided(part)] for i, part in group]
         heading = f"### Section {section}: {_SECTIONS[section]}"
         parts += [heading, markdown_table(["statement", "verdict", "what decided it"], lines)]
     return parts
 
 
 def _link(number: int, row: Row) -> str:
-    """A statement's number and name, and the anchor that Markdown gives to them."""
+    """A statement's number and name, and where the page says more of it."""
     heading = f"{number}. {row['claim']}"
+    return f"[{heading}](#{anchor(heading)})"
+
+
+def anchor(heading: str) -> str:
+    """The anchor that Markdown gives to a heading."""
     kept = "".join(c for c in heading.lower() if c.isalnum() or c in " -_")
-    return f"[{heading}](#{kept.replace(' ', '-')})"
+    return kept.replace(" ", "-")
 
 
 def _in_short(row: Row) -> str:
@@ -118,7 +123,7 @@ def _verdict(row: Row) -> str:
     return f"**{row['verdict']}** {row['depends_on']}".strip()
 
 
-def _decided(part: Sequence[Row]) -> str:
+def decided(part: Sequence[Row]) -> str:
     """One sentence: the finding that comes closest to changing the verdict, or settles it."""
     judged = part[0]["verdict"]
     if judged == "not tested":

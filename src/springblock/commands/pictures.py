@@ -68,7 +68,7 @@ def plot(
         else:
             rows = tables.read(files, tables.SUMMARY).to_pylist()
             picture = sweep.draw(rows, over, observables or ["static_friction"])
-            caption = sweep.CAPTION
+            caption = sweep.caption(rows)
         for output in outputs:
             save(picture, output, caption)
 

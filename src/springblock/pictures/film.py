@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from springblock.figures import style
@@ -55,13 +55,13 @@ def write(run: Run, path: Path) -> None:
 
 
 @journal
-def frames(run: Run) -> list[Frame]:
-    """Draw all frames: what stands still once, and on it what moves."""
+def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
+    """Draw the frames of these times in s, or all: what stands still once, and on it what moves."""
     picture, update = scenery(run)
     canvas: Any = FigureCanvasAgg(picture)  # which has no types of its own
     canvas.draw()
     still, drawn, before = canvas.copy_from_bbox(picture.bbox), [], 0.0
-    for now in moments(run):
+    for now in moments(run) if times is None else np.asarray(times, dtype=float):
         canvas.restore_region(still)
         for artist in update(now, before):
             picture.draw_artist(artist)

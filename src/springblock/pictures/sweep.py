@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from springblock.figures import style
+from springblock.figures.caption import sample_in_words
 from springblock.figures.ensembles import FRICTION, LAG
 from springblock.figures.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
 from springblock.figures.sweeps import draw_sweep, powers
@@ -19,10 +20,19 @@ from springblock.scene import LENGTHS, Scene
 from springblock.statistics import mean_interval
 from springblock.tables import AXES, SCENE, SETUP
 
+Names = tuple[tuple[str, str], ...]
+
 CAPTION = """Means over realisations with their 95 % t intervals; a single realisation has none.
 Lines join ensembles that differ in nothing else."""
 
-Names = tuple[tuple[str, str], ...]
+
+def caption(rows: Iterable[Row]) -> str:
+    """Say what is drawn, and of which surfaces and seeds."""
+    seeds: dict[Scene, list[int]] = {}
+    for row in rows:
+        seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
+    sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
+    return f"{' '.join(CAPTION.split())} {sample_in_words(sample)}"
 
 
 class Observable(NamedTuple):

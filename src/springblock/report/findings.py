@@ -1,0 +1,216 @@
+"""What a study has found, in words, from its tables: right for any study, large or small."""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from springblock.beyond.question import number
+from springblock.figures.caption import surface_in_words
+from springblock.figures.style import MICRO
+from springblock.rows import Row
+from springblock.scene import Scene
+from springblock.statistics import Interval, difference_interval, mean_interval
+
+Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
+
+
+class Finding(NamedTuple):
+    """A finding: its subject, one or a few sentences, and the figure that shows it."""
+
+    subject: str
+    text: str
+    figure: str = ""
+
+
+class Size(NamedTuple):
+    """What pillars of one size have come to, each with its interval."""
+
+    surface: str
+    runs: int
+    friction: str
+    lag: str  #: t_max - t_avg, µs
+    along: str  #: l_c of sides along x, blocks; empty where it was not measured
+    across: str
+
+
+class Grooved(NamedTuple):
+    """Static friction along grooves and across them, with intervals."""
+
+    surface: str
+    runs: str
+    along: str
+    across: str
+    difference: str
+
+
+def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
+    """Realisations with the paper's pattern and the study's constants, on the commonest N."""
+    found: dict[Scene, list[Row]] = {}
+    for row in rows:
+        scene = Scene.from_row(row)
+        if scene.is_papers and not scene.varied:
+            found.setdefault(scene, []).append(row)
+    sizes = Counter(scene.n_blocks for scene in found for _ in found[scene])
+    common = max(sizes, key=lambda size: sizes[size], default=0)
+    return {scene: found[scene] for scene in found if scene.n_blocks == common}
+
+
+def findings(runs: Runs) -> list[Finding]:
+    """Say what became of static friction, of its time and of grooves, and of energy."""
+    told = [_friction(runs), _order(runs), _grooves(runs), _energy(runs)]
+    return [finding for finding in told if finding]
+
+
+def sizes(runs: Runs, lengths: Sequence[Row]) -> list[Size]:
+    """Return a row for the flat surface and one for pillars of each size, as far apart as wide."""
+    table = []
+    for scene, rows in _family(runs).items():
+        along, across = (_l_c(scene, side, lengths) for side in "xy")
+        friction = number(_mean(rows, "static_friction"))
+        lag = number(mean_interval(_lag(rows)), factor=MICRO)
+        table.append(Size(_name(scene), len(rows), friction, lag, along, across))
+    return table
+
+
+def grooves(runs: Runs) -> list[Grooved]:
+    """Return a row for each pattern of grooves that was pulled both along them and across."""
+    return [
+        Grooved(
+            surface_in_words(along.lengths),
+            f"{len(runs[along])}, {len(runs[across])}",
+            number(_mean(runs[along], "static_friction")),
+            number(_mean(runs[across], "static_friction")),
+            number(_against(runs, along, across)),
+        )
+        for along, across in _pairs(runs)
+    ]
+
+
+def _pairs(runs: Runs) -> list[tuple[Scene, Scene]]:
+    """Scenes of the same grooved pillars, along the grooves and across them."""
+    grooved = [scene for scene in runs if scene.level == 2]
+    return [
+        (along, across)
+        for along in grooved
+        for across in grooved
+        if (along.direction, across.direction) == ("x", "y") and along.lengths == across.lengths
+    ]
+
+
+def _family(runs: Runs) -> dict[Scene, Sequence[Row]]:
+    """Flat surfaces and pillars with n_s = n_p that slide along x, by size."""
+    plain = [s for s in runs if s.lengths.keys() <= {"n_p", "n_s"} and s.direction == "x"]
+    simple = [s for s in plain if s.n_s == s.n_p]
+    return {scene: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
+
+
+def _friction(runs: Runs) -> Finding | None:
+    """Static friction of flat surfaces and pillars."""
+    scenes = list(_family(runs))
+    if len(scenes) < 2 or scenes[0].n_p:
+        return None
+    flat, *pillars = scenes
+    lowest = min(pillars, key=lambda scene: float(_mean(runs[scene], "static_friction").mean))
+    text = f"Static friction is {_stated(runs, flat)} on a flat surface, and "
+    text += f"{_stated(runs, lowest)} on pillars of n_p = {lowest.n_p}, "
+    text += "the lowest mean of those simulated" if pillars[1:] else "the only ones simulated"
+    text += f": {_told(_against(runs, lowest, flat))}."
+    if (largest := pillars[-1]) != lowest:
+        change = _told(_against(runs, largest, lowest))
+        text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs, largest)}: {change}."
+    return Finding("Friction and the size of pillars", text, "figure_6")
+
+
+def _order(runs: Runs) -> Finding | None:
+    """Whether the force peaks before or after the mean detachment."""
+    kinds: dict[str, list[Scene]] = {}
+    for scene, rows in _family(runs).items():
+        lag = mean_interval(_lag(rows))
+        kind = "not told from" if _open(lag) else "before" if lag.high < 0.0 else "after"
+        kinds.setdefault(kind, []).append(scene)
+    if not kinds:
+        return None
+    first, *others = [f"{kind} {{}} on {_listed(scenes)}" for kind, scenes in kinds.items()]
+    told = [first.format("the mean first detachment"), *(other.format("it") for other in others)]
+    text = f"The time of the largest force is {'; '.join(told)}."
+    return Finding("Force and detachments", text, "figure_6")
+
+
+def _listed(scenes: Sequence[Scene]) -> str:
+    """Name flat surfaces and pillars."""
+    pillars = ", ".join(str(scene.n_p) for scene in scenes if scene.n_p)
+    flat = ["the flat surface"] * (not scenes[0].n_p)
+    return " and ".join(flat + [f"pillars of n_p = {pillars}"] * bool(pillars))
+
+
+def _grooves(runs: Runs) -> Finding | None:
+    """Static friction along grooves and across them."""
+    found = Counter(_word(_against(runs, *pair)) for pair in _pairs(runs))
+    if not found:
+        return None
+    told = ", ".join(f"{word} on {number}" for word, number in found.items())
+    which = "Static friction along the grooves, compared with that across them, is"
+    return Finding("Grooves", f"{which} {told} of {found.total()} grooved surfaces.", "figure_9")
+
+
+def _energy(runs: Runs) -> Finding | None:
+    """How well the balance of energy closes."""
+    errors = [abs(row["energy_error"]) for rows in runs.values() for row in rows]
+    if not errors:
+        return None
+    closes = f"closes to {max(errors):.1e} of the slider's work or better"
+    return Finding("Energy", f"The balance of energy of all {len(errors)} realisations {closes}.")
+
+
+def _mean(rows: Sequence[Row], name: str) -> Interval:
+    return mean_interval([row[name] for row in rows])
+
+
+def _lag(rows: Sequence[Row]) -> list[float]:
+    return [row["t_max"] - row["t_avg"] for row in rows]
+
+
+def _outward(interval: Interval) -> Interval:
+    """The interval of the modulus of what is surely of one sign."""
+    mean, low, high = interval
+    return Interval(mean, low, high) if mean > 0.0 else Interval(mean, high, low)
+
+
+def _against(runs: Runs, first: Scene, second: Scene) -> Interval:
+    samples = ([row["static_friction"] for row in runs[scene]] for scene in (first, second))
+    return difference_interval(*samples)
+
+
+def _open(difference: Interval) -> bool:
+    """Whether an interval tells nothing of a sign."""
+    return not (difference.low > 0.0 or difference.high < 0.0)
+
+
+def _word(difference: Interval) -> str:
+    """Which of two static frictions is less, if the interval of their difference says so."""
+    if _open(difference):
+        return "not told apart"
+    return "lower" if difference.high < 0.0 else "higher"
+
+
+def _told(difference: Interval) -> str:
+    if _open(difference):
+        return f"not told apart by their difference, {number(difference)}"
+    return f"{_word(difference)} by {number(Interval(*map(abs, _outward(difference))))}"
+
+
+def _stated(runs: Runs, scene: Scene) -> str:
+    k = len(runs[scene])
+    return f"{number(_mean(runs[scene], 'static_friction'))} ({k} run{'s' * (k > 1)})"
+
+
+def _name(scene: Scene) -> str:
+    return f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat"
+
+
+def _l_c(scene: Scene, side: str, lengths: Sequence[Row]) -> str:
+    """Correlation length of a scene's sides, if the table has it."""
+    for row in lengths:
+        if row["side"] == side and Scene.from_row(row) == scene:
+            return number(Interval(row["l_c"], row["ci_low"], row["ci_high"]))
+    return ""

@@ -1,0 +1,111 @@
+"""Pictures and films, and what they say of themselves, as parts of a page."""
+
+from base64 import b64encode
+from io import BytesIO
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from PIL import Image
+
+from springblock.figures import declarations
+from springblock.figures.caption import sample_in_words
+from springblock.figures.style import MICRO
+from springblock.pictures import film
+from springblock.tables import Record, read_records
+
+_WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them
+_SWEEPS = "Sweeps"
+
+
+class Picture(NamedTuple):
+    """A figure of the study."""
+
+    name: str  #: of its file: figure_6
+    category: str
+    label: str  #: Figure 6
+    title: str
+    caption: str
+    source: str  #: the picture itself, as an address
+    width: int
+    height: int
+    size: float  #: mm, its width in print
+
+
+class Film(NamedTuple):
+    """A run that moves."""
+
+    name: str
+    title: str
+    text: str  #: what is to be seen, in words
+    source: str
+    poster: str  #: the moment of the force maximum
+    width: int
+    height: int
+
+
+def picture(path: Path) -> Picture:
+    """Read a figure; its caption is the one that the file keeps."""
+    declared, name = declarations().get(path.stem), path.stem
+    with Image.open(path) as file:
+        caption = str(file.info.get("Description", ""))
+        size = 25.4 * file.width / float(file.info.get("dpi", (600.0,))[0])
+        small = file.convert("RGB").reduce(max(1, file.width // _WIDE))
+    return Picture(
+        name=name,
+        category=declared.category if declared else _SWEEPS,
+        label=_label(name),
+        title=declared.title if declared else "",
+        caption=caption,
+        source=_webp(small),
+        width=small.width,
+        height=small.height,
+        size=size,
+    )
+
+
+def moving(path: Path, batch: Path) -> Film:
+    """Read a film of the first run of a batch, and say from the run what it shows."""
+    run = read_records([batch])[0]
+    poster = Image.fromarray(film.frames(run, [run.t_max - run.time[1], run.t_max])[-1])
+    source = _address("video/mp4", path.read_bytes())
+    title = path.stem.capitalize()
+    return Film(path.stem, title, in_words(run), source, _webp(poster), *poster.size)
+
+
+def in_words(run: Record) -> str:
+    """Say what a film of a run shows: when how many blocks let go."""
+    times = np.sort(run.t_det[np.isfinite(run.t_det)])
+    blocks = int(np.count_nonzero(run.contact))
+    surface = sample_in_words({run.scene: range(run.seed, run.seed + 1)})
+    said = f"{surface} {blocks} blocks are in contact."
+    if not times.size:
+        return f"{said} None of them lets go."
+    shares = (0.0, 0.1, 0.5, 0.9)
+    first, tenth, half, most = (MICRO * times[int(x * (times.size - 1))] for x in shares)
+    before = 100.0 * np.count_nonzero(times < run.t_max) / blocks
+    return (
+        f"{said} The first lets go at {first:.1f} µs, a tenth of those that do by {tenth:.1f} µs, "
+        f"half by {half:.1f} µs, nine tenths by {most:.1f} µs. The force is largest at "
+        f"{MICRO * run.t_max:.1f} µs, when {before:.1f} % have let go."
+    )
+
+
+def _label(name: str) -> str:
+    """Figure 6, Angle, ...: the name of a figure without its category."""
+    if name.startswith("figure_"):
+        return name.replace("_", " ").capitalize()
+    category, _, rest = name.partition("_")
+    own = rest if category in ("supplement", "beyond", "sweep") else name
+    return own.replace("_", " ").capitalize()
+
+
+def _webp(image: Image.Image) -> str:
+    """A picture, to the bit, in half the bytes of PNG."""
+    kept = BytesIO()
+    image.save(kept, "WEBP", lossless=True, quality=50, method=4)
+    return _address("image/webp", kept.getvalue())
+
+
+def _address(kind: str, content: bytes) -> str:
+    return f"data:{kind};base64,{b64encode(content).decode()}"

@@ -1,0 +1,119 @@
+"""The page itself, from a template."""
+
+from base64 import b64encode
+from collections.abc import Iterable, Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from springblock.report import findings, media, statements, tables, text
+
+#: Parts of the page and their titles, in order; those of the study's own pages come last, as these
+#: are called by their first heading.
+FIGURES = {
+    "figures": "Figures of the paper",
+    "supplement": "What the paper leaves open",
+    "sweeps": "Sweeps",
+}
+PAGES = {
+    "claims": "What becomes of the paper's statements",
+    "accuracy": "What to trust",
+    "beyond": "Beyond the paper",
+    "benchmark": "How fast",
+    "reliability": "How reliable",
+}
+_HERE = Path(__file__).parent
+
+
+class Part(NamedTuple):
+    """A part of the page: what a page of the study says, and figures with what is said of them."""
+
+    name: str
+    title: str
+    body: str
+    figures: list[tuple[media.Picture, list[statements.Statement]]]
+
+
+def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
+    """Write the page of a study from its pictures, pages and tables, and films with their runs.
+
+    Files are told by their suffix: .png, .md or .parquet.
+
+    Raises
+    ------
+    ValueError
+        Where a file has another suffix.
+    """
+    kinds: dict[str, list[Path]] = {".png": [], ".md": [], ".parquet": []}
+    for file in files:
+        if file.suffix not in kinds:
+            raise ValueError(f"a report shows files of type {', '.join(kinds)}, not {file}")
+        kinds[file.suffix].append(file)
+    data = {file.stem: pq.read_table(file, partitioning=None) for file in kinds[".parquet"]}
+    rows = {name: table.to_pylist() for name, table in data.items()}
+    runs = findings.main_runs(rows.get("realisations", []))
+    judged = statements.statements(rows.get("claims", []))
+    parts = _parts(kinds[".png"], kinds[".md"], judged)
+    return _rendered(
+        findings=findings.findings(runs),
+        sizes=findings.sizes(runs, rows.get("correlation_length", [])),
+        grooves=findings.grooves(runs),
+        labels={each.name: each.label for part in parts for each, _ in part.figures},
+        n_blocks=next(iter(runs)).n_blocks if runs else 0,
+        statements=judged,
+        counted=statements.counted(judged),
+        shown=[part for part in parts if part.name in FIGURES],
+        films=[media.moving(file, batch) for file, batch in films.items()],
+        written=[part for part in parts if part.name not in FIGURES],
+        tables=[tables.shown(name, table) for name, table in data.items()],
+        origin=_origin(data),
+    )
+
+
+def _rendered(**content: Any) -> str:
+    """Fill the template; every string is escaped that is not marked as HTML of our own."""
+    environment = Environment(
+        loader=FileSystemLoader(_HERE),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
+    digest = b64encode(sha256(script.encode()).digest()).decode()
+    return environment.get_template("page.html").render(
+        style=Markup(style), script=Markup(script), digest=digest, **content
+    )
+
+
+def _parts(
+    figures: Iterable[Path], pages: Iterable[Path], judged: Sequence[statements.Statement]
+) -> list[Part]:
+    """Parts of the page that have something to show, in order; a page's figures follow its text."""
+    texts = {file.stem: text.rendered(file.stem, file.read_text("utf-8")) for file in pages}
+    pictures: dict[str, list[media.Picture]] = {}
+    for picture in map(media.picture, sorted(figures)):
+        pictures.setdefault(picture.category.lower(), []).append(picture)
+    titles = FIGURES | PAGES | {name: page.title for name, page in texts.items()}
+    return [
+        Part(
+            name,
+            title,
+            Markup(texts[name].body) if name in texts else "",
+            [(each, statements.of_figure(each.name, judged)) for each in pictures.get(name, [])],
+        )
+        for name, title in titles.items()
+        if name in texts or name in pictures
+    ]
+
+
+def _origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
+    """What made the table of realisations."""
+    kept = data["realisations"].schema.metadata if "realisations" in data else {}
+    names = {"code version": b"code_version", "configuration": b"configuration_digest"}
+    return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}

@@ -1,0 +1,149 @@
+"""Both reports of a study, clicked through in a browser, wide and narrow."""
+
+import pytest
+
+from springblock.cli import main
+from test_workflow import ROOT, snakemake
+
+#: Pictures and films without words for those who do not see them.
+MUTE = "img:not([alt]), img[alt=''], video:not([aria-label]), video[aria-label='']"
+OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+BROKEN = "[...document.images].filter((i) => i.complete && !i.naturalWidth).length"
+
+
+@pytest.fixture(scope="session")
+def every_page(study, tmp_path_factory):
+    """A report of the tiny study with those pages, too, that only a whole study has."""
+    results, output = study / "results", tmp_path_factory.mktemp("report") / "report.html"
+    pages = [results / "claims.md", ROOT / "docs/accuracy.md", ROOT / "docs/beyond.md"]
+    figures, tables = (sorted(results.glob(kind)) for kind in ("figures/*.png", "tables/*.parquet"))
+    files = map(str, [*figures, *tables, *pages])
+    main(["report", *files, "--output", str(output)], standalone_mode=False)
+    return output
+
+
+@pytest.fixture(scope="session")
+def snakemakes(study, tmp_path_factory):
+    """Snakemake's own report."""
+    file = tmp_path_factory.mktemp("snakemake") / "report.html"
+    outcome = snakemake(study, "--report", str(file))
+    assert outcome.returncode == 0, outcome.stderr
+    return file
+
+
+def shown(page):
+    """Names of the parts that are to be seen."""
+    return page.locator("section.part").evaluate_all(
+        "parts => parts.filter((part) => part.checkVisibility()).map((part) => part.id)"
+    )
+
+
+def click_through(page):
+    """Visit every part, and open all that is folded."""
+    names = page.locator("nav a").evaluate_all("links => links.map((a) => a.hash.slice(1))")
+    for name in names:
+        page.locator(f"nav a[href='#{name}']").click()
+        assert shown(page) == [name]
+        for fold in page.locator(f"#{name} details:not([open]) > summary").element_handles():
+            fold.click()
+        assert page.evaluate(OVERFLOW) <= 0, name
+        assert page.locator(MUTE).count() == page.evaluate(BROKEN) == 0, name
+    return names
+
+
+def test_every_part_of_the_report_is_shown(study, opened):
+    names = click_through(opened(study / "results/report.html"))
+    assert names == ["overview", "figures", "supplement", "films", "claims", "tables"]
+
+
+def test_every_page_of_a_whole_study_is_shown(every_page, opened):
+    names = click_through(opened(every_page))
+    assert {"claims", "accuracy", "beyond"} <= set(names)
+
+
+def test_a_link_to_a_statement_opens_it(study, opened):
+    page = opened(study / "results/report.html")
+    statement = page.locator("#overview .statement").first
+    statement.locator("summary").click()
+    link = statement.get_by_text("All that was found")
+    target = page.locator(f"[id='{link.get_attribute('href')[1:]}']")
+    link.click()
+    assert shown(page) == ["claims"]
+    assert target.locator("xpath=ancestor::details").get_attribute("open") is not None
+
+
+def test_tables_are_searched_and_sorted(study, opened):
+    page = opened(study / "results/report.html")
+    page.locator("nav a[href='#tables']").click()
+    table = page.locator("#table-claims")
+    table.locator("summary").click()
+    rows = table.locator("tbody tr:visible")
+    everything = rows.count()
+    table.locator("input[type=search]").fill("pillars FLAT")
+    assert 0 < rows.count() < everything
+    found = [text.lower() for text in rows.all_inner_texts()]
+    assert all("flat" in text and "pillars" in text for text in found)
+    table.locator("input[type=search]").fill("nothing holds this")
+    assert rows.count() == 0
+    table.locator("input[type=search]").fill("")
+    head = table.locator("th", has_text="section")
+    firsts = []
+    for _ in "up", "down":
+        head.locator("button").click()
+        column = head.evaluate("head => head.cellIndex")
+        firsts.append(float(table.locator("tbody tr").first.locator("td").nth(column).inner_text()))
+    assert firsts[0] < firsts[1]
+
+
+def test_figures_can_be_enlarged_in_their_own_box(study, opened):
+    page = opened(study / "results/report.html")
+    page.locator("nav a[href='#figures']").click()
+    frame = page.locator("#figure_6 .frame")
+    widths = []
+    for _ in range(2):
+        widths.append(frame.locator("img").bounding_box()["width"])
+        frame.press("Enter")
+        assert page.evaluate(OVERFLOW) <= 0
+    assert widths[0] <= frame.bounding_box()["width"] < widths[1]
+
+
+def test_films_wait_until_they_are_started(study, opened):
+    page = opened(study / "results/report.html")
+    page.locator("nav a[href='#films']").click()
+    assert page.locator("video").count() == 3
+    for film in page.locator("video").all():
+        assert film.evaluate("film => film.paused && film.controls && !film.autoplay")
+        film.evaluate("film => film.play()")
+        page.wait_for_function("film => film.currentTime > 0", arg=film.element_handle())
+
+
+def test_without_scripts_all_parts_can_be_read(study, browser):
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto((study / "results/report.html").as_uri())
+    for name in ("overview", "figures", "films", "claims", "tables"):
+        assert page.locator(f"#{name} h1").is_visible()
+    context.close()
+
+
+def test_snakemakes_report_shows_every_result(snakemakes, opened):
+    page = opened(snakemakes)
+    menu = page.locator("a.block")
+    entries = menu.all_inner_texts()
+    assert {"Figures", "Supplement"} <= set(entries)
+    for i, entry in enumerate(entries):
+        page.reload()
+        menu.nth(i).click()
+        results = page.locator("a[iconname=eye]")
+        page.wait_for_timeout(200)
+        assert page.locator("body").inner_text().strip(), f"{entry} leaves the page blank"
+        assert (results.count() > 0) == (entry in ("Figures", "Supplement"))
+        for result in results.all():
+            result.click()
+            page.locator("img").first.wait_for()
+
+
+def test_what_looks_like_html_does_nothing(nasty, opened):
+    page = opened(nasty)
+    assert page.locator("img[src=x]").count() == 0
+    assert page.evaluate("[...document.querySelectorAll('[onerror]')].length") == 0

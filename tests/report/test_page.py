@@ -1,0 +1,153 @@
+"""What the report says, and that it takes nothing for its own that was only given to it."""
+
+import re
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from springblock.claims import CLAIMS
+from springblock.claims.rule import Evidence
+from springblock.claims.table import rows
+from springblock.cli import main
+from springblock.figures import declarations
+from springblock.report import findings, media, statements, tables, text
+from springblock.report.page import page
+from springblock.scene import Scene
+from springblock.tables import read_records
+
+
+def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
+    """Rows of a table of realisations, with so much static friction and t_max - t_avg."""
+    scene = Scene(120, **lengths)
+    return [
+        {
+            **scene.row,
+            "static_friction": friction + scatter * np.sin(seed),
+            "t_max": 1e-4 + lag + 1e-8 * np.cos(seed),
+            "t_avg": 1e-4,
+            "energy_error": -1e-5,
+        }
+        for seed in range(seeds)
+    ]
+
+
+def told(*samples):
+    runs = findings.main_runs([row for sample in samples for row in sample])
+    return {finding.subject: finding.text for finding in findings.findings(runs)}
+
+
+def test_findings_follow_the_numbers_and_not_the_paper():
+    flat, pillars = realisations(0.80), realisations(0.64, n_p=6, n_s=6)
+    large = realisations(0.72, lag=3e-6, n_p=60, n_s=60)
+    found = told(flat, pillars, large)
+    size = found["Friction and the size of pillars"]
+    assert "on pillars of n_p = 6, the lowest mean of those simulated: lower by 0.1" in size
+    assert re.search("On the largest, n_p = 60, it is .*: higher by 0.0", size)
+    order = found["Force and detachments"]
+    assert "before the mean first detachment on the flat surface and pillars of n_p = 6" in order
+    assert order.endswith("; after it on pillars of n_p = 60.")
+    turned = told(realisations(0.64), realisations(0.80, n_p=6, n_s=6))
+    assert "the only ones simulated: higher by" in turned["Friction and the size of pillars"]
+
+
+def test_what_the_intervals_do_not_tell_apart_is_not_said_to_differ():
+    """Means that differ by less than their scatter, and single runs, which have none."""
+    close = told(realisations(0.7, scatter=0.1), realisations(0.701, scatter=0.1, n_p=6, n_s=6))
+    assert "not told apart" in close["Friction and the size of pillars"]
+    single = told(realisations(0.8, seeds=1), realisations(0.6, seeds=1, n_p=6, n_s=6))
+    assert "not told apart" in single["Friction and the size of pillars"]
+    assert "[no interval]" in single["Friction and the size of pillars"]
+    assert (
+        "not told from the mean first detachment on the flat surface"
+        in single["Force and detachments"]
+    )
+
+
+def test_grooves_are_compared_along_and_across():
+    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
+    along, across = (realisations(f, **lengths, direction=d) for f, d in ((0.7, "x"), (0.6, "y")))
+    assert told(along, across)["Grooves"].endswith("is higher on 1 of 1 grooved surfaces.")
+    (row,) = findings.grooves(findings.main_runs([*along, *across]))
+    assert row.surface == "n_p/n_s = 58/62, n_p2/n_s2 = 8/2"
+    assert "Grooves" not in told(along)
+
+
+def test_constants_of_their_own_are_left_out_of_the_findings():
+    varied = realisations(0.5, varied=(("pressure", 1e5),))
+    assert findings.main_runs(varied) == {}
+    assert told() == {}
+
+
+def test_each_statement_belongs_to_one_figure():
+    named = [name for names in statements.OF_FIGURES.values() for name in names]
+    assert sorted(named) == sorted(claim.name for claim in CLAIMS)
+    assert statements.OF_FIGURES.keys() <= declarations().keys()
+
+
+def test_statements_link_to_where_their_page_says_more():
+    from springblock.claims.page import page as claims_page
+
+    table = rows(CLAIMS, Evidence())
+    body = text.rendered("claims", claims_page(table)).body
+    made = statements.statements(table)
+    assert statements.counted(made) == {"not tested": len(CLAIMS)}
+    assert all(f'id="{statement.anchor}"' in body for statement in made)
+
+
+def test_links_and_headings_of_a_page_are_its_own():
+    title, body = text.rendered("a", "# T\n\n[to](#the-end) [out](https://x.org)\n\n## The end\n")[
+        1:
+    ]
+    assert title == "T"
+    assert '<a href="#a-the-end">to</a>' in body
+    assert '<h2 id="a-the-end">' in body
+    assert 'href="https://x.org"' in body
+
+
+def test_a_table_leaves_out_what_is_the_same_in_all_rows():
+    table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
+    shown = tables.shown("t", table)
+    assert shown.same == ["b = 5"]
+    assert [column.name for column in shown.columns] == ["a", "c"]
+    assert shown.rows == [["1", ""], ["2", "0.123457"]]
+
+
+@pytest.mark.parametrize("duration", [None, 2e-6])
+def test_a_film_is_told_in_words(tmp_path, duration):
+    """What it shows, and nothing where the run ends before the first block lets go."""
+    options = ["--n-blocks", "12", "--n-p", "3", "--n-s", "3", "--first-seed", "4"]
+    options += [] if duration is None else ["--duration", str(duration)]
+    file = tmp_path / "run.parquet"
+    main(["simulate", *options, "--output", str(file)], standalone_mode=False)
+    (run,) = read_records([file])
+    said = media.in_words(run)
+    assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 blocks")
+    if duration is None:
+        assert f"The force is largest at {1e6 * run.t_max:.1f} µs" in said
+    else:
+        assert said.endswith("None of them lets go.")
+
+
+def test_captions_are_those_that_pictures_keep(picture):
+    written = page([picture("figure_6.png", "N = 120, seeds 0 to 19.")], {})
+    assert "<figcaption>N = 120, seeds 0 to 19.</figcaption>" in written
+    assert declarations()["figure_6"].title in written
+
+
+def test_nothing_given_becomes_part_of_the_page(nasty):
+    """Names of files, captions, tables and pages may hold what looks like HTML."""
+    text = nasty.read_text(encoding="utf-8")
+    assert "<img src=x" not in text
+    assert 'href="javascript:' not in text
+    assert text.count("&lt;img src=x") >= 8
+
+
+def test_a_page_of_the_same_files_has_the_same_bytes(picture):
+    files = [picture("figure_1.png", "a"), picture("stability.png", "b")]
+    assert page(files, {}) == page(files, {})
+
+
+def test_a_file_that_is_neither_picture_page_nor_table_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"of type \.png, \.md, \.parquet, not .*notes\.txt"):
+        page([tmp_path / "notes.txt"], {})

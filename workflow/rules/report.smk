@@ -1,0 +1,65 @@
+# Films of the slip front, and the page that shows the study: films, figures, pages and tables.
+
+for surface, shown in FILMS.items():
+
+    rule:
+        name:
+            f"film_{surface}"
+        input:
+            batches([shown])[:1],
+        output:
+            f"{RESULTS}/films/{surface}.mp4",
+        log:
+            f"{RESULTS}/logs/film_{surface}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/film_{surface}.tsv"
+        resources:
+            mem_mb=1000,
+            runtime=5,
+        params:
+            code=sources.digest("springblock.commands.pictures"),
+        message:
+            f"Filming the slip front: {surface}"
+        shell:
+            "springblock animate {input:q} --output {output:q} > {log:q} 2>&1"
+
+
+rule report:
+    input:
+        pictures=expand(
+            f"{RESULTS}/figures/{{figure}}.png",
+            figure=[*filter(is_part_of_all, FIGURES), *sweeps("")],
+        ),
+        further=there_already(
+            *(f"figures/{figure}.png" for figure in FIGURES if part_of(figure)),
+            *(f"figures/{figure}.png" for figure in sweeps("beyond/")),
+            *("beyond.md", "benchmark.md", "reliability.md", "tables/benchmark.parquet"),
+        ),
+        tables=[rules.aggregate.input, CORRELATIONS, rules.claims.output],
+        accuracy=(
+            [rules.accuracy.output, rules.accuracy.input.tables[:2], AT_FULL_SIZE]
+            if config["accuracy"]
+            else []
+        ),
+        films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
+        runs=[batches([shown])[0] for shown in FILMS.values()],
+    output:
+        f"{RESULTS}/report.html",
+    log:
+        f"{RESULTS}/logs/report.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/report.tsv"
+    resources:
+        mem_mb=1500,
+        runtime=5,
+    params:
+        code=sources.digest("springblock.commands.report"),
+        films=lambda wildcards, input: " ".join(
+            f"--film {quote(film)} {quote(run)}"
+            for film, run in zip(input.films, input.runs, strict=True)
+        ),
+    message:
+        "Writing the report"
+    shell:
+        "springblock report {input.pictures:q} {input.further:q} {input.tables:q} "
+        "{input.accuracy:q} {params.films} --output {output:q} > {log:q} 2>&1"
