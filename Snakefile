@@ -16,6 +16,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/beyond.smk"
+include: "workflow/rules/origins.smk"
 
 
 rule all:
@@ -33,3 +34,9 @@ rule all:
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"
+
+
+onsuccess:
+    from springblock import audit
+
+    audit.write_manifest(Path(RESULTS), config, Path(workflow.basedir, "environment.lock"))

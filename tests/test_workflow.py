@@ -69,12 +69,12 @@ def snakemake(
 
 
 def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dict[str, int]:
-    """Jobs that a dry run announces, by rule."""
+    """Jobs that a dry run announces, by rule; without the one that writes down their origins."""
     outcome = snakemake(study, "--dry-run", *options, **configuration)
     assert outcome.returncode == 0, outcome.stderr
     table = re.search(r"job +count\n-+  -+\n(.*?)\n\n", outcome.stdout + outcome.stderr, re.DOTALL)
     rows = table.group(1).splitlines() if table else []
-    return {name: int(count) for name, count in map(str.split, rows) if name != "total"}
+    return {name: int(count) for name, count in map(str.split, rows) if name not in ("total", "origins")}
 
 
 def copied(folder: Path) -> Path:

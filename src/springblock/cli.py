@@ -24,6 +24,8 @@ COMMANDS = {
     "figure": "springblock.commands.figure:figure",
     "info": "springblock.commands.files:info",
     "compare": "springblock.commands.files:compare",
+    "verify": "springblock.commands.audit:verify",
+    "repair": "springblock.commands.audit:repair",
     "dictionary": "springblock.commands.files:dictionary",
 }
 
