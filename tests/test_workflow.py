@@ -74,7 +74,9 @@ def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dic
     assert outcome.returncode == 0, outcome.stderr
     table = re.search(r"job +count\n-+  -+\n(.*?)\n\n", outcome.stdout + outcome.stderr, re.DOTALL)
     rows = table.group(1).splitlines() if table else []
-    return {name: int(count) for name, count in map(str.split, rows) if name not in ("total", "origins")}
+    return {
+        name: int(count) for name, count in map(str.split, rows) if name not in ("total", "origins")
+    }
 
 
 def copied(folder: Path) -> Path:
@@ -155,6 +157,7 @@ def test_batches_hold_the_curves_that_the_figures_draw(study):
 def test_each_job_leaves_a_log_and_a_benchmark(study):
     jobs = {
         "compile-leapfrog",
+        "origins",
         "aggregate",
         "correlation",
         "correlation_length",

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,6 +14,7 @@ from springblock.surfaces import BlockMap
 from springblock.tables import load, origin_of
 
 #: Files that carry a checksum, and the command that makes them; the first that fits counts.
+#: What is computed from others comes after them.
 _SEALED = {
     "realisations/**/*.parquet": "simulate",
     "preludes/**/*.npz": "simulate",
@@ -23,10 +24,10 @@ _SEALED = {
     "accuracy/*.parquet": "measure",
     "tables/**/correlation*.parquet": "correlation",
     "tables/**/realisations.parquet": "aggregate",
-    "tables/claims.parquet": "claims",
     "tables/work_precision.parquet": "measure",
     "tables/production.parquet": "production",
     "tables/stability.parquet": "stability",
+    "tables/claims.parquet": "claims",
 }
 #: Files that carry none.
 _OTHERS = ("figures/*", "*.md")
@@ -43,10 +44,12 @@ class Fault(NamedTuple):
 
 def faults(results: Path) -> Iterator[Fault]:
     """Files that are not whole, not in their place, or outdated, as they tell themselves."""
+    unusable: set[Path] = set()
     for file, command in _sealed(results).items():
         try:
-            _check(file, command)
+            _check(file, command, unusable)
         except (OSError, ValueError) as error:
+            unusable.add(file.resolve())
             yield Fault(file, str(error))
 
 
@@ -127,7 +130,7 @@ def _files(results: Path) -> dict[str, str]:
     return {file.relative_to(results).as_posix(): digest for file, digest in digests.items()}
 
 
-def _check(file: Path, command: str) -> None:
+def _check(file: Path, command: str, unusable: Container[Path]) -> None:
     """Raise ValueError, in one sentence, for a file that cannot be used."""
     if command == "mask":
         read_sealed(file)
@@ -138,17 +141,18 @@ def _check(file: Path, command: str) -> None:
     else:
         made_by = origin_of(load(file))
         version = made_by.get("code_version", "")
-        _check_inputs(file, json.loads(made_by.get("inputs", "{}")))
+        for name, before in json.loads(made_by.get("inputs", "{}")).items():
+            _check_input(file, (file.parent / name).resolve(), before, unusable)
     if version.rpartition("+")[2] != _code(command):
         raise ValueError(f"{file} was made by other code, {version}; {MENDING}")
 
 
-def _check_inputs(file: Path, inputs: Mapping[str, str]) -> None:
-    """Refuse a table whose inputs have changed; those that are missing will be made again."""
-    for name, before in inputs.items():
-        source = file.parent / name
-        if source.exists() and seal(source) != before:
-            raise ValueError(f"{file} was computed from another {source.resolve()}; {MENDING}")
+def _check_input(file: Path, source: Path, before: str, unusable: Container[Path]) -> None:
+    """Refuse a table whose input has changed or cannot be used; inputs may be missing."""
+    if source in unusable:
+        raise ValueError(f"{file} was computed from {source}, which cannot be used; {MENDING}")
+    if source.exists() and seal(source) != before:
+        raise ValueError(f"{file} was computed from another {source}; {MENDING}")
 
 
 @cache

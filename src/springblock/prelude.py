@@ -22,7 +22,7 @@ from springblock.asperities import log_share_above
 from springblock.checks import checked_surface
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
-from springblock.files import BLANK, read_sealed, write_sealed
+from springblock.files import BLANK, MENDING, read_sealed, write_sealed
 from springblock.material import Material
 from springblock.origin import check_origin, results_of
 from springblock.setup import PAPER, Setup
@@ -91,7 +91,7 @@ class Prelude:
         """
         content = read_sealed(path)
         if not zipfile.is_zipfile(io.BytesIO(content)):
-            raise ValueError(f"{path} is no prelude")
+            raise ValueError(f"{path} is no prelude; {MENDING}")
         with np.load(io.BytesIO(content)) as stored:
             loaded = cls(**{name: _together(stored[name]) for name in stored})
         if results := results_of(path, f"{loaded.scene or 'no study'}.npz"):

@@ -264,7 +264,7 @@ def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     try:
         file = pq.ParquetFile(pa.BufferReader(content))
     except pa.ArrowInvalid:
-        raise ValueError(f"{path} is no table (Parquet)") from None
+        raise ValueError(f"{path} is no table (Parquet); {MENDING}") from None
     present = file.schema_arrow.names
     missing = [name for name in columns or () if name not in present]
     if missing:

@@ -9,6 +9,8 @@ rule origins:
         ABSENT,
     log:
         f"{RESULTS}/logs/origins.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/origins.tsv"
     localrule: True
     message:
         "Writing down what results are made of"
