@@ -3,6 +3,8 @@
 # make test     set up .venv, then check and test the code
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
+# make verify   hold results/ against its checksums, its manifest, the code and the lock file of today
+# make soak     kill the quick study ten times at random moments: its tables must stay the same
 # make docs     bring the pages in docs up to date with the study
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
 # make clean    remove .venv and caches; results/ stays
@@ -17,7 +19,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench bench-release docs setup lock clean
+.PHONY: all quick test verify soak bench bench-release docs setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -31,6 +33,12 @@ test: setup
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+verify: setup
+	$(BIN)/springblock verify results --lock environment.lock
+
+soak: setup
+	$(BIN)/python tests/soak.py
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup

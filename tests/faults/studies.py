@@ -51,7 +51,7 @@ class Study(NamedTuple):
 
     def command(self, *options: str, targets: tuple[str, ...] = TARGETS) -> list[str]:
         files = ["--configfile", "tiny.yaml"]
-        return [sys.executable, "-m", "snakemake", "--cores", "1", *files, *options, "--", *targets]
+        return [sys.executable, "-m", "snakemake", *files, "--cores", "1", *options, "--", *targets]
 
     @property
     def environment(self) -> dict[str, str]:
@@ -93,9 +93,12 @@ class Study(NamedTuple):
             file.write("\n# another line\n")
 
     @property
-    def tables(self) -> dict[str, list]:
+    def tables(self) -> dict[str, str]:
         """All numbers of all tables, as text: NaN are alike."""
-        files = sorted((self.results / "tables").glob("*.parquet"))
+        return self.tables_in("results")
+
+    def tables_in(self, results: str) -> dict[str, str]:
+        files = sorted((self.folder / results / "tables").glob("*.parquet"))
         return {file.name: repr(pq.read_table(file).to_pylist()) for file in files}
 
 
