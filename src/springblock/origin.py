@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from springblock.files import MENDING
+from springblock.files import MENDING, whole_file
 from springblock.sources import configuration_digest
 
 #: Files whose folder names a scene, in the results folder of a study.
@@ -28,10 +28,10 @@ def origin(results: str | Path, name: str, code: str, conditions: Mapping[str, A
 
 def remember(file: Path, conditions: Mapping[str, Any]) -> None:
     """Write down conditions in the file that `origin` names, in place of what was there before."""
-    file.parent.mkdir(parents=True, exist_ok=True)
     for before in file.parent.glob("*.json"):
         before.unlink()
-    file.write_text(json.dumps(conditions, indent=1), encoding="utf-8")
+    with whole_file(file) as partial:
+        partial.write_text(json.dumps(conditions, indent=1), encoding="utf-8")
 
 
 def results_of(path: Path, place: str) -> Path | None:
@@ -68,9 +68,11 @@ def check_origin(path: Path, results: Path, scene: str, made_by: Mapping[str, st
         raise ValueError(f"{path} was made by other code than its study is; {MENDING}")
     if "configuration" not in made_by:
         return
-    ours, theirs = (
-        _flat(json.loads(text)) for text in (kept.read_text("utf-8"), made_by["configuration"])
-    )
+    try:
+        ours = _flat(json.loads(kept.read_text(encoding="utf-8")))
+    except ValueError:
+        raise ValueError(f"{kept} is damaged; remove it, and its scene is made again") from None
+    theirs = _flat(json.loads(made_by["configuration"]))
     other = [name for name in ours | theirs if ours.get(name) != theirs.get(name)]
     if other:
         raise ValueError(

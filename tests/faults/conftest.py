@@ -13,7 +13,7 @@ from springblock.cli import main
 def undisturbed(tmp_path_factory) -> Study:
     """A finished study, which no test changes."""
     study = Study(tmp_path_factory.mktemp("faults") / "study")
-    for part in ("src", "workflow", "config", "profiles"):
+    for part in ("workflow", "config", "profiles"):
         shutil.copytree(ROOT / part, study.folder / part)
     for file in ("Snakefile", "environment.lock"):
         shutil.copy(ROOT / file, study.folder)

@@ -55,7 +55,11 @@ class Study(NamedTuple):
 
     @property
     def environment(self) -> dict[str, str]:
-        return {**os.environ, "PYTHONPATH": str(self.folder / "src")}
+        """With the sources of all, which need not be compiled again, or with edited ones."""
+        own = self.folder / "src"
+        source = str(own if own.exists() else ROOT / "src")
+        others = os.environ.get("PYTHONPATH", "")
+        return {**os.environ, "PYTHONPATH": os.pathsep.join([source, others])}
 
     def start(
         self, *options: str, targets: tuple[str, ...] = TARGETS, **how
@@ -89,6 +93,7 @@ class Study(NamedTuple):
 
     def edit(self, module: str) -> None:
         """Change the code."""
+        shutil.copytree(ROOT / "src", self.folder / "src")
         with (self.folder / "src/springblock" / module).open("a") as file:
             file.write("\n# another line\n")
 

@@ -179,7 +179,8 @@ def test_results_that_cannot_be_written_stop_the_study(study, undisturbed):
     said = study.run(refused=True, preexec_fn=without_rights)
     assert "ermission denied" in said
     assert "Traceback" not in said
-    folder.chmod(0o755)
+    if folder.exists():  # Snakemake may have removed it, empty as it is
+        folder.chmod(0o755)
     study.run()
     assert study.tables == undisturbed.tables
 
