@@ -120,8 +120,10 @@ def test_a_job_that_outlives_its_run_does_no_harm(study, undisturbed):
 def test_two_runs_in_one_folder_are_refused(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
+    os.killpg(run.pid, signal.SIGSTOP)  # it takes its time
     said = study.run(refused=True)
     assert "locked" in said.lower()
+    os.killpg(run.pid, signal.SIGCONT)
     run.communicate()
     assert run.returncode == 0
     assert study.tables == undisturbed.tables
@@ -256,10 +258,15 @@ def test_results_of_older_code_are_made_again_without_metadata(study, clock):
     assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
 
 
-def test_a_clock_set_back_in_a_changed_study_ends_in_the_same_tables(study, undisturbed, tmp_path):
-    """Changed while the clock was right, and changed back when it was not."""
+@linux
+def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):
+    """By the command that the page has."""
     date_back(study)
     without(study, BATCH, TABLE)
+    assert "has older modification time" in study.run(refused=True)
+    text = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+    (command,) = re.findall(r"^    (find .*)$", text, re.MULTILINE)
+    subprocess.run(command, shell=True, cwd=study.folder, check=True)
     study.run()
     assert study.tables == undisturbed.tables
 

@@ -2,7 +2,6 @@ import fcntl
 import os
 import platform
 import re
-import shutil
 import sys
 from contextlib import suppress
 from itertools import chain
@@ -76,12 +75,13 @@ def unlock():
     keeps while nobody holds the file is nobody's.
     """
     os.makedirs(".snakemake", exist_ok=True)
-    hand, locks = open(".snakemake/alive", "a+"), Path(".snakemake/locks")
+    hand, locks = open(".snakemake/alive", "a+"), [*Path(".snakemake/locks").glob("*.lock")]
     try:
         fcntl.flock(hand, fcntl.LOCK_EX | fcntl.LOCK_NB)
         hand.seek(0)
-        if not any(locks.glob("*")) or hand.read() == platform.node():
-            shutil.rmtree(locks, ignore_errors=True)
+        if not locks or hand.read() == platform.node():
+            for lock in locks:
+                lock.unlink(missing_ok=True)
             hand.truncate(0)
             hand.write(platform.node())
             hand.flush()
