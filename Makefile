@@ -5,6 +5,8 @@
 #               Ubuntu); without one they leave that out, where CI is set they fail
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
+# make verify   hold results/ against its checksums, its manifest, the code and the lock file of today
+# make soak     kill the quick study ten times at random moments: its tables must stay the same
 # make docs     bring the pages in docs up to date with the study
 # make archive  pack the study, code and results, into one file to deposit
 # make redraw   draw all figures and pages again from results at hand, as those of an archive
@@ -21,7 +23,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test browser bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick test browser verify soak bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -42,7 +44,14 @@ browser:
 	    command -v $$name >/dev/null && exit; \
 	done; \
 	test -d "/Applications/Google Chrome.app" || \
-	{ echo "Installing Chromium by apt-get" && apt-get install --yes --quiet chromium; }
+	{ echo "Installing Chromium by apt-get" && apt-get update --quiet && \
+	  apt-get install --yes --quiet --no-install-recommends chromium; }
+
+verify: setup
+	$(BIN)/springblock verify results --lock environment.lock
+
+soak: setup
+	$(BIN)/python tests/soak.py
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup

@@ -17,6 +17,7 @@ include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/beyond.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/origins.smk"
 
 
 rule all:
@@ -38,6 +39,10 @@ rule all:
 
 
 onsuccess:
+    from springblock import audit
+
+    audit.write_manifest(Path(RESULTS), config, Path(workflow.basedir, "environment.lock"))
+
     page = Path(RESULTS, "report.html").resolve()
     if page.exists():
         print(f"The study's report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)

@@ -26,6 +26,8 @@ COMMANDS = {
     "report": "springblock.commands.report:report",
     "info": "springblock.commands.files:info",
     "compare": "springblock.commands.files:compare",
+    "verify": "springblock.commands.audit:verify",
+    "repair": "springblock.commands.audit:repair",
     "dictionary": "springblock.commands.files:dictionary",
     "archive": "springblock.commands.archive:archive_study",
 }

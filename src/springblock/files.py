@@ -1,9 +1,18 @@
-"""Writing files whole or not at all."""
+"""Files that are whole or absent, and that say themselves whether they still are."""
 
 import contextlib
+import hashlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
+
+#: What mends a file of a study that cannot be used.
+MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again"
+
+_MARK = b"springblock-sha256:"
+#: Stands once in content to be sealed, where the digest of all of it goes.
+BLANK = _MARK + 64 * b"0"
+_TAIL = 2**16  #: bytes at the end of a file among which its seal is looked for first
 
 
 @contextlib.contextmanager
@@ -16,3 +25,60 @@ def whole_file(path: Path) -> Iterator[Path]:
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
+
+
+def write_sealed(path: Path, content: bytes | memoryview) -> None:
+    """Write content whole or not at all, with the digest of all of it in place of `BLANK`.
+
+    Parquet has room for it in its metadata, a zip archive in its comment, and after the numbers
+    of a .npy nobody reads on.
+    """
+    whole = bytearray(content)
+    whole[_place(whole)] = hashlib.sha256(whole).hexdigest().encode()
+    with whole_file(path) as partial:
+        partial.write_bytes(whole)
+
+
+def read_sealed(path: Path) -> bytes:
+    """Read what `write_sealed` wrote.
+
+    Raises
+    ------
+    ValueError
+        Where a single bit is not as it was written, naming the command that mends it.
+    """
+    whole = path.read_bytes()
+    if not whole:
+        raise ValueError(f"{path} is empty; {MENDING}")
+    try:
+        place = _place(whole)
+    except ValueError:
+        raise ValueError(
+            f"{path} is no whole table (Parquet), prelude or mask of springblock's: it has no "
+            f"checksum, like files of other or older origin and those cut short; {MENDING}"
+        ) from None
+    blank, view = BLANK[len(_MARK) :], memoryview(whole)
+    digest = hashlib.sha256(view[: place.start])
+    digest.update(blank)
+    digest.update(view[place.stop :])
+    if digest.hexdigest().encode() != whole[place]:
+        raise ValueError(f"{path} is damaged: its content does not fit its checksum; {MENDING}")
+    return whole
+
+
+def seal(path: Path) -> str:
+    """What a sealed file says that its digest is, 16 hexadecimal digits; '' where it says none."""
+    with path.open("rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - _TAIL))
+        end = file.read()
+        if _MARK not in end:
+            file.seek(0)
+            end = file.read()
+    return end[_place(end)][:16].decode("ascii", "replace") if _MARK in end else ""
+
+
+def _place(content: bytes | bytearray) -> slice:
+    """Where the digest stands; raises ValueError where there is none."""
+    start = content.rindex(_MARK) + len(_MARK)
+    return slice(start, start + len(BLANK) - len(_MARK))

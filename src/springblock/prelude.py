@@ -7,8 +7,10 @@ contact, which rest. A realisation may start from the latest state whose maxima 
 its own thresholds: it is then, to the last bit, where it would have come from zero.
 """
 
+import io
 import json
 import math
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,8 +22,9 @@ from springblock.asperities import log_share_above
 from springblock.checks import checked_surface
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
-from springblock.files import whole_file
+from springblock.files import BLANK, MENDING, read_sealed, write_sealed
 from springblock.material import Material
+from springblock.origin import check_origin, results_of
 from springblock.setup import PAPER, Setup
 from springblock.solver import on_cores
 from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
@@ -54,6 +57,8 @@ class Prelude:
     peak: Array  #: (k, blocks in contact) running maximum of |F_mot|²
     ledger: Array  #: (k, 3)
     force: Array  #: (2, samples of the last state) components of ΣF_s
+    scene: str = ""  #: folder of its scene, where a command has computed it
+    code_version: str = ""  #: that made it, the same
 
     @property
     def surface(self) -> str:
@@ -68,15 +73,30 @@ class Prelude:
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
         parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}
-        with whole_file(path) as partial, partial.open("wb") as file:
-            np.savez_compressed(file, **parts)
+        content = io.BytesIO()
+        np.savez_compressed(content, **parts)
+        with zipfile.ZipFile(content, "a") as archive:
+            archive.comment = BLANK
+        write_sealed(path, content.getbuffer())
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
-        """Read what `save` wrote."""
-        with np.load(path) as stored:
-            parts = {name: _together(stored[name]) for name in stored if name != "conditions"}
-            return cls(conditions=str(stored["conditions"]), **parts)
+        """Read what `save` wrote.
+
+        Raises
+        ------
+        ValueError
+            With one sentence, where it is not as it was written, is none, or is not that of the
+            scene and the code that its place in a study says.
+        """
+        content = read_sealed(path)
+        if not zipfile.is_zipfile(io.BytesIO(content)):
+            raise ValueError(f"{path} is no prelude; {MENDING}")
+        with np.load(io.BytesIO(content)) as stored:
+            loaded = cls(**{name: _together(stored[name]) for name in stored})
+        if results := results_of(path, f"{loaded.scene or 'no study'}.npz"):
+            check_origin(path, results, loaded.scene, vars(loaded))
+        return loaded
 
     def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
         """Move `state`, at rest so far, on to the latest stored state that is valid for it.
@@ -112,8 +132,10 @@ def _apart(part: Any) -> NDArray[Any]:
     return np.moveaxis(np.ascontiguousarray(whole)[..., None].view(np.uint8), -1, 0)
 
 
-def _together(stored: NDArray[Any]) -> NDArray[Any]:
+def _together(stored: NDArray[Any]) -> Any:
     """What `_apart` has taken apart, to the bit."""
+    if stored.dtype.kind == "U":
+        return str(stored)
     if stored.dtype != np.uint8:
         return stored
     return np.ascontiguousarray(np.moveaxis(stored, 0, -1)).view(np.float64)[..., 0]

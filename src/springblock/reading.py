@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import pyarrow.parquet as pq
+import pyarrow as pa
 
-from springblock.tables import SNAPSHOTS, Record, read_records
-from springblock.tables import read as read_columns
+from springblock.tables import SNAPSHOTS, Record, load, read_records
 
 
 def read(path: str | Path) -> list[Record]:
@@ -21,17 +20,16 @@ def read(path: str | Path) -> list[Record]:
     FileNotFoundError
         Where there is no such file.
     ValueError
-        Where it is no such file, naming what it lacks.
+        Where it is no such file, naming what it lacks, or is not as it was written.
     """
-    records = read_records([Path(path)])
-    if "snapshots" not in pq.read_schema(path).names:
+    records, table = read_records([Path(path)]), load(Path(path))
+    if "snapshots" not in table.column_names:
         return records
-    return list(_with_snapshots(records, Path(path)))
+    return list(_with_snapshots(records, table))
 
 
-def _with_snapshots(records: list[Record], path: Path) -> Iterator[Record]:
-    table = read_columns([path], SNAPSHOTS)
-    seeds = pq.read_table(path, columns=["seed"], partitioning=None)["seed"].to_pylist()
+def _with_snapshots(records: list[Record], table: pa.Table) -> Iterator[Record]:
+    seeds = table["seed"].to_pylist()
     for record in records:
         stored = table.slice(seeds.index(record.seed), 1)
         times, fields = (stored[name][0].values.to_numpy() for name in SNAPSHOTS.names)

@@ -1,7 +1,7 @@
 """How a surface is computed: the layer, the integrator and its times."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -51,6 +51,11 @@ class Setup:
         """Constants of the material, integrator, step and sample interval, by name."""
         own = {field.name: getattr(self, field.name) for field in fields(self)}
         return {**dict(own.pop("material").items()), **own}
+
+    def conditions(self, duration: float | None) -> dict[str, Any]:
+        """All that a realisation depends on besides its scene and its seed; None: till its peak."""
+        times = {"step": float(self.step), "sample_interval": float(self.sample_interval)}
+        return {**asdict(self), **times, "duration": None if duration is None else float(duration)}
 
     @property
     def method(self) -> Integrator:

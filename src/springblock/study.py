@@ -192,6 +192,16 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     return found
 
 
+def conditions(configuration: Configuration, ensemble: Ensemble) -> dict[str, Any]:
+    """What the realisations of an ensemble depend on besides scene, seed and code.
+
+    Batches keep the same, as `configuration` of their metadata.
+    """
+    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    setup = Setup(Material(**configuration["material"]), **times)
+    return setup.vary(dict(ensemble.scene.varied)).conditions(ensemble.duration)
+
+
 def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
     """Ensembles that figures take by the names of groups: the paper's surfaces.
 

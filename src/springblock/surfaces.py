@@ -10,10 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.files import MENDING, read_sealed, seal
+
 Array = NDArray[Any]
 
 _SHOWN = 5  #: values that a refusal lists
 _MOST = 2**27  #: blocks that are read, eight times what the solver takes
+_IS_NAMED = re.compile(r".*-[0-9a-f]{8}")  #: with the digest that a study puts there
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: of images, by Pillow's names
 
 
@@ -102,7 +105,10 @@ class BlockMap:
             )
         if not found.any():
             raise ValueError(f"{file} must have a block in contact: it is zero, or black, all over")
-        return cls(_name(file, values != 0), values != 0, file)
+        name = _name(file, values != 0)
+        if seal(file) and _IS_NAMED.fullmatch(file.stem) and name != file.stem:
+            raise ValueError(f"{file} holds another mask, {name}; {MENDING}")
+        return cls(name, values != 0, file)
 
     @classmethod
     def coefficients(cls, file: Path) -> "BlockMap":
@@ -139,6 +145,8 @@ def _array(file: Path) -> Array:
     """Read an array of two dimensions; anything but plain numbers is never loaded."""
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
+    if seal(file):  # cut from a topography
+        read_sealed(file)
     try:
         values = np.load(file, mmap_mode="r", allow_pickle=False)
     except (ValueError, OSError, EOFError):

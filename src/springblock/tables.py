@@ -1,22 +1,23 @@
 """Parquet files: their columns, what they mean, and reading them back."""
 
+import json
+import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from springblock.files import whole_file
+from springblock.files import BLANK, MENDING, read_sealed, seal, write_sealed
 from springblock.material import Material
+from springblock.origin import check_origin, results_of
 from springblock.run import Visible
 from springblock.scene import Scene
-
-if TYPE_CHECKING:  # read here by those who draw, and only then
-    import pandas as pd
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
@@ -208,8 +209,12 @@ SNAPSHOTS = pa.schema(
 )
 
 
-def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
+def write(
+    table: pa.Table, path: Path, metadata: Mapping[str, str], inputs: Iterable[Path] = ()
+) -> None:
     """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
+
+    Of `inputs`, the files that it was computed from, it keeps the places and the checksums.
 
     Raises
     ------
@@ -218,21 +223,27 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     """
     if not table.num_rows:
         raise ValueError(f"there is nothing to write to {path}")
-    described = table.replace_schema_metadata(dict(metadata))
+    own = {"checksum": BLANK.decode()}
+    if inputs:
+        own["inputs"] = json.dumps(
+            {os.path.relpath(file, path.parent): seal(file) for file in inputs}
+        )
+    described = table.replace_schema_metadata({**metadata, **own})
     # curves and fields: their numbers hardly repeat, but their leading bytes do
     split = [
         f"{field.name}.list.element"
         for field in table.schema
         if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
     ]
-    with whole_file(path) as partial:
-        pq.write_table(
-            described,
-            partial,
-            compression="zstd",
-            use_dictionary=not split,
-            use_byte_stream_split=split,
-        )
+    content = pa.BufferOutputStream()
+    pq.write_table(
+        described,
+        content,
+        compression="zstd",
+        use_dictionary=not split,
+        use_byte_stream_split=split,
+    )
+    write_sealed(path, memoryview(content.getvalue()))
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
@@ -259,23 +270,76 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
     return pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(packed)])
 
 
+def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+    """Read one file that `write` wrote; all its columns, or these.
+
+    Raises
+    ------
+    ValueError
+        With one sentence, where it is not as it was written, lacks a column, or is not the file of
+        its scene, its seeds, its study's configuration and code that its place says.
+    """
+    content = read_sealed(path)
+    try:
+        file = pq.ParquetFile(pa.BufferReader(content))
+    except pa.ArrowInvalid:
+        raise ValueError(f"{path} is no table (Parquet); {MENDING}") from None
+    present = file.schema_arrow.names
+    missing = [name for name in columns or () if name not in present]
+    if missing:
+        raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
+    table = file.read(columns)
+    _check_place(path, table)
+    return table
+
+
+def origin_of(table: pa.Table) -> dict[str, str]:
+    """What made a table: its metadata as text."""
+    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
+
+
+def _check_place(path: Path, table: pa.Table) -> None:
+    """Refuse a file of a scene that lies where another belongs."""
+    if not set(SCENE.names) <= set(table.column_names):
+        return
+    first, last = re.fullmatch(r"seeds-(\d+)-(\d+)|.*", path.stem).groups()  # type: ignore[union-attr]
+    for row in table.group_by(SCENE.names).aggregate([]).to_pylist():
+        scene = Scene.from_row(row).folder
+        results = results_of(path, f"{scene}/{path.name}")
+        if results is None:
+            return
+        if first is not None:
+            check_origin(path, results, scene, origin_of(table))
+    if first is not None and table["seed"].to_pylist() != [*range(int(first), int(last) + 1)]:
+        raise ValueError(f"{path} does not hold the seeds {first} to {last}; {MENDING}")
+
+
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
     """Read the columns of `schema` from several files of one study, one after another.
 
     Raises
     ------
     ValueError
-        Where a file lacks a column, naming both; or where two were computed differently.
+        As `load` does; or where two were computed differently, or by different code.
     """
-    tables, paths = [], list(paths)
-    for path in paths:
-        present = pq.read_schema(path)
-        missing = [name for name in schema.names if name not in present.names]
-        if missing:
-            raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present.names}")
-        tables.append(pq.read_table(path, columns=schema.names, partitioning=None).cast(schema))
+    paths = list(paths)
+    tables = [load(path, schema.names) for path in paths]
     refuse_mixture(zip(paths, tables, strict=True))
-    return pa.concat_tables(tables)
+    _refuse_mixed_code(zip(paths, tables, strict=True))
+    return pa.concat_tables([table.cast(schema) for table in tables])
+
+
+def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    known: dict[str, Path] = {}
+    for path, table in tables:
+        version = origin_of(table).get("code_version", "")
+        known.setdefault(version.rpartition("+")[2], path)
+    if len(known) > 1:
+        (one, first), (other, second), *_ = known.items()
+        raise ValueError(
+            f"{first} and {second} must be made by the same code; theirs is {one} and {other}; "
+            f"of the older one, {MENDING}"
+        )
 
 
 def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
@@ -342,11 +406,6 @@ class Record(Visible):
     def name(self) -> str:
         """Its scene and its seed."""
         return f"{self.scene}, seed = {self.seed}"
-
-
-def read_frame(path: Path) -> "pd.DataFrame":
-    """Read a table as a data frame."""
-    return pq.read_table(path, partitioning=None).to_pandas()
 
 
 def _scene(row: pa.Table) -> Scene:

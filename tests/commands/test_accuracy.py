@@ -1,10 +1,10 @@
 """springblock accuracy."""
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
 from precision import precision_rows, production_rows
+from springblock.tables import write
 
 
 @pytest.fixture
@@ -15,7 +15,7 @@ def page(springblock, batch, tmp_path):
         stability = [{"family": "size", "expected": "agrees", "outcome": "agrees"}] * 3
         tables = {"precision": precision_rows(), "stability": stability}
         for name, rows in tables.items():
-            pq.write_table(pa.Table.from_pylist(rows), tmp_path / name)
+            write(pa.Table.from_pylist(rows), tmp_path / name, {})
         files = (*(tmp_path / name for name in tables), batch(0, 0))
         springblock("accuracy", *files, *options, "--output", tmp_path / "page.md")
         return (tmp_path / "page.md").read_text(encoding="utf-8")
@@ -36,7 +36,7 @@ def test_without_errors_at_full_size_the_page_says_how_to_measure_them(page):
 
 
 def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tmp_path):
-    pq.write_table(pa.Table.from_pylist(production_rows()), tmp_path / "production")
+    write(pa.Table.from_pylist(production_rows()), tmp_path / "production", {})
     text = page("--production", tmp_path / "production")
     assert "this page was written without" not in text
     # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16

@@ -3,7 +3,7 @@
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from springblock.tables import SUMMARY
+from springblock.tables import SUMMARY, write
 
 CONFIGURATION = ("--configuration", "0123")
 
@@ -28,7 +28,7 @@ def test_a_realisation_given_twice_is_refused(springblock, batch, tmp_path):
 def test_a_large_energy_residual_is_reported(springblock, batch, tmp_path):
     table = pq.read_table(batch(0, 0))
     where = table.schema.get_field_index("energy_error")
-    pq.write_table(table.set_column(where, "energy_error", pa.array([0.25])), tmp_path / "bad")
+    write(table.set_column(where, "energy_error", pa.array([0.25])), tmp_path / "bad", {})
     output = ("--output", tmp_path / "a")
     said = springblock("aggregate", tmp_path / "bad", *CONFIGURATION, *output)
     assert said.startswith("warning: energy residual 2.5e-01 at n_blocks = 12, level = 0")
@@ -37,7 +37,7 @@ def test_a_large_energy_residual_is_reported(springblock, batch, tmp_path):
 def test_what_is_no_batch_is_refused(springblock, batch, tmp_path):
     (text := tmp_path / "text").write_text("text")
     narrow = tmp_path / "narrow"
-    pq.write_table(pq.read_table(batch(0, 0), columns=["level"]), narrow)
+    write(pq.read_table(batch(0, 0), columns=["level"]), narrow, {})
     output = (*CONFIGURATION, "--output", tmp_path / "a")
     assert "Parquet" in springblock("aggregate", text, *output, refused=True)
     assert f"{narrow} lacks the column 'n_p'" in springblock(

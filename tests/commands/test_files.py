@@ -6,6 +6,7 @@ import pytest
 
 from springblock.comparison import compare
 from springblock.dictionary import tables
+from springblock.tables import write
 
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
@@ -36,7 +37,7 @@ def changed(file, to, **columns):
         table = table.set_column(
             at, table.schema.field(at), pa.array(values, table.schema.types[at])
         )
-    pq.write_table(table.take(list(range(table.num_rows))[::-1]), to)
+    write(table.take(list(range(table.num_rows))[::-1]), to, {})
     return to
 
 
@@ -63,7 +64,7 @@ def test_curves_of_other_lengths_and_missing_rows_are_differences(batch, tmp_pat
 
 def test_tables_of_other_columns_are_not_compared(springblock, batch, tmp_path):
     table = pq.read_table(batch(0, 2), partitioning=None)
-    pq.write_table(table.drop_columns(["t_avg"]), tmp_path / "b")
+    write(table.drop_columns(["t_avg"]), tmp_path / "b", {})
     assert "t_avg" in springblock("compare", batch(0, 2), tmp_path / "b", refused=True)
 
 

@@ -6,6 +6,7 @@ from PIL import Image
 
 from springblock.figures import style
 from springblock.pictures import film
+from springblock.tables import write
 
 
 @pytest.fixture(autouse=True)
@@ -66,6 +67,6 @@ def test_what_holds_no_runs_is_refused(springblock, batch, tmp_path):
     (text := tmp_path / "text").write_text("text")
     assert "Parquet" in springblock("plot", text, "--output", tmp_path / "a.png", refused=True)
     narrow = tmp_path / "narrow"
-    pq.write_table(pq.read_table(batch(0, 1), columns=["level"]), narrow)
+    write(pq.read_table(batch(0, 1), columns=["level"]), narrow, {})
     refusal = springblock("animate", narrow, "--output", tmp_path / "a.gif", refused=True)
     assert f"{narrow} lacks the column 'n_p'" in refusal

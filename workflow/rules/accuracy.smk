@@ -8,6 +8,7 @@ COMPILED = rules.compile.input
 rule compare_scene:
     input:
         COMPILED,
+        made_of("steps/compare_scene", "springblock.commands.measure"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -22,8 +23,6 @@ rule compare_scene:
     resources:
         mem_mb=600,
         runtime=20,
-    params:
-        code=sources.digest("springblock.commands.measure"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
@@ -45,7 +44,8 @@ rule compare:
 
 rule precision_table:
     input:
-        rules.compare.input,
+        made_of("steps/precision_table", "springblock.commands.collect"),
+        tables=rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
     log:
@@ -55,17 +55,16 @@ rule precision_table:
     resources:
         mem_mb=400,
         runtime=5,
-    params:
-        code=sources.digest("springblock.commands.collect"),
     message:
         "Collecting errors and run times in one table"
     shell:
-        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule production_scene:
     input:
         COMPILED,
+        made_of("steps/production_scene", "springblock.commands.production"),
     output:
         f"{RESULTS}/accuracy/production/{{scene}}.parquet",
     log:
@@ -77,8 +76,6 @@ rule production_scene:
     resources:
         mem_mb=800,
         runtime=30,
-    params:
-        code=sources.digest("springblock.commands.production"),
     message:
         "Measuring errors of ensembles at full size: {wildcards.scene}"
     shell:
@@ -87,7 +84,8 @@ rule production_scene:
 
 rule production_table:
     input:
-        expand(rules.production_scene.output, scene=conventions.SCENES),
+        made_of("steps/production_table", "springblock.commands.collect"),
+        tables=expand(rules.production_scene.output, scene=conventions.SCENES),
     output:
         f"{RESULTS}/tables/production.parquet",
     log:
@@ -97,12 +95,10 @@ rule production_table:
     resources:
         mem_mb=400,
         runtime=5,
-    params:
-        code=sources.digest("springblock.commands.collect"),
     message:
         "Collecting errors at full size in one table"
     shell:
-        "springblock collect {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule production:
@@ -121,6 +117,7 @@ rule production:
 rule stability_table:
     input:
         COMPILED,
+        made_of("steps/stability_table", "springblock.commands.stability"),
     output:
         f"{RESULTS}/tables/stability.parquet",
     log:
@@ -130,8 +127,6 @@ rule stability_table:
     resources:
         mem_mb=1000,
         runtime=10,
-    params:
-        code=sources.digest("springblock.commands.stability"),
     message:
         "Trying stiff and extreme cases"
     shell:
@@ -144,6 +139,7 @@ AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).
 
 rule accuracy:
     input:
+        made_of("steps/accuracy", "springblock.commands.accuracy"),
         tables=[
             rules.precision_table.output,
             rules.stability_table.output,
@@ -160,7 +156,6 @@ rule accuracy:
         mem_mb=400,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.accuracy"),
         production="--production" if AT_FULL_SIZE else "",
     message:
         "Writing down what to trust"

@@ -7,7 +7,8 @@ BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 rule beyond_page:
     input:
-        lambda wildcards: simulated_beyond(BEYOND_GROUPS),
+        made_of("steps/beyond", "springblock.commands.beyond"),
+        batches=lambda wildcards: simulated_beyond(BEYOND_GROUPS),
     output:
         f"{RESULTS}/beyond.md",
     log:
@@ -17,12 +18,10 @@ rule beyond_page:
     resources:
         mem_mb=2500,
         runtime=10,
-    params:
-        code=sources.digest("springblock.commands.beyond"),
     message:
         "Answering questions beyond the paper"
     shell:
-        "springblock beyond {input:q} --output {output:q} > {log:q} 2>&1"
+        "springblock beyond {input.batches:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule beyond:

@@ -24,6 +24,7 @@ CLAIM_ENSEMBLES = ensembles(CLAIM_PARTS[-1], CLAIM_GROUPS)
 rule claims:
     input:
         *CLAIM_TABLES.values(),
+        made_of("steps/claims", "springblock.commands.claims", configuration=CONFIGURATION),
         batches=batches(CLAIM_ENSEMBLES),
         preludes=[
             f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
@@ -41,8 +42,7 @@ rule claims:
         mem_mb=1500,
         runtime=10,
     params:
-        code=sources.digest("springblock.commands.claims"),
-        configuration=sources.configuration_digest(config),
+        configuration=CONFIGURATION,
         preludes=lambda wildcards, input: " ".join(
             f"--prelude {quote(file)}" for file in input.preludes
         ),

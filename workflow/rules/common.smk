@@ -1,6 +1,9 @@
+import fcntl
 import os
+import platform
 import re
 import sys
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from shlex import quote
@@ -8,7 +11,7 @@ from shlex import quote
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import Material, sources, study
+from springblock import Material, origin, sources, study
 from springblock.figures import declarations
 from springblock.figures.declaration import having
 
@@ -63,8 +66,55 @@ FILMS = {
     for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
 }
 
+CONFIGURATION = sources.configuration_digest(config)
+#: Code that realisations are computed with.
+SIMULATING = sources.digest("springblock.commands.simulate")
+#: What is made of code and conditions whose digests these files have in their names, by the file.
+ORIGINS = {}
+
 # Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
+
+
+def unlock():
+    """Remove the lock of a run that was killed on this machine; hold up a hand for our own.
+
+    The kernel lets go of a file of a process that ends, whatever ended it. A lock that Snakemake
+    keeps while nobody holds the file is nobody's.
+    """
+    os.makedirs(".snakemake", exist_ok=True)
+    hand, locks = open(".snakemake/alive", "a+"), [*Path(".snakemake/locks").glob("*.lock")]
+    try:
+        fcntl.flock(hand, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        hand.seek(0)
+        if not locks or hand.read() == platform.node():
+            for lock in locks:
+                lock.unlink(missing_ok=True)
+            hand.truncate(0)
+            hand.write(platform.node())
+            hand.flush()
+    except OSError:  # another run holds it, or the file system knows no such thing
+        pass
+    with suppress(OSError):
+        fcntl.flock(hand, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    return hand
+
+
+ALIVE = unlock() if workflow.is_main_process else None
+
+
+def made_of(name, *modules, code=None, **conditions):
+    """File whose name changes with the code of these modules and with conditions."""
+    code = code or sources.digest(*modules)
+    file = origin.origin(RESULTS, name, code, conditions).as_posix()
+    ORIGINS[file] = conditions
+    return file
+
+
+SCENE_ORIGIN = {
+    folder: made_of(folder, code=SIMULATING, **study.conditions(config, ensemble))
+    for folder, ensemble in EVERY.items()
+}
 
 
 def batches(members):

@@ -1,6 +1,7 @@
 rule correlation_scene:
     input:
-        lambda wildcards: batches([ENSEMBLE[wildcards.part][wildcards.scene]]),
+        made_of("steps/correlation", "springblock.commands.correlation"),
+        batches=lambda wildcards: batches([ENSEMBLE[wildcards.part][wildcards.scene]]),
     output:
         correlation=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation.parquet",
         length=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation_length.parquet",
@@ -11,12 +12,10 @@ rule correlation_scene:
     resources:
         mem_mb=800,
         runtime=5,
-    params:
-        code=sources.digest("springblock.commands.correlation"),
     message:
         "Correlating detachment times along the sides of {wildcards.part}{wildcards.scene}"
     shell:
-        "springblock correlation {input:q} --output-correlation {output.correlation:q} "
+        "springblock correlation {input.batches:q} --output-correlation {output.correlation:q} "
         "--output-length {output.length:q} > {log:q} 2>&1"
 
 
@@ -30,7 +29,8 @@ rule correlation:
 
 rule correlations_table:
     input:
-        lambda wildcards: correlations(wildcards.table, wildcards.part),
+        made_of("steps/correlations", "springblock.commands.collect", configuration=CONFIGURATION),
+        tables=lambda wildcards: correlations(wildcards.table, wildcards.part),
     output:
         f"{RESULTS}/tables/{{part}}{{table}}.parquet",
     log:
@@ -43,12 +43,11 @@ rule correlations_table:
         mem_mb=400,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.correlation"),
-        configuration=sources.configuration_digest(config),
+        configuration=CONFIGURATION,
     message:
         "Collecting correlations in one table: {wildcards.part}{wildcards.table}"
     shell:
-        "springblock collect {input:q} --configuration {params.configuration} "
+        "springblock collect {input.tables:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
 
 

@@ -6,7 +6,15 @@ for figure, declared in FIGURES.items():
         name:
             figure
         input:
-            lambda wildcards, figure=figure: list(needed(figure)),
+            made_of(
+                f"figures/{figure}",
+                "springblock.commands.figure",
+                f"springblock.figures.{figure}",
+                options=declared.source.options(
+                    config["n_blocks"], config["figures"].get(figure, {})
+                ),
+            ),
+            data=lambda wildcards, figure=figure: list(needed(figure)),
         output:
             pdf=f"{RESULTS}/figures/{figure}.pdf",
             png=report(
@@ -24,14 +32,13 @@ for figure, declared in FIGURES.items():
             mem_mb=700,
             runtime=5,
         params:
-            code=sources.digest("springblock.commands.figure", f"springblock.figures.{figure}"),
             figure=figure,
             options=declared.source.options(config["n_blocks"], config["figures"].get(figure, {})),
             caption=lambda wildcards, figure=figure: caption(figure),
         message:
             f"Drawing {figure}: {declared.title}"
         shell:
-            "springblock figure {params.figure} {params.options} {input:q} "
+            "springblock figure {params.figure} {params.options} {input.data:q} "
             "--caption {params.caption:q} --output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
 
 
@@ -42,7 +49,8 @@ for name, sweep in SWEEPS.items():
         name:
             f"sweep_{name}"
         input:
-            lambda wildcards, groups=sweep["groups"]: batches(ensembles("beyond/", groups)),
+            made_of(f"figures/sweep_{name}", "springblock.pictures.sweep", **sweep),
+            batches=lambda wildcards, groups=sweep["groups"]: batches(ensembles("beyond/", groups)),
         output:
             pdf=f"{RESULTS}/figures/sweep_{name}.pdf",
             png=report(
@@ -58,11 +66,10 @@ for name, sweep in SWEEPS.items():
             mem_mb=700,
             runtime=5,
         params:
-            code=sources.digest("springblock.pictures.sweep"),
             over=sweep["over"],
             of=" ".join(f"--of {observable}" for observable in sweep.get("of", [])),
         message:
             f"Drawing sweep_{name}: over {sweep['over']}"
         shell:
-            "springblock plot {input:q} --over {params.over} {params.of} "
+            "springblock plot {input.batches:q} --over {params.over} {params.of} "
             "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"

@@ -6,7 +6,8 @@ for surface, shown in FILMS.items():
         name:
             f"film_{surface}"
         input:
-            batches([shown])[:1],
+            made_of(f"films/{surface}", "springblock.commands.pictures"),
+            batch=batches([shown])[:1],
         output:
             f"{RESULTS}/films/{surface}.mp4",
         log:
@@ -16,16 +17,15 @@ for surface, shown in FILMS.items():
         resources:
             mem_mb=1000,
             runtime=5,
-        params:
-            code=sources.digest("springblock.commands.pictures"),
         message:
             f"Filming the slip front: {surface}"
         shell:
-            "springblock animate {input:q} --output {output:q} > {log:q} 2>&1"
+            "springblock animate {input.batch:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule report:
     input:
+        made_of("steps/report", "springblock.commands.report"),
         pictures=expand(
             f"{RESULTS}/figures/{{figure}}.png",
             figure=[*filter(is_part_of_all, FIGURES), *sweeps("")],
@@ -53,7 +53,6 @@ rule report:
         mem_mb=1500,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.report"),
         films=lambda wildcards, input: " ".join(
             f"--film {quote(film)} {quote(run)}"
             for film, run in zip(input.films, input.runs, strict=True)

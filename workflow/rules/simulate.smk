@@ -47,7 +47,8 @@ rule compile:
 
 rule mask_topography:
     input:
-        lambda wildcards: str(CUTS[wildcards.mask].topography),
+        made_of("steps/mask", "springblock.commands.mask"),
+        topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
     output:
         f"{RESULTS}/surfaces/{{mask}}.npy",
     log:
@@ -58,12 +59,11 @@ rule mask_topography:
         mem_mb=800,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.mask"),
         cut=lambda wildcards: CUTS[wildcards.mask].arguments,
     message:
         "Cutting a measured surface: {wildcards.mask}"
     shell:
-        "springblock mask {input:q} {params.cut} --output {output:q} > {log:q} 2>&1"
+        "springblock mask {input.topography:q} {params.cut} --output {output:q} > {log:q} 2>&1"
 
 
 rule mask:
@@ -79,6 +79,7 @@ rule prelude_scene:
     input:
         f"{RESULTS}/compiled/{config['integrator']}",
         own_files,
+        lambda wildcards: SCENE_ORIGIN[wildcards.scene],
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:
@@ -89,7 +90,6 @@ rule prelude_scene:
         mem_mb=memory,
         runtime=10,
     params:
-        code=sources.digest("springblock.commands.simulate"),
         scene=scene,
         how=HOW,
     message:
@@ -112,6 +112,7 @@ rule prelude:
 rule simulate_batch:
     input:
         own_files,
+        lambda wildcards: SCENE_ORIGIN[wildcards.scene],
         prelude=rules.prelude_scene.output,
     output:
         f"{RESULTS}/realisations/{{scene}}/seeds-{{first}}-{{last}}.parquet",
@@ -126,7 +127,6 @@ rule simulate_batch:
         mem_mb=memory,
         runtime=30,
     params:
-        code=sources.digest("springblock.commands.simulate"),
         scene=scene,
         how=HOW,
         duration=duration,
@@ -148,7 +148,8 @@ rule simulate:
 
 rule aggregate_part:
     input:
-        lambda wildcards: batches(ensembles(wildcards.part)),
+        made_of("steps/aggregate", "springblock.commands.aggregate", configuration=CONFIGURATION),
+        batches=lambda wildcards: batches(ensembles(wildcards.part)),
     output:
         f"{RESULTS}/tables/{{part}}realisations.parquet",
     log:
@@ -159,12 +160,11 @@ rule aggregate_part:
         mem_mb=600,
         runtime=5,
     params:
-        code=sources.digest("springblock.commands.aggregate"),
-        configuration=sources.configuration_digest(config),
+        configuration=CONFIGURATION,
     message:
         "Collecting realisations in one table: {wildcards.part}realisations"
     shell:
-        "springblock aggregate {input:q} --configuration {params.configuration} "
+        "springblock aggregate {input.batches:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
 
 

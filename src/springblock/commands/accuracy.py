@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import click
-import pyarrow.parquet as pq
 
 from springblock.accuracy.page import page
-from springblock.commands.options import INPUT, OUTPUT
+from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
+from springblock.tables import load
 
 
 @click.command("accuracy")
@@ -21,6 +21,7 @@ def write_page(
 ) -> None:
     """Write the page from the tables PRECISION, STABILITY and REALISATIONS."""
     tables = [precision, stability, realisations] + ([production] if production else [])
-    text = page(*(pq.read_table(table).to_pylist() for table in tables))
-    with whole_file(output) as partial:
-        partial.write_text(text, encoding="utf-8")
+    with one_sentence():
+        text = page(*(load(table).to_pylist() for table in tables))
+        with whole_file(output) as partial:
+            partial.write_text(text, encoding="utf-8")

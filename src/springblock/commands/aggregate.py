@@ -26,7 +26,7 @@ def aggregate(batches: tuple[Path, ...], configuration: str, output: Path) -> No
             which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
             click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
         metadata = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        write(table, output, metadata)
+        write(table, output, metadata, batches)
 
 
 def _refuse_duplicates(table: pa.Table) -> None:

@@ -7,8 +7,6 @@ from typing import Any
 
 import click
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
@@ -22,7 +20,7 @@ from springblock.rows import Row
 from springblock.run import Array
 from springblock.scene import Scene
 from springblock.sources import code_version
-from springblock.tables import Record, read_records, refuse_mixture, rows_to_table, write
+from springblock.tables import Record, load, read_records, refuse_mixture, rows_to_table, write
 
 Records = Mapping[Scene, Sequence[Record]]
 
@@ -36,10 +34,6 @@ def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Sc
     return found
 
 
-def _read(file: Path) -> pa.Table:
-    return pq.read_table(file, partitioning=None)
-
-
 def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
     """Rows of tables by scene: all of the first, of others those of the scenes of `records`.
 
@@ -47,7 +41,7 @@ def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, lis
     """
     found: dict[Scene, list[Row]] = {}
     for i, file in enumerate(files):
-        rows = _by_scene(_read(file).to_pylist(), Scene.from_row)
+        rows = _by_scene(load(file).to_pylist(), Scene.from_row)
         found |= {scene: rows[scene] for scene in rows if i == 0 or scene in records}
     return found
 
@@ -100,17 +94,18 @@ def claims(
     with one_sentence():
         records = _by_scene(read_records(batches), attrgetter("scene"))
         tables = *realisations, *correlation, *correlation_length
-        refuse_mixture((file, _read(file)) for file in (batches[0], *tables))
+        refuse_mixture((file, load(file)) for file in (batches[0], *tables))
         evidence = Evidence(
             records=enough(records),
             summaries=enough(_tables(realisations, records)),
             correlation=enough(_tables(correlation, records)),
             correlation_length=enough(_tables(correlation_length, records)),
             stress=_stress(prelude, records),
-            precision=[row for table in precision for row in _read(table).to_pylist()],
+            precision=[row for table in precision for row in load(table).to_pylist()],
         )
         table = rows(CLAIMS, evidence)
         origin = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        write(rows_to_table(table, SCHEMA), output, origin)
+        inputs = *batches, *tables, *prelude, *precision
+        write(rows_to_table(table, SCHEMA), output, origin, inputs)
         with whole_file(text) as partial:
             partial.write_text(page(table), encoding="utf-8")

@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import click
-import pyarrow.parquet as pq
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
-from springblock.tables import read, write
+from springblock.tables import load, origin_of, read, write
 
 
 @click.command("collect")
@@ -16,12 +15,8 @@ from springblock.tables import read, write
 def collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
     """Collect TABLES of equal columns, made by the same code, in one."""
     with one_sentence():
-        schemas = [pq.read_schema(table) for table in tables]
-        versions = [(each.metadata or {}).get(b"code_version", b"?").decode() for each in schemas]
-        if len({version.rpartition("+")[2] for version in versions}) > 1:
-            named = ", ".join(sorted(set(versions)))
-            raise ValueError(f"the tables must be made by the same code; theirs is {named}")
-        metadata = {"code_version": versions[0]}
+        first = load(tables[0])
+        metadata = {"code_version": origin_of(first)["code_version"]}
         if configuration is not None:
             metadata["configuration_digest"] = configuration
-        write(read(tables, schemas[0].remove_metadata()), output, metadata)
+        write(read(tables, first.schema.remove_metadata()), output, metadata, tables)

@@ -6,7 +6,6 @@ from typing import Any
 
 import click
 import numpy as np
-import pyarrow.parquet as pq
 
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
 from springblock.correlation import Correlation, Length, design_effect, groove_times, side_times
@@ -16,6 +15,8 @@ from springblock.tables import (
     CORRELATION,
     CORRELATION_LENGTH,
     Record,
+    load,
+    origin_of,
     read_records,
     rows_to_table,
     write,
@@ -36,10 +37,10 @@ def correlation(batches: tuple[Path, ...], output_correlation: Path, output_leng
             length = found.length()
             curves += [side | row for row in _curve(found, length)]
             lengths.append(side | _length(length) | {"design_effect": design_effect(times)})
-        digest = pq.read_schema(batches[0]).metadata[b"configuration_digest"].decode()
+        digest = origin_of(load(batches[0], []))["configuration_digest"]
         metadata = {"code_version": code_version(__name__), "configuration_digest": digest}
-        write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
-        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
+        write(rows_to_table(curves, CORRELATION), output_correlation, metadata, batches)
+        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata, batches)
 
 
 def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:

@@ -17,8 +17,8 @@ from springblock.tables import (
     CORRELATION,
     CORRELATION_LENGTH,
     Record,
+    load,
     read,
-    read_frame,
     read_records,
     refuse_mixture,
 )
@@ -60,7 +60,7 @@ _many = partial(_one, nargs=-1, required=True)
 _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     Source: ([], lambda source: []),
     Surface: ([scene_options], lambda source, scene: [scene.pattern]),
-    Table: ([_one("table")], lambda source, table: [read_frame(table)]),
+    Table: ([_one("table")], lambda source, table: [load(table).to_pandas()]),
     Realisations: ([_many("batches")], _realisations),
     Correlations: ([_one("correlation"), _many("lengths")], _correlations),
 }

@@ -1,11 +1,11 @@
 """springblock info, compare and dictionary: what is in a file, and where two differ."""
 
+import json
 import zipfile
 from pathlib import Path
 
 import click
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from springblock import comparison
 from springblock.commands.options import INPUT, OUTPUT, one_sentence
@@ -13,6 +13,7 @@ from springblock.dictionary import columns, page, tables
 from springblock.files import whole_file
 from springblock.prelude import Prelude
 from springblock.scene import Scene
+from springblock.tables import load, origin_of
 
 _SHOWN = 12  #: scenes that are named
 
@@ -38,11 +39,13 @@ def _prelude(file: Path) -> list[str]:
 
 
 def _table(file: Path) -> list[str]:
-    schema, metadata = pq.read_schema(file), pq.read_metadata(file)
-    origin = {key.decode(): value.decode() for key, value in (schema.metadata or {}).items()}
-    lines = [f"{file}: {metadata.num_rows} rows, {len(schema)} columns"]
-    lines += [f"{key}: {value}" for key, value in origin.items() if key != "ARROW:schema"]
-    lines += _scenes(file, schema)
+    table = load(file)
+    schema, origin = table.schema, origin_of(table)
+    if "inputs" in origin:
+        origin["inputs"] = f"{len(json.loads(origin['inputs']))} files"
+    lines = [f"{file}: {table.num_rows} rows, {len(schema)} columns"]
+    lines += [f"{key}: {value}" for key, value in origin.items()]
+    lines += _scenes(table)
     cells = [[cell.strip("`") for cell in line] for line in columns(schema)]
     widths = [max(len(line[i]) for line in cells) for i in range(3)]
     for *short, meaning in cells:
@@ -51,12 +54,11 @@ def _table(file: Path) -> list[str]:
     return lines
 
 
-def _scenes(file: Path, schema: pa.Schema) -> list[str]:
+def _scenes(table: pa.Table) -> list[str]:
     """Scenes that a table holds, and how many rows of each."""
-    if "n_blocks" not in schema.names or "varied" not in schema.names:
+    if not {"n_blocks", "varied"} <= set(table.column_names):
         return []
-    names = [name for name in Scene(1).row if name in schema.names]
-    table = pq.read_table(file, columns=names, partitioning=None)
+    names = [name for name in Scene(1).row if name in table.column_names]
     found = table.group_by(names).aggregate([([], "count_all")]).to_pylist()
     lines = [f"  {Scene.from_row(row).folder}: {row['count_all']}" for row in found]
     more = [f"  and {len(lines) - _SHOWN} more"] if len(lines) > _SHOWN else []
@@ -75,7 +77,7 @@ def compare(first: Path, second: Path) -> None:
     with one_sentence():
         same = True
         for name, *files in _pairs(first, second):
-            found = comparison.compare(*(pq.read_table(file, partitioning=None) for file in files))
+            found = comparison.compare(*map(load, files))
             click.echo(f"{name}: {_in_words(found)}")
             same &= found.same
     if not same:

@@ -119,5 +119,5 @@ def one_sentence() -> Iterator[None]:
     """Report what is wrong with the input in one sentence, without a traceback."""
     try:
         yield
-    except (TypeError, ValueError, RuntimeError) as error:
+    except (OSError, TypeError, ValueError, RuntimeError) as error:
         raise click.ClickException(str(error)) from error

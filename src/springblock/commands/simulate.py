@@ -3,14 +3,13 @@
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import asdict, fields
+from dataclasses import fields, replace
 from functools import partial, wraps
 from pathlib import Path
 from typing import Any
 
 import click
 import pyarrow as pa
-import pyarrow.parquet as pq
 from tqdm import tqdm
 
 from springblock.asperities import draw_friction
@@ -33,7 +32,7 @@ from springblock.setup import Setup
 from springblock.simulation import SimulationError, simulate
 from springblock.solver import INTEGRATORS
 from springblock.sources import code_version, configuration_digest
-from springblock.tables import BATCH, SNAPSHOTS, rows_to_table, write
+from springblock.tables import BATCH, SNAPSHOTS, load, rows_to_table, write
 
 
 def _constants(
@@ -143,7 +142,8 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     with one_sentence():
         known = scene.mu_static_field and scene.mu_static_field.values
         how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
-        compute_prelude(scene.contact, direction=scene.direction, **how).save(output)
+        loaded = compute_prelude(scene.contact, direction=scene.direction, **how)
+        replace(loaded, scene=scene.folder, code_version=code_version(__name__)).save(output)
 
 
 @click.command("simulate")
@@ -191,7 +191,7 @@ def simulate_batch(
     with one_sentence():
         loaded = None if prelude is None else Prelude.read(prelude)
         row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
-        metadata = _metadata({**asdict(setup), **asked})
+        metadata = _metadata(setup.conditions(duration) | asked)
         folder = output.with_name(f"{output.name}.checkpoint")
         if minutes is not None:
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
@@ -219,7 +219,7 @@ def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row]
     """Row of a realisation that is finished in `folder`, or of one that is finished now."""
     file, ours = folder / f"seed={seed}.parquet", json.dumps(belongs)
     if file.exists():
-        table = pq.read_table(file, partitioning=None)
+        table = load(file)
         check_belonging(file, json.loads(table.schema.metadata[b"belongs"]), json.loads(ours))
         return table.to_pylist()[0]
     row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))

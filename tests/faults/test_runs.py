@@ -1,0 +1,304 @@
+"""Runs that are killed, disturbed or outdated: the next `snakemake` ends in the same tables."""
+
+import ctypes
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from faults.damages import BATCH, FLAT, OTHER, PILLARS, PRELUDE, TABLE, flipped, outdated, truncated
+from faults.studies import ROOT, copy
+
+
+def begin(study, *options):
+    """Have the realisations of the flat surface computed again, with what comes after."""
+    without(study, BATCH, TABLE)
+    return study.start(*options)
+
+
+def without(study, *places):
+    """Remove files."""
+    for place in places:
+        (study.results / place).unlink()
+
+
+def until(condition, seconds=300.0):
+    """Wait for something to happen."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it never happened"
+        time.sleep(0.02)
+
+
+def processes(study):
+    """Processes that work in the folder of a study, by their command lines."""
+    found = {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if (folder / "cwd").resolve() == study.folder:
+                found[int(folder.name)] = (folder / "cmdline").read_text()
+        except OSError:
+            continue
+    return found
+
+
+def jobs(study):
+    """Those that simulate."""
+    return [
+        number
+        for number, words in processes(study).items()
+        if "simulate" in words and "springblock" in words and "snakemake" not in words
+    ]
+
+
+def locked(study):
+    return any((study.folder / ".snakemake/locks").glob("*"))
+
+
+def forget(study):
+    """Lose what Snakemake remembers of a study."""
+    shutil.rmtree(study.folder / ".snakemake")
+
+
+def date_back(study, seconds=3600):
+    """Set the clock back: what is there comes from the future."""
+    for file in study.results.rglob("*"):
+        later = file.stat().st_mtime_ns + seconds * 10**9
+        os.utime(file, ns=(later, later), follow_symlinks=False)
+
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+
+
+@linux
+def test_a_killed_job_is_done_again(study, undisturbed):
+    run = begin(study)
+    until(lambda: jobs(study))
+    for number in jobs(study):
+        os.kill(number, signal.SIGKILL)
+    said, _ = run.communicate()
+    assert run.returncode != 0
+    assert "simulate_batch" in said
+    assert not (study.results / BATCH).exists()
+    study.run()
+    assert study.tables == undisturbed.tables
+
+
+@linux
+def test_a_killed_run_goes_on_without_a_word_about_its_lock(study, undisturbed):
+    run = begin(study)
+    until(lambda: jobs(study))
+    os.killpg(run.pid, signal.SIGKILL)
+    run.communicate()
+    assert locked(study)
+    study.run()
+    assert not locked(study)
+    assert study.tables == undisturbed.tables
+
+
+@linux
+def test_a_job_that_outlives_its_run_does_no_harm(study, undisturbed):
+    """Both write the same file, whole."""
+    run = begin(study)
+    until(lambda: jobs(study))
+    os.kill(run.pid, signal.SIGKILL)
+    study.run()
+    run.communicate()
+    until(lambda: not processes(study))
+    assert study.tables == undisturbed.tables
+    study.run()
+
+
+@linux
+def test_two_runs_in_one_folder_are_refused(study, undisturbed):
+    run = begin(study)
+    until(lambda: jobs(study))
+    os.killpg(run.pid, signal.SIGSTOP)  # it takes its time
+    said = study.run(refused=True)
+    assert "locked" in said.lower()
+    os.killpg(run.pid, signal.SIGCONT)
+    run.communicate()
+    assert run.returncode == 0
+    assert study.tables == undisturbed.tables
+
+
+def test_a_lock_of_another_machine_is_left_alone(study):
+    """Whose runs cannot be seen from here; `snakemake --unlock` is for those who know."""
+    without(study, BATCH, TABLE)
+    (study.folder / ".snakemake/alive").write_text("another machine")
+    lock = study.folder / ".snakemake/locks/0.output.lock"
+    lock.parent.mkdir(exist_ok=True)
+    lock.write_text(f"results/{BATCH}\n")
+    assert "locked" in study.run(refused=True).lower()
+    subprocess.run(study.command("--unlock"), cwd=study.folder, env=study.environment, check=True)
+    study.run("--dry-run")
+    assert not locked(study)
+
+
+def test_a_full_disk_stops_the_study_and_leaves_no_half_file(study, undisturbed):
+    """Simulated: no file may grow beyond 2 kB, which no batch fits into."""
+
+    def limited():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2048, resource.RLIM_INFINITY))
+
+    words = ("simulate", "--n-blocks", "12", "--material", "slider_velocity=5e-3")
+    output = ("--prelude", study.results / PRELUDE, "--output", study.results / "a.parquet")
+    done = subprocess.run(
+        [sys.executable, "-m", "springblock", *words, *output],
+        env=study.environment,
+        preexec_fn=limited,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert re.search(r"^Error: .*File too large", done.stderr, re.MULTILINE)
+    assert "Traceback" not in done.stderr
+    assert not list(study.results.glob("*a.parquet*"))
+
+
+def test_results_that_cannot_be_written_stop_the_study(study, undisturbed):
+    """Without the right of root to write everywhere, if it is root who runs this."""
+
+    def without_rights():
+        if os.geteuid() == 0:
+            for capability in (1, 2):  # DAC_OVERRIDE, DAC_READ_SEARCH
+                ctypes.CDLL(None).prctl(24, capability, 0, 0, 0)
+
+    if os.geteuid() == 0 and sys.platform != "linux":
+        pytest.skip("root may write anywhere")
+    folder = (study.results / BATCH).parent
+    without(study, BATCH, TABLE)
+    folder.chmod(0o555)
+    said = study.run(refused=True, preexec_fn=without_rights)
+    assert "ermission denied" in said
+    assert "Traceback" not in said
+    if folder.exists():  # Snakemake may have removed it, empty as it is
+        folder.chmod(0o755)
+    study.run()
+    assert study.tables == undisturbed.tables
+
+
+def test_a_missing_file_is_made_again(study, undisturbed):
+    """With the tables that are made of it."""
+    without(study, BATCH, PRELUDE, TABLE)
+    study.run()
+    assert study.tables == undisturbed.tables
+
+
+@pytest.mark.parametrize("damages", ["damaged", "foreign", "outdated"])
+def test_what_was_set_aside_is_made_again(study, undisturbed, damages):
+    if damages == "damaged":
+        truncated(study.results / BATCH, study)
+        flipped(study.results / OTHER, study)
+    elif damages == "foreign":
+        shutil.copy(study.results / OTHER, study.results / BATCH)
+        shutil.copy(study.results / f"preludes/{PILLARS}.npz", study.results / PRELUDE)
+    else:
+        outdated(study.results / BATCH, study)
+    said = study.run(targets=("repair",))
+    assert "set aside in results/set-aside" in said
+    study.run()
+    assert study.tables == undisturbed.tables
+    assert "all is well" in study.run(targets=("repair",))
+
+
+def test_a_damaged_file_stops_the_study_with_one_sentence(study):
+    flipped(study.results / BATCH, study)
+    without(study, TABLE)
+    said = study.run(refused=True)
+    assert re.search(rf"{FLAT}/seeds-0-1.parquet is damaged.*`snakemake repair`", said)
+    assert "Traceback" not in said
+
+
+def planned(study):
+    """Rules that a dry run announces."""
+    return set(re.findall(r"^(\w+) +\d+$", study.run("--dry-run"), re.MULTILINE)) - {"total"}
+
+
+def test_lost_metadata_alone_changes_nothing(study):
+    forget(study)
+    assert planned(study) == set()
+
+
+@pytest.mark.parametrize("clock", ["right", "set back"])
+def test_a_changed_configuration_is_seen_without_metadata(study, clock):
+    """Whatever time stamps say: results copied anew, or from the future."""
+    forget(study)
+    if clock == "set back":
+        date_back(study)
+    study.configure(step=1e-8)
+    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
+    study.configure()
+    assert planned(study) == set()
+
+
+def test_a_changed_duration_runs_its_own_scene_again(study):
+    forget(study)
+    flat = {"seeds": 2, "duration": 1e-5}
+    study.configure(scenes=study.configuration["scenes"] | {"flat": flat})
+    said = study.run("--dry-run")
+    assert re.search(r"simulate_batch +1$", said, re.MULTILINE)
+
+
+@pytest.mark.parametrize("clock", ["right", "set back"])
+def test_results_of_older_code_are_made_again_without_metadata(study, clock):
+    forget(study)
+    if clock == "set back":
+        date_back(study)
+    study.edit("solver/leapfrog.py")
+    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
+
+
+@linux
+def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):
+    """By the command that the page has."""
+    date_back(study)
+    without(study, BATCH, TABLE)
+    assert "has older modification time" in study.run(refused=True)
+    text = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+    (command,) = re.findall(r"^    (find .*)$", text, re.MULTILINE)
+    subprocess.run(command, shell=True, cwd=study.folder, check=True)
+    study.run()
+    assert study.tables == undisturbed.tables
+
+
+def test_results_without_their_origins_are_made_again(study):
+    """Such as those of a version that wrote none."""
+    forget(study)
+    shutil.rmtree(study.results / "origin")
+    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
+
+
+def test_an_interrupted_setup_is_done_again(tmp_path):
+    """Its stamps are written last."""
+    for name in ("Makefile", "environment.lock", "pyproject.toml"):
+        shutil.copy(ROOT / name, tmp_path)
+    (tmp_path / ".venv/bin").mkdir(parents=True)
+
+    def steps():
+        words = ["make", "--dry-run", "setup"]
+        return subprocess.run(
+            words, cwd=tmp_path, capture_output=True, text=True, check=True
+        ).stdout
+
+    assert "rm -rf .venv" in steps()
+    (tmp_path / ".venv/locked").touch()
+    assert "rm -rf .venv" not in steps()
+    assert "--editable ." in steps()
+    (tmp_path / ".venv/installed").touch()
+    assert "Nothing to be done" in steps()
+
+
+def test_a_copied_study_is_the_same_study(study, undisturbed, tmp_path):
+    other = copy(study, tmp_path / "copy")
+    assert planned(other) == set()
+    assert other.tables == undisturbed.tables
