@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.arrays import read_arrays
 from springblock.asperities import log_share_above
 from springblock.checks import checked_surface
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
@@ -74,9 +75,9 @@ class Prelude:
     @classmethod
     def read(cls, path: Path) -> "Prelude":
         """Read what `save` wrote."""
-        with np.load(path) as stored:
-            parts = {name: _together(stored[name]) for name in stored if name != "conditions"}
-            return cls(conditions=str(stored["conditions"]), **parts)
+        stored = read_arrays(path)
+        conditions = str(stored.pop("conditions"))
+        return cls(conditions, **{name: _together(part) for name, part in stored.items()})
 
     def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
         """Move `state`, at rest so far, on to the latest stored state that is valid for it.
