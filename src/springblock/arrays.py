@@ -29,6 +29,10 @@ def read_arrays(source: Path | BinaryIO) -> dict[str, NDArray[Any]]:
         if size > max(_MOST, stored):
             raise ValueError(f"it would take {size} bytes; {_MOST} are the most that are unpacked")
         with np.load(source, allow_pickle=False) as arrays:
-            return dict(arrays)
+            found = dict(arrays)
     except _TORN as error:
         raise ValueError(str(error)) from error
+    others = [name for name, part in found.items() if not isinstance(part, np.ndarray)]
+    if others:
+        raise ValueError(f"{others[0]} in it is no array")
+    return found

@@ -144,8 +144,9 @@ def _array(file: Path) -> Array:
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
     try:
-        values = np.load(file, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, EOFError):
+        with np.errstate(over="ignore"):  # of a size that no file has
+            values = np.load(file, mmap_mode="r", allow_pickle=False)
+    except (ValueError, OSError, OverflowError, EOFError):
         values = None
     if not isinstance(values, np.ndarray):
         raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
