@@ -10,7 +10,8 @@
 # make docs     bring the pages in docs up to date with the study
 # make archive  pack the study, code and results, into one file to deposit
 # make redraw   draw all figures and pages again from results at hand, as those of an archive
-# make lock     renew both lock files, for instance after changing a dependency in pyproject.toml
+# make lock     renew both lock files, for instance after changing a dependency in pyproject.toml, and
+#               name the known vulnerabilities of what they pin
 # make clean    remove .venv and caches; results/ stays
 
 PYTHON ?= python3
@@ -98,12 +99,16 @@ $(VENV)/installed: $(VENV)/locked pyproject.toml
 # One set of versions for every platform and every Python from 3.11 on.
 lock:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
-	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv && \
+	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv pip-audit && \
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
 	    --group dev --extra study --extra mp4 pyproject.toml && \
-	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers
+	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
+	{ "$$dir/bin/pip-audit" --strict --disable-pip --require-hashes --progress-spinner off \
+	    -r environment.lock -r $(PEERS) --output "$$dir/found" || \
+	    cat "$$dir/found" 2>/dev/null || \
+	    echo "The new locks are not checked for vulnerabilities: no advisories could be had." >&2; }
 
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache

@@ -1,6 +1,8 @@
 """Contact masks from measured topographies, where SurfaceTopography is installed to read them."""
 
 import warnings
+from contextlib import nullcontext
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +20,13 @@ def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value 
     file = folder / "rough.txt"
     file.write_text(f"# Channel: Main\n{header}{rows}\n", encoding="utf-8")
     return file
+
+
+def opened(measured):
+    """Open any file as this measurement."""
+    channel = SimpleNamespace(nb_grid_pts=measured.nb_grid_pts)
+    reader = SimpleNamespace(default_channel=channel, topography=lambda: measured)
+    return lambda file: nullcontext(reader)
 
 
 HEIGHTS = np.arange(12.0).reshape(3, 4)  # nm, points 10 µm apart; [y, x]
@@ -85,7 +94,7 @@ def test_what_cannot_be_cut_is_refused(tmp_path, header, how, sentence):
 def test_heights_in_volts_are_refused(tmp_path, monkeypatch):
     """As an atomic force microscope may leave them."""
     volts = SurfaceTopography.Topography(HEIGHTS.T, (4e-5, 3e-5), unit="V")
-    monkeypatch.setattr(SurfaceTopography, "read_topography", lambda file: volts)
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(volts))
     with pytest.raises(ValueError, match=r"rough.txt must have a unit of length, not 'V'"):
         Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
 
@@ -94,7 +103,7 @@ def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
     """And the bearing area counts all blocks: half of them are the six highest."""
     measured = np.ma.masked_where(HEIGHTS.T > 9, HEIGHTS.T)
     holes = SurfaceTopography.Topography(measured, (40.0, 30.0), unit="µm")
-    monkeypatch.setattr(SurfaceTopography, "read_topography", lambda file: holes)
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(holes))
     contact = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
     np.testing.assert_array_equal(np.flatnonzero(contact), range(4, 10))
 

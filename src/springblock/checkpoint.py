@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.arrays import read_arrays
 from springblock.checks import check_positive
 from springblock.files import whole_file
 from springblock.solver.lattice import Samples, State
@@ -95,9 +95,8 @@ class Checkpoint:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        with path.open("rb") as file, np.load(file) as stored:
-            kept = dict(stored)
-    except (BadZipFile, EOFError, OSError, TypeError, ValueError) as error:
+        kept = read_arrays(path)
+    except ValueError as error:
         raise ValueError(f"{path} is no checkpoint: {error}") from error
     if "belongs" not in kept:
         raise ValueError(f"{path} is no checkpoint: it holds {', '.join(kept)}")

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.arrays import read_arrays
 from springblock.asperities import log_share_above
 from springblock.checks import checked_surface
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
@@ -89,11 +90,11 @@ class Prelude:
             With one sentence, where it is not as it was written, is none, or is not that of the
             scene and the code that its place in a study says.
         """
-        content = read_sealed(path)
-        if not zipfile.is_zipfile(io.BytesIO(content)):
-            raise ValueError(f"{path} is no prelude; {MENDING}")
-        with np.load(io.BytesIO(content)) as stored:
-            loaded = cls(**{name: _together(stored[name]) for name in stored})
+        content = io.BytesIO(read_sealed(path))
+        try:
+            loaded = cls(**{name: _together(part) for name, part in read_arrays(content).items()})
+        except (TypeError, ValueError):
+            raise ValueError(f"{path} is no prelude; {MENDING}") from None
         if results := results_of(path, f"{loaded.scene or 'no study'}.npz"):
             check_origin(path, results, loaded.scene, vars(loaded))
         return loaded

@@ -11,13 +11,14 @@ import jsonschema
 import numpy as np
 
 from springblock.asperities import check_draws
-from springblock.checks import checked_surface
+from springblock.checks import check_positive, checked_surface
 from springblock.material import Material
 from springblock.scene import LENGTHS, MAPS, Scene, Varied
 from springblock.setup import Setup
 from springblock.solver.springs import MAX_BLOCKS
 from springblock.surfaces import BlockMap, Cut
 from springblock.tables import AXES
+from springblock.texts import check_texts
 
 Configuration = Mapping[str, Any]
 
@@ -86,6 +87,7 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     TypeError, ValueError
         With one sentence that names the key, what it holds and what it may hold.
     """
+    check_texts(configuration)
     validator = jsonschema.Draft202012Validator(schema)
     error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
     if error is not None:
@@ -133,6 +135,8 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
+    if ensemble.duration is not None:
+        check_positive("duration", ensemble.duration)
     if ensemble.duration is not None and ensemble.duration < sample_interval:
         raise ValueError(
             f"duration is {ensemble.duration!r} s, "

@@ -1,6 +1,7 @@
 """Surfaces of one's own: contact masks, coefficients and topographies, read from files."""
 
 import hashlib
+import math
 import re
 import warnings
 from dataclasses import dataclass, field
@@ -15,8 +16,11 @@ from springblock.files import MENDING, read_sealed, seal
 Array = NDArray[Any]
 
 _SHOWN = 5  #: values that a refusal lists
-_MOST = 2**27  #: blocks that are read, eight times what the solver takes
+_MOST = 2**24  #: blocks that are read, as many as the solver takes
 _IS_NAMED = re.compile(r".*-[0-9a-f]{8}")  #: with the digest that a study puts there
+_POINTS, _BYTES = 2**26, 2**28  #: of a measurement, 8192 x 8192 and some 260 MB
+#: Of images. Pillow knows more; one of them, PostScript, it has another program run.
+_FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: of images, by Pillow's names
 
 
@@ -148,8 +152,9 @@ def _array(file: Path) -> Array:
     if seal(file):  # cut from a topography
         read_sealed(file)
     try:
-        values = np.load(file, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, EOFError):
+        with np.errstate(over="ignore"):  # of a size that no file has
+            values = np.load(file, mmap_mode="r", allow_pickle=False)
+    except (ValueError, OSError, OverflowError, EOFError):
         values = None
     if not isinstance(values, np.ndarray):
         raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
@@ -166,18 +171,19 @@ def _image(file: Path) -> Array:
 
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
+    most = min(_MOST, Image.MAX_IMAGE_PIXELS or _MOST)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(file) as image:
+            with Image.open(file, formats=_FORMATS) as image:
+                if image.width * image.height > most:  # as its header says
+                    raise Image.DecompressionBombError
                 mode = image.mode
                 pixels = np.asarray(image.convert("RGBA") if mode in _MODES else image)
     except UnidentifiedImageError:
         raise ValueError(f"{file} is neither an image nor an array of NumPy (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
-        raise ValueError(
-            f"{file} has more than {Image.MAX_IMAGE_PIXELS} pixels, the most that are read"
-        ) from None
+        raise ValueError(f"{file} has more than {most} pixels, the most that are read") from None
     except (OSError, SyntaxError, ValueError) as error:
         raise ValueError(f"{file} cannot be read: {error}") from None
     return _black_and_white(file, mode, pixels)[::-1]
@@ -233,15 +239,21 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
     try:
-        from SurfaceTopography import read_topography
+        from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import ReadFileError
     except ImportError:
         raise ValueError(
             f"to read {file} install SurfaceTopography: pip install 'springblock[topography]'"
         ) from None
+    if file.stat().st_size > _BYTES:
+        raise ValueError(f"{file} has more than {_BYTES} bytes, the most that are read")
     no_units = f"{file} must say its size and its unit, which this file does not"
     try:
-        read = read_topography(file)
+        with open_topography(file) as reader:
+            points = math.prod(reader.default_channel.nb_grid_pts)
+            if points > _POINTS:
+                raise ValueError(f"it has {points} points; {_POINTS} are the most that are read")
+            read = reader.topography()
     except ReadFileError:
         raise ValueError(f"{file} is no topography that SurfaceTopography can read") from None
     except ValueError as error:

@@ -24,7 +24,7 @@ try:
 except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
-RESULTS = config["results"]
+RESULTS = str(Path(config["results"]))  # results/ would be a folder with two slashes after it
 INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
