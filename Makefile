@@ -1,6 +1,8 @@
 # make          set up .venv, then run the whole study with the paper's parameters
 # make quick    the same figures from small ensembles
 # make test     set up .venv, then check and test the code
+# make test-slurm  run the quick study through a Slurm of one node, which it installs and starts: root
+#               on Debian, a quarter of an hour
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make docs     bring the pages in docs up to date with the study
@@ -17,7 +19,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test bench bench-release docs setup lock clean
+.PHONY: all quick test test-slurm bench bench-release docs setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -31,6 +33,9 @@ test: setup
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+test-slurm: setup
+	$(BIN)/python -m tests.slurm
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup
@@ -70,7 +75,7 @@ lock:
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
-	    --group dev --extra study --extra mp4 pyproject.toml && \
+	    --group dev --extra study --extra slurm --extra mp4 pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers
 
 clean:

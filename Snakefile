@@ -9,6 +9,10 @@ min_version("9.3")
 configfile: "config/config.yaml"
 
 
+# What rules run, for `--software-deployment-method apptainer`; container/springblock.def says how to build it.
+container: "container/springblock.sif"
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/correlation.smk"
@@ -16,6 +20,13 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/beyond.smk"
+
+
+onstart:
+    refuse_orphans()
+    # Without a limit on jobs per second: Snakemake would look for free places once a second for each job
+    # that has ended, and after some hundred short ones do little else.
+    workflow.scheduler.job_rate_limiter = None
 
 
 rule all:

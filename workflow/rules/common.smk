@@ -1,15 +1,23 @@
+import logging
 import os
 import re
+import shutil
+import subprocess
 import sys
+import time
+from datetime import datetime, timedelta
 from itertools import chain
 from pathlib import Path
 from shlex import quote
 
 import yaml
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
+from snakemake_interface_logger_plugins.common import LogEvent
 
-from springblock import Material, sources, study
+from springblock import Material, cost, sources, study
 from springblock.figures import declarations
+from springblock.setup import Setup
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -21,6 +29,10 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = config["results"]
+SETUP = Setup(
+    Material(**config["material"]),
+    **{key: config[key] for key in ("integrator", "step", "sample_interval")},
+)
 INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
@@ -55,17 +67,24 @@ SWEEPS = {
 #: Those that the study draws by itself.
 CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
 
-# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
+# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not; on
+# a cluster that is the same path on every node, on a file system that they share.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
 def batches(members):
-    """Files that hold the realisations of these ensembles."""
+    """Files that hold the realisations of these ensembles, a thousand in a folder."""
     return [
-        f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds-{batch[0]}-{batch[-1]}.parquet"
+        f"{RESULTS}/realisations/{ensemble.scene.folder}/{further(i)}"
+        f"seeds-{batch[0]}-{batch[-1]}.parquet"
         for ensemble in members
-        for batch in ensemble.batches(config["realisations_per_job"])
+        for i, batch in enumerate(ensemble.batches(config["realisations_per_job"]))
     ]
+
+
+def further(i):
+    """Folder within a scene's own for the batch of this number; none for the first thousand."""
+    return f"more-{i // 1000}/" if i >= 1000 else ""
 
 
 def ensembles(part, groups=None):
@@ -96,10 +115,21 @@ def duration(wildcards):
     return "" if seconds is None else f"--duration {seconds}"
 
 
-def memory(wildcards):
-    """MB, measured with a margin: a part that is always there and one for the lattice."""
-    rows, columns = EVERY[wildcards.scene].scene.shape
-    return 300 + rows * columns // 144
+def seeds_of(wildcards):
+    """Number of realisations of a job; a prelude counts as one."""
+    return int(wildcards.get("last", 0)) - int(wildcards.get("first", 0)) + 1
+
+
+def memory(wildcards, attempt):
+    """MB; more, if that was not enough."""
+    return attempt * cost.memory(EVERY[wildcards.scene].scene, seeds_of(wildcards))
+
+
+def minutes(wildcards, attempt):
+    """Minutes; more, if that was not enough."""
+    ensemble = EVERY[wildcards.scene]
+    setup = SETUP.vary(dict(ensemble.scene.varied))
+    return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, seeds_of(wildcards))
 
 
 def correlations(table, part):
@@ -158,3 +188,41 @@ def is_part_of_all(figure):
     if declared.category not in CATEGORIES:
         return False
     return not declared.upon_request or all(Path(file).exists() for file in needed(figure))
+
+
+def refuse_orphans():
+    """Stop while Slurm holds jobs that a killed run of this folder has left; both would write the same files."""
+    if not shutil.which("squeue"):
+        return
+    listed = subprocess.run(
+        ["squeue", "--me", "--noheader", "--format=%j|%Z"], capture_output=True, text=True
+    )
+    jobs = [line.split("|", 1) for line in listed.stdout.splitlines()]
+    names = {name for name, folder in jobs if Path(folder) == Path.cwd()}
+    orphans = sorted(name for name in names if name.startswith("springblock_"))
+    if orphans:
+        raise WorkflowError(
+            "Slurm still holds jobs of a run of this folder that was killed. "
+            f"Wait for their end, or cancel them: scancel --name={','.join(orphans)}"
+        )
+
+
+class Pace(logging.Handler):
+    """Says once a minute, as jobs end, when all will have ended."""
+
+    def __init__(self):
+        super().__init__()
+        self.begun = self.said = time.monotonic()
+
+    def emit(self, record):
+        now = time.monotonic()
+        if getattr(record, "event", None) != LogEvent.PROGRESS or now < self.said + 60:
+            return
+        self.said = now
+        left = timedelta(
+            seconds=round((now - self.begun) * (record.total - record.done) / record.done)
+        )
+        logger.info(f"At this pace the rest takes {left}, until {datetime.now() + left:%a %H:%M}")
+
+
+logger.addHandler(Pace())
