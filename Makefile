@@ -3,6 +3,8 @@
 # make test     set up .venv, then check and test the code
 # make browser  install Chromium, in which the tests click through the report (as root, on Debian or
 #               Ubuntu); without one they leave that out, where CI is set they fail
+# make test-slurm  run the quick study through a Slurm of one node, which it installs and starts: root
+#               on Debian, a quarter of an hour
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some three minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make verify   hold results/ against its checksums, its manifest, the code and the lock file of today
@@ -24,7 +26,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test browser verify soak bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick test browser test-slurm verify soak bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -53,6 +55,9 @@ verify: setup
 
 soak: setup
 	$(BIN)/python tests/soak.py
+
+test-slurm: setup
+	$(BIN)/python -m tests.slurm
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup
@@ -103,7 +108,7 @@ lock:
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
-	    --group dev --extra study --extra mp4 pyproject.toml && \
+	    --group dev --extra study --extra slurm --extra mp4 pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
 	{ "$$dir/bin/pip-audit" --strict --disable-pip --require-hashes --progress-spinner off \
 	    -r environment.lock -r $(PEERS) --output "$$dir/found" || \

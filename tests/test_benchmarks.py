@@ -185,7 +185,7 @@ def test_a_study_that_has_not_been_run_is_missing():
 
 def jobs_of_the_workflow():
     """Rules that leave a benchmark file, and the path of one such file."""
-    wildcards = {"scene": "n_blocks-12/level-0/direction-x", "first": "0", "last": "4"}
+    wildcards = {"scene": "n_blocks-12/level-0/direction-x", "more": "", "first": "0", "last": "4"}
     wildcards |= {"integrator": "rk4", "table": "correlation", "mask": "islands-1a2b3c4d"}
     wildcards |= {"name": "pressure"}  # of a sweep
     for file in sorted((ROOT / "workflow/rules").glob("*.smk")):

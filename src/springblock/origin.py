@@ -45,7 +45,7 @@ def results_of(path: Path, place: str) -> Path | None:
     found = _OF_A_SCENE.fullmatch(path.absolute().as_posix())
     if not found:
         return None
-    if found["place"] != place:
+    if re.sub(r"more-\d+/", "", found["place"]) != place:
         raise ValueError(f"{path} holds what belongs in {place}; {MENDING}")
     return Path(found["results"])
 

@@ -1,9 +1,6 @@
-import fcntl
 import os
-import platform
 import re
 import sys
-from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from shlex import quote
@@ -11,9 +8,10 @@ from shlex import quote
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import Material, origin, sources, study
+from springblock import Material, cost, origin, sources, study
 from springblock.figures import declarations
 from springblock.figures.declaration import having
+from springblock.setup import Setup
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -25,6 +23,10 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The configuration cannot be used: {error}.") from None
 
 RESULTS = str(Path(config["results"]))  # results/ would be a folder with two slashes after it
+SETUP = Setup(
+    Material(**config["material"]),
+    **{key: config[key] for key in ("integrator", "step", "sample_interval")},
+)
 INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
 CORRELATIONS = expand(
     f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
@@ -72,35 +74,9 @@ SIMULATING = sources.digest("springblock.commands.simulate")
 #: What is made of code and conditions whose digests these files have in their names, by the file.
 ORIGINS = {}
 
-# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not.
+# Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not; on
+# a cluster that is the same path on every node, on a file system that they share.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
-
-
-def unlock():
-    """Remove the lock of a run that was killed on this machine; hold up a hand for our own.
-
-    The kernel lets go of a file of a process that ends, whatever ended it. A lock that Snakemake
-    keeps while nobody holds the file is nobody's.
-    """
-    os.makedirs(".snakemake", exist_ok=True)
-    hand, locks = open(".snakemake/alive", "a+"), [*Path(".snakemake/locks").glob("*.lock")]
-    try:
-        fcntl.flock(hand, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        hand.seek(0)
-        if not locks or hand.read() == platform.node():
-            for lock in locks:
-                lock.unlink(missing_ok=True)
-            hand.truncate(0)
-            hand.write(platform.node())
-            hand.flush()
-    except OSError:  # another run holds it, or the file system knows no such thing
-        pass
-    with suppress(OSError):
-        fcntl.flock(hand, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    return hand
-
-
-ALIVE = unlock() if workflow.is_main_process else None
 
 
 def made_of(name, *modules, code=None, **conditions):
@@ -118,12 +94,18 @@ SCENE_ORIGIN = {
 
 
 def batches(members):
-    """Files that hold the realisations of these ensembles."""
+    """Files that hold the realisations of these ensembles, a thousand in a folder."""
     return [
-        f"{RESULTS}/realisations/{ensemble.scene.folder}/seeds-{batch[0]}-{batch[-1]}.parquet"
+        f"{RESULTS}/realisations/{ensemble.scene.folder}/{further(i)}"
+        f"seeds-{batch[0]}-{batch[-1]}.parquet"
         for ensemble in members
-        for batch in ensemble.batches(config["realisations_per_job"])
+        for i, batch in enumerate(ensemble.batches(config["realisations_per_job"]))
     ]
+
+
+def further(i):
+    """Folder within a scene's own for the batch of this number; none for the first thousand."""
+    return f"more-{i // 1000}/" if i >= 1000 else ""
 
 
 def ensembles(part, groups=None):
@@ -154,10 +136,21 @@ def duration(wildcards):
     return "" if seconds is None else f"--duration {seconds}"
 
 
-def memory(wildcards):
-    """MB, measured with a margin: a part that is always there and one for the lattice."""
-    rows, columns = EVERY[wildcards.scene].scene.shape
-    return 300 + rows * columns // 144
+def seeds_of(wildcards):
+    """Number of realisations of a job; a prelude counts as one."""
+    return int(wildcards.get("last", 0)) - int(wildcards.get("first", 0)) + 1
+
+
+def memory(wildcards, attempt):
+    """MB; more, if that was not enough."""
+    return attempt * cost.memory(EVERY[wildcards.scene].scene, seeds_of(wildcards))
+
+
+def minutes(wildcards, attempt):
+    """Minutes; more, if that was not enough."""
+    ensemble = EVERY[wildcards.scene]
+    setup = SETUP.vary(dict(ensemble.scene.varied))
+    return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, seeds_of(wildcards))
 
 
 def correlations(table, part):

@@ -9,8 +9,10 @@ rule correlation_scene:
         f"{RESULTS}/logs/{{part}}{{scene}}/correlation.log",
     benchmark:
         f"{RESULTS}/benchmarks/{{part}}{{scene}}/correlation.tsv"
+    group:
+        "correlations"
     resources:
-        mem_mb=800,
+        mem_mb=1200,
         runtime=5,
     message:
         "Correlating detachment times along the sides of {wildcards.part}{wildcards.scene}"

@@ -28,8 +28,10 @@ for figure, declared in FIGURES.items():
             f"{RESULTS}/logs/{figure}.log",
         benchmark:
             f"{RESULTS}/benchmarks/{figure}.tsv"
+        group:
+            "figures"
         resources:
-            mem_mb=700,
+            mem_mb=1200,
             runtime=5,
         params:
             figure=figure,
@@ -62,8 +64,10 @@ for name, sweep in SWEEPS.items():
             f"{RESULTS}/logs/sweep_{name}.log",
         benchmark:
             f"{RESULTS}/benchmarks/sweep_{name}.tsv"
+        group:
+            "figures"
         resources:
-            mem_mb=700,
+            mem_mb=1200,
             runtime=5,
         params:
             over=sweep["over"],

@@ -31,11 +31,11 @@ rule origins:
 
 
 rule repair:
-    params:
-        results=RESULTS,
     log:
         f"{RESULTS}/logs/repair.log",
     localrule: True
+    params:
+        results=RESULTS,
     message:
         "Setting aside what cannot be used"
     shell:

@@ -86,9 +86,11 @@ rule prelude_scene:
         f"{RESULTS}/logs/{{scene}}/prelude.log",
     benchmark:
         f"{RESULTS}/benchmarks/{{scene}}/prelude.tsv"
+    group:
+        "preludes"
     resources:
         mem_mb=memory,
-        runtime=10,
+        runtime=minutes,
     params:
         scene=scene,
         how=HOW,
@@ -115,17 +117,20 @@ rule simulate_batch:
         lambda wildcards: SCENE_ORIGIN[wildcards.scene],
         prelude=rules.prelude_scene.output,
     output:
-        f"{RESULTS}/realisations/{{scene}}/seeds-{{first}}-{{last}}.parquet",
+        f"{RESULTS}/realisations/{{scene}}/{{more}}seeds-{{first}}-{{last}}.parquet",
     log:
-        f"{RESULTS}/logs/{{scene}}/seeds-{{first}}-{{last}}.log",
+        f"{RESULTS}/logs/{{scene}}/{{more}}seeds-{{first}}-{{last}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/seeds-{{first}}-{{last}}.tsv"
+        f"{RESULTS}/benchmarks/{{scene}}/{{more}}seeds-{{first}}-{{last}}.tsv"
     wildcard_constraints:
+        more=r"(more-\d+/)?",
         first=r"\d+",
         last=r"\d+",
+    group:
+        "batches"
     resources:
         mem_mb=memory,
-        runtime=30,
+        runtime=minutes,
     params:
         scene=scene,
         how=HOW,

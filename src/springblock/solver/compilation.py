@@ -3,10 +3,12 @@
 import os
 import sysconfig
 from pathlib import Path
+from uuid import uuid4
 
 import llvmlite.binding
 import numba
 from numba import types
+from numba.core import caching
 from numba.core.compiler import Compiler
 from numba.extending import intrinsic
 
@@ -19,7 +21,8 @@ def _default_cache() -> Path:
 
 
 # Numba finds stale machine code by the time stamp of the file that holds the function, and does
-# not see that a function inlined from another file has changed. One folder per digest does.
+# not see that a function inlined from another file has changed. One folder per digest does. Its
+# index tells processors and their features apart, so unlike nodes can share the folder.
 numba.config.CACHE_DIR = str(
     Path(os.environ.get("NUMBA_CACHE_DIR") or _default_cache())
     / f"{digest('springblock.solver')}-{sysconfig.get_python_version()}"
@@ -41,6 +44,22 @@ def _wide_vectors() -> str | None:
 
 if not (numba.config.CPU_NAME or numba.config.CPU_FEATURES):
     numba.config.CPU_FEATURES = _wide_vectors()
+
+
+class _OwnFiles(caching.IndexDataCacheFile):  # type: ignore[misc]
+    """Files of machine code that no two processes give the same name.
+
+    Numba counts them. Processes that compile at a time, for other types or on other processors,
+    could then overwrite each other's and load what is not theirs; now all that may happen is
+    that the index forgets one of them, which is then compiled again.
+    """
+
+    def __init__(self, cache_path: str, filename_base: str, source_stamp: object):
+        super().__init__(cache_path, filename_base, source_stamp)
+        self._data_name_pattern = f"{filename_base}.{uuid4().hex}-{{number:d}}.nbc"
+
+
+caching.IndexDataCacheFile = _OwnFiles
 
 
 class _Restrict(Compiler):  # type: ignore[misc]

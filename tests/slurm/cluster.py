@@ -1,0 +1,177 @@
+"""A Slurm of one node on this machine, from Debian's packages and without systemd."""
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+PACKAGES = ("munge", "slurm-client", "slurmctld", "slurmd")
+#: Where Debian's Slurm looks; Snakemake's plugin takes SLURM_CONF out of the environment.
+CONFIGURATION = Path("/etc/slurm/slurm.conf")
+_PATIENCE = 60.0  #: s until the node is ready, or the daemon back
+
+#: What a job may ask for is counted, but not enforced: that takes control groups.
+_SETTINGS = """\
+ClusterName=one
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser=root
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.socket
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+EnforcePartLimits=ALL
+AccountingStorageType=accounting_storage/none
+JobCompType=jobcomp/filetxt
+JobCompLoc={folder}/finished
+MinJobAge=3600
+ReturnToService=2
+MpiDefault=none
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} RealMemory={memory}
+PartitionName=all Nodes=ALL Default=YES MaxTime=1-0
+"""
+
+
+class CannotStart(Exception):
+    """Why there is no Slurm here."""
+
+
+@dataclass
+class Cluster:
+    """A running Slurm."""
+
+    folder: Path
+    daemons: dict[str, subprocess.Popen[bytes]] = field(default_factory=dict)
+
+    def start(self, *command: str) -> None:
+        """Start a daemon that stays in the foreground."""
+        log = (self.folder / f"{Path(command[0]).name}.out").open("ab")
+        # A session of its own: what ends the daemon ends the jobs that it has started, too
+        self.daemons[command[0]] = subprocess.Popen(
+            command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True
+        )
+
+    def kill(self, daemon: str) -> None:
+        """Kill one daemon, as a crash would."""
+        self.daemons[daemon].kill()
+        self.daemons.pop(daemon).wait()
+
+    def start_controller(self) -> None:
+        """Start slurmctld; it finds the state that an earlier one has left."""
+        self.start("slurmctld", "-D", "-f", str(CONFIGURATION))
+        wait("slurmctld to answer", lambda: asked("sinfo", "--noheader", "--format=%T") != "")
+
+    def jobs(self, *options: str) -> list[str]:
+        """Lines of squeue."""
+        return asked("squeue", "--noheader", *options).splitlines()
+
+    def finished(self) -> list[str]:
+        """A line for each job that has ended."""
+        file = self.folder / "finished"
+        return file.read_text().splitlines() if file.exists() else []
+
+    def stop(self) -> None:
+        """End all jobs and daemons."""
+        if self.jobs():
+            subprocess.run(["scancel", "--full", "--user=root"], check=False, timeout=_PATIENCE)
+            wait("jobs to end", lambda: not self.jobs("--states=R,PD,CG"))
+        for daemon in reversed(self.daemons.values()):
+            daemon.terminate()
+            try:
+                daemon.wait(10.0)
+            except subprocess.TimeoutExpired:
+                os.killpg(daemon.pid, signal.SIGKILL)
+                daemon.wait()
+
+
+def asked(*command: str) -> str:
+    """What a command of Slurm writes; nothing where it fails."""
+    try:
+        return subprocess.run(command, capture_output=True, text=True, timeout=30).stdout
+    except subprocess.TimeoutExpired:
+        return ""
+
+
+def wait(what: str, done: Callable[[], bool], patience: float = _PATIENCE) -> None:
+    """Wait until something is done; raises CannotStart after `patience`, s."""
+    end = time.monotonic() + patience
+    while not done():
+        if time.monotonic() > end:
+            raise CannotStart(f"Waited {patience:.0f} s for {what}")
+        time.sleep(0.2)
+
+
+def install() -> None:
+    """Install Debian's packages where they are missing; raises CannotStart where that fails."""
+    if all(map(shutil.which, ("munged", "squeue", "slurmctld", "slurmd"))):
+        return
+    if not shutil.which("apt-get") or os.geteuid():
+        raise CannotStart(
+            f"Install {', '.join(PACKAGES)} as Debian names them, or run this as root"
+        )
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    for command in (["update"], ["install", "--yes", "--no-install-recommends", *PACKAGES]):
+        done = subprocess.run(["apt-get", "--quiet", *command], env=quiet, timeout=600, check=False)
+        if done.returncode:
+            raise CannotStart(f"apt-get {command[0]} fails; Slurm cannot be installed here")
+
+
+@contextmanager
+def one_node() -> Iterator[Cluster]:
+    """Start a Slurm of one node, and stop it at the end.
+
+    Raises
+    ------
+    CannotStart
+        With the reason.
+    """
+    install()
+    if os.geteuid():
+        raise CannotStart("Slurm's daemons want to be started by root")
+    if os.path.lexists(CONFIGURATION):
+        raise CannotStart(f"{CONFIGURATION} is there already: this machine has a Slurm of its own")
+    folder = Path(tempfile.mkdtemp(prefix="springblock-slurm-"))
+    cluster = Cluster(folder)
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") * 9 // 10 // 2**20
+    values = {"host": socket.gethostname().split(".")[0], "cores": os.cpu_count()}
+    (folder / "slurm.conf").write_text(_SETTINGS.format(folder=folder, memory=memory, **values))
+    for name in ("state", "spool"):
+        (folder / name).mkdir()
+    CONFIGURATION.symlink_to(folder / "slurm.conf")
+    try:
+        _start(cluster)
+        yield cluster
+    finally:
+        cluster.stop()
+        CONFIGURATION.unlink()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _start(cluster: Cluster) -> None:
+    folder = cluster.folder
+    key = folder / "munge.key"
+    key.write_bytes(os.urandom(128))
+    key.chmod(0o400)
+    files = {"socket": "munge.socket", "key-file": key.name, "log-file": "munge.log"}
+    files |= {"pid-file": "munge.pid", "seed-file": "munge.seed"}
+    options = [f"--{option}={folder / file}" for option, file in files.items()]
+    folder.chmod(0o755)
+    cluster.start("munged", "--foreground", "--force", *options)
+    wait("munged", (folder / "munge.socket").exists)
+    cluster.start_controller()
+    cluster.start("slurmd", "-D", "-f", str(CONFIGURATION))
+    wait("the node", lambda: asked("sinfo", "--noheader", "--format=%T").strip() == "idle")
