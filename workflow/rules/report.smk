@@ -17,7 +17,7 @@ for surface, shown in FILMS.items():
             mem_mb=1000,
             runtime=5,
         params:
-            code=sources.digest("springblock.commands.pictures"),
+            code=sources.digest("springblock.pictures.film"),
         message:
             f"Filming the slip front: {surface}"
         shell:
