@@ -6,7 +6,7 @@ for surface, shown in FILMS.items():
         name:
             f"film_{surface}"
         input:
-            made_of(f"films/{surface}", "springblock.commands.pictures"),
+            made_of(f"films/{surface}", "springblock.pictures.film"),
             batch=batches([shown])[:1],
         output:
             f"{RESULTS}/films/{surface}.mp4",
