@@ -82,3 +82,10 @@ def test_a_folder_holds_a_thousand_batches(study):
     folder = "results/realisations/n_blocks-12/level-0/direction-x"
     assert f"{folder}/seeds-999-999.parquet" in planned
     assert f"{folder}/more-1/seeds-1000-1000.parquet" in planned
+
+
+def test_the_scheduler_looks_for_work_only_when_a_job_has_ended(study):
+    """Its limit on jobs per second, 100 unless it is off, would start one more timer each time."""
+    outcome = snakemake(study, "--verbose", "--", "results/compiled/leapfrog")
+    after = re.findall(r"Resources after job selection: .*'_job_count': (\d+)", outcome.stderr)
+    assert after == [str(sys.maxsize)]
