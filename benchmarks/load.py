@@ -1,15 +1,20 @@
 """What many small jobs cost the workflow: N = 12, one realisation a job, on one core.
 
-python -m benchmarks.load                    # plans 5,000 and 20,000 of them
-python -m benchmarks.load --run 1000 5000    # and runs as many
+    python -m benchmarks.load                    # plans 5,000 and 20,000 of them
+    python -m benchmarks.load --run 300          # and runs as many
+    python -m benchmarks.load --bare 300 5000    # or has jobs that only make their file
+
+docs/scaling.md has what it prints.
 """
 
 import argparse
 import os
 import subprocess
 import sys
+import sysconfig
 import tempfile
 import time
+import venv
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +26,12 @@ ROOT = Path(__file__).parents[1]
 PLANNED = (5_000, 20_000)
 _BETWEEN = 0.2  #: s between two samples
 _DURATION = 2e-6  #: s, ten samples: next to nothing is simulated
+#: Stands for springblock where only Snakemake's own share is looked at.
+_ONLY_THE_FILE = """\
+#!/bin/bash
+while [ $# -gt 0 ]; do [ "$1" = --output ] && : > "$2"; shift; done
+exit 0
+"""
 
 
 @dataclass
@@ -70,14 +81,27 @@ def configuration(jobs: int) -> dict[str, object]:
     }
 
 
-def measured(folder: Path, jobs: int, *options: str) -> Load:
+def bare(folder: Path) -> str:
+    """Return a Python of the same packages, whose jobs only make their file."""
+    venv.create(folder, symlinks=True)
+    packages = Path(sysconfig.get_path("purelib", vars={"base": str(folder)}))
+    ours = sysconfig.get_path("purelib")
+    (packages / "ours.pth").write_text(f"import site; site.addsitedir({ours!r})\n")
+    command = folder / "bin/springblock"
+    command.write_text(_ONLY_THE_FILE)
+    command.chmod(0o755)
+    return str(folder / "bin/python")
+
+
+def measured(folder: Path, jobs: int, *options: str, python: str = sys.executable) -> Load:
     """Call Snakemake in a folder of its own, and watch it."""
     for part in ("Snakefile", "workflow", "config", "profiles"):
         (folder / part).symlink_to(ROOT / part)
     (folder / "many.yaml").write_text(yaml.safe_dump(configuration(jobs)))
-    load = Load("planned" if "--dry-run" in options else "run", jobs)
+    how = "run" if python == sys.executable else "run, bare"
+    load = Load("planned" if "--dry-run" in options else how, jobs)
     begun = time.monotonic()
-    command = [sys.executable, "-m", "snakemake", "--configfile", "many.yaml", "--cores", "1"]
+    command = [python, "-m", "snakemake", "--configfile", "many.yaml", "--cores", "1"]
     with (folder / "log").open("wb") as log:
         process = subprocess.Popen(
             [*command, *options, "--", "aggregate"], cwd=folder, stdout=log, stderr=log
@@ -114,6 +138,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--plan", type=int, nargs="*", default=PLANNED, metavar="JOBS")
     parser.add_argument("--run", type=int, nargs="*", default=(), metavar="JOBS")
+    parser.add_argument("--bare", type=int, nargs="*", default=(), metavar="JOBS")
     chosen = parser.parse_args()
     print(HEAD, flush=True)
     for jobs in chosen.plan:
@@ -122,6 +147,9 @@ def main() -> None:
     for jobs in chosen.run:
         with tempfile.TemporaryDirectory() as folder:
             print(measured(Path(folder), jobs), flush=True)
+    for jobs in chosen.bare:
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as home:
+            print(measured(Path(folder), jobs, python=bare(Path(home))), flush=True)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,19 @@
 """The workflow on a cluster, as far as it can be seen without one; `make test-slurm` has one."""
 
+import logging
 import os
 import re
 import subprocess
 import sys
+from datetime import datetime, timedelta
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
+from snakemake_interface_logger_plugins.common import LogEvent
 
-from benchmarks.load import configuration
+from benchmarks.load import bare, configuration, measured
 
 ROOT = Path(__file__).parents[1]
 PROFILES = {name: ROOT / f"profiles/{name}/config.yaml" for name in ("default", "slurm")}
@@ -82,3 +86,38 @@ def test_a_folder_holds_a_thousand_batches(study):
     folder = "results/realisations/n_blocks-12/level-0/direction-x"
     assert f"{folder}/seeds-999-999.parquet" in planned
     assert f"{folder}/more-1/seeds-1000-1000.parquet" in planned
+
+
+def test_the_scheduler_looks_for_work_only_when_a_job_has_ended(study):
+    """Its limit on jobs per second, 100 unless it is off, would start one more timer each time."""
+    outcome = snakemake(study, "--verbose", "--", "results/compiled/leapfrog")
+    after = re.findall(r"Resources after job selection: .*'_job_count': (\d+)", outcome.stderr)
+    assert after == [str(sys.maxsize)]
+
+
+def test_a_run_says_when_it_will_be_done():
+    """After two minutes ten of forty steps are done: six more minutes."""
+    code = (ROOT / "workflow/rules/common.smk").read_text()
+    (pace,) = re.findall(r"^class Pace.*?(?=^\S(?<!c))", code, re.MULTILINE | re.DOTALL)
+    clock, said = [0.0, 30.0, 120.0, 150.0], []
+    names = {
+        "logging": logging,
+        "LogEvent": LogEvent,
+        "logger": SimpleNamespace(info=said.append),
+        "time": SimpleNamespace(monotonic=lambda: clock.pop(0)),
+        "datetime": datetime,
+        "timedelta": timedelta,
+    }
+    exec(pace, names)
+    handler = names["Pace"]()
+    for done in (2, 10, 13):  # too early; then once a minute at most
+        handler.emit(SimpleNamespace(event=LogEvent.PROGRESS, done=done, total=40))
+    assert [text.partition(", ")[0] for text in said] == ["At this pace the rest takes 0:06:00"]
+
+
+def test_bare_jobs_leave_four_files_each(tmp_path):
+    (tmp_path / "study").mkdir()
+    load = measured(tmp_path / "study", 5, python=bare(tmp_path / "python"))
+    assert load.files > 4 * load.jobs
+    assert load.largest >= load.jobs
+    assert load.own > 0.0

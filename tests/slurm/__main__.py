@@ -1,6 +1,6 @@
 """The quick study through Slurm: its tables are those of a local run, after crashes as well.
 
-make test-slurm
+`make test-slurm` starts it.
 """
 
 import os
