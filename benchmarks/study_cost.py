@@ -75,7 +75,7 @@ def _rule(path: Path) -> str:
         return "compile"
     if path.parent.name == "surfaces":
         return "mask"
-    if path.stem in _figures() or path.stem.startswith("sweep_"):
+    if path.stem in _figures() or path.stem.startswith(("film_", "sweep_")):
         return "figures"
     if path.parent.name == "production" or path.stem == "production_table":
         return "production"

@@ -187,7 +187,7 @@ def jobs_of_the_workflow():
     """Rules that leave a benchmark file, and the path of one such file."""
     wildcards = {"scene": "n_blocks-12/level-0/direction-x", "more": "", "first": "0", "last": "4"}
     wildcards |= {"integrator": "rk4", "table": "correlation", "mask": "islands-1a2b3c4d"}
-    wildcards |= {"name": "pressure"}  # of a sweep
+    wildcards |= {"name": "pressure", "surface": "flat"}  # of a sweep, of a film
     for file in sorted((ROOT / "workflow/rules").glob("*.smk")):
         for text in re.split(r"^ *rule\b", file.read_text(), flags=re.MULTILINE)[1:]:
             for path in re.findall(r'benchmarks/(.*?)"', text):
