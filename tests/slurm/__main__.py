@@ -28,6 +28,7 @@ PART = ("--", "aggregate")
 RESULTS = Path("results/quick")
 
 Tables = dict[str, str]
+STARTED: list[subprocess.Popen[bytes]] = []
 
 
 class Failed(Exception):
@@ -45,13 +46,15 @@ def copied(folder: Path) -> Path:
 def start(study: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start Snakemake in a copy of the study, with the copy's own package."""
     paths = [str(study / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
-    return subprocess.Popen(
+    running = subprocess.Popen(
         [sys.executable, "-m", "snakemake", *QUICK, *options],
         cwd=study,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         stdout=(study / "snakemake.log").open("ab"),
         stderr=subprocess.STDOUT,
     )
+    STARTED.append(running)
+    return running
 
 
 def written(study: Path) -> str:
@@ -113,11 +116,11 @@ def killed_snakemake(cluster: Cluster, study: Path) -> None:
 
 
 def killed_controller(cluster: Cluster, study: Path) -> None:
-    """Kill slurmctld, and start it again after twenty seconds; the run goes on by itself."""
+    """Kill slurmctld, and start it again after forty seconds; the run goes on by itself."""
     running = start(study, *SLURM, *PART)
     wait("a batch to run", in_a_batch(cluster, study), patience=600.0)
     cluster.kill("slurmctld")
-    time.sleep(20.0)
+    time.sleep(40.0)
     cluster.start_controller()
     succeed(study, running)
 
@@ -155,6 +158,8 @@ def main() -> None:
     except (CannotStart, Failed, TimeoutError) as reason:
         sys.exit(f"{reason}.")
     finally:
+        for running in STARTED:
+            running.kill()
         shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -44,6 +44,12 @@ SlurmdLogFile={folder}/slurmd.log
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} RealMemory={memory}
 PartitionName=all Nodes=ALL Default=YES MaxTime=1-0
 """
+#: Stands for accounts, which this Slurm does not keep, and which the plugin asks after an outage.
+_SACCT = """\
+#!/bin/sh
+while [ $# -gt 0 ]; do [ "$1" = --name ] && name=$2; shift; done
+[ -z "$name" ] || exec squeue --states=all --noheader --format='%i|%T' --name "$name"
+"""
 
 
 class CannotStart(Exception):
@@ -151,6 +157,11 @@ def one_node() -> Iterator[Cluster]:
     (folder / "slurm.conf").write_text(_SETTINGS.format(folder=folder, memory=memory, **values))
     for name in ("state", "spool"):
         (folder / name).mkdir()
+    sacct = folder / "bin/sacct"
+    sacct.parent.mkdir()
+    sacct.write_text(_SACCT)
+    sacct.chmod(0o755)
+    os.environ["PATH"] = os.pathsep.join([str(sacct.parent), os.environ["PATH"]])
     CONFIGURATION.symlink_to(folder / "slurm.conf")
     try:
         _start(cluster)
