@@ -98,7 +98,7 @@ def test_the_scheduler_looks_for_work_only_when_a_job_has_ended(study):
 
 def test_a_run_says_when_it_will_be_done():
     """After two minutes ten of forty steps are done: six more minutes."""
-    code = (ROOT / "workflow/rules/common.smk").read_text()
+    code = (ROOT / "workflow/rules/running.smk").read_text()
     (pace,) = re.findall(r"^class Pace.*?(?=^\S(?<!c))", code, re.MULTILINE | re.DOTALL)
     clock, said = [0.0, 30.0, 120.0, 150.0], []
     names = {

@@ -22,6 +22,7 @@ from snakemake_interface_executor_plugins.utils import format_cli_arg
 from springblock import Pattern, compute_prelude
 from springblock.arrays import read_arrays
 from springblock.checkpoint import Checkpoint
+from springblock.files import BLANK, write_sealed
 from springblock.prelude import Prelude
 from springblock.scene import Scene
 from springblock.solver.springs import MAX_BLOCKS
@@ -237,6 +238,7 @@ def test_rules_quote_every_path():
         "how",
         "duration",
         "cut",
+        "films",
         "options",
         "of",
         "preludes",
@@ -290,7 +292,9 @@ def test_a_study_writes_into_its_folder_alone(study):
     made = files(study) - before
     assert made
     assert {path.parts[:2] for path in made} == {("my results", "ü (2)")}
-    lines = re.findall(r"^Shell command: (.+)$", outcome.stdout + outcome.stderr, re.MULTILINE)
+    lines = re.findall(
+        r"^Shell command: (springblock .+)$", outcome.stdout + outcome.stderr, re.MULTILINE
+    )
     commands = {words[1]: words for words in map(shlex.split, lines)}
     for name in ("prelude", "simulate"):
         words = commands[name]
@@ -442,7 +446,10 @@ def test_preludes_and_checkpoints_are_read_that_way(tmp_path, monkeypatch):
     assert again.conditions == prelude.conditions
     np.testing.assert_array_equal(again.peak, prelude.peak)
     trap = packed(tmp_path / "trap.npz", conditions=npy((3,), "|O"))
-    with pytest.raises(ValueError, match="Object arrays cannot be loaded"):
+    with zipfile.ZipFile(trap, "a") as archive:
+        archive.comment = BLANK
+    write_sealed(trap, trap.read_bytes())
+    with pytest.raises(ValueError, match=r"trap.npz is no prelude"):
         Prelude.read(trap)
     with pytest.raises(ValueError, match=r"trap.npz is no checkpoint: Object arrays cannot be"):
         Checkpoint(trap, 1.0, {}).restore(None)

@@ -12,7 +12,7 @@ MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it a
 _MARK = b"springblock-sha256:"
 #: Stands once in content to be sealed, where the digest of all of it goes.
 BLANK = _MARK + 64 * b"0"
-_TAIL = 2**16  #: bytes at the end of a file among which its seal is looked for first
+_TAIL = 2**22  #: bytes at the end of a file among which its seal is looked for
 
 
 @contextlib.contextmanager
@@ -72,9 +72,6 @@ def seal(path: Path) -> str:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - _TAIL))
         end = file.read()
-        if _MARK not in end:
-            file.seek(0)
-            end = file.read()
     return end[_place(end)][:16].decode("ascii", "replace") if _MARK in end else ""
 
 
