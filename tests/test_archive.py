@@ -2,6 +2,8 @@
 
 import hashlib
 import json
+import re
+import shutil
 import subprocess
 import zipfile
 from pathlib import Path
@@ -13,6 +15,7 @@ from rocrate.rocrate import ROCrate
 
 from springblock.archive import CRATE, archive
 from springblock.cli import main
+from test_workflow import snakemake
 
 ROOT = Path(__file__).parents[1]
 CODE = {
@@ -25,7 +28,7 @@ ASIDE = ("logs/a.log", "benchmarks/a.tsv", "tables/.a.parquet.123")
 
 
 @pytest.fixture
-def study(tmp_path):
+def clone(tmp_path):
     """A clone with results; contents do not matter."""
     folder = tmp_path / "study"
     made = {f"results/{name}": name for name in (*RESULTS, *ASIDE)}
@@ -45,8 +48,8 @@ def packed(study):
     return output, number
 
 
-def test_it_holds_code_and_results_and_nothing_else(study):
-    output, number = packed(study)
+def test_it_holds_code_and_results_and_nothing_else(clone):
+    output, number = packed(clone)
     with zipfile.ZipFile(output) as file:
         names = file.namelist()
         assert file.testzip() is None
@@ -54,8 +57,8 @@ def test_it_holds_code_and_results_and_nothing_else(study):
     assert set(names) == {*CODE, "CITATION.cff", CRATE, *(f"results/{name}" for name in RESULTS)}
 
 
-def test_the_crate_describes_every_file_and_the_run(study, tmp_path):
-    output, _ = packed(study)
+def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):
+    output, _ = packed(clone)
     with zipfile.ZipFile(output) as file:
         file.extractall(tmp_path / "unpacked")
     crate = ROCrate(tmp_path / "unpacked")  # its library reads it back
@@ -80,8 +83,8 @@ def test_the_crate_describes_every_file_and_the_run(study, tmp_path):
     assert profiles == {"process", "workflow", "workflow-ro-crate"}
 
 
-def test_an_unpacked_archive_can_be_packed_again(study, tmp_path):
-    output, number = packed(study)
+def test_an_unpacked_archive_can_be_packed_again(clone, tmp_path):
+    output, number = packed(clone)
     with zipfile.ZipFile(output) as file:
         file.extractall(tmp_path / "unpacked")
     again, repeated = packed(tmp_path / "unpacked")
@@ -95,13 +98,39 @@ def test_an_unpacked_archive_can_be_packed_again(study, tmp_path):
     ("missing", "sentence"),
     [(".git", "neither a clone of the study nor"), ("results/tables", "run the study first")],
 )
-def test_what_is_no_finished_study_is_refused(study, monkeypatch, missing, sentence):
-    (study / missing).rename(study.parent / "elsewhere")
-    monkeypatch.chdir(study)
+def test_what_is_no_finished_study_is_refused(clone, monkeypatch, missing, sentence):
+    (clone / missing).rename(clone.parent / "elsewhere")
+    monkeypatch.chdir(clone)
     outcome = CliRunner().invoke(main, ["archive", "results", "--output", "study.zip"])
     assert outcome.exit_code == 1
     assert sentence in outcome.output
-    assert not (study / "study.zip").exists()
+    assert not (clone / "study.zip").exists()
+
+
+def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
+    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
+    folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
+    for name in ("CITATION.cff", "environment.lock"):
+        shutil.copy(ROOT / name, folder)
+    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
+    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
+    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
+    with zipfile.ZipFile(tmp_path / "study.zip") as file:
+        file.extractall(tmp_path / "unpacked")
+    results = tmp_path / "unpacked/results"
+    before = {
+        file: file.read_bytes() for file in [*results.glob("figures/*"), results / "claims.md"]
+    }
+    assert len(before) > 20
+    touched = snakemake(tmp_path / "unpacked", "--touch")
+    assert touched.returncode == 0, touched.stderr
+    for file in before:
+        file.unlink()
+    names = sorted({file.stem for file in before if file.suffix == ".png"})
+    redrawn = snakemake(tmp_path / "unpacked", "--", *names, "claims")
+    assert redrawn.returncode == 0, redrawn.stderr
+    assert not re.search(r"Simulating|Loading|Correlating", redrawn.stderr + redrawn.stdout)
+    assert {file: file.read_bytes() for file in before} == before
 
 
 def test_every_description_of_the_software_says_the_same():

@@ -60,7 +60,10 @@ def archive(study: Path, results: Path, configuration: Path, output: Path) -> in
     made = _results(study, results)
     files = sorted({*_code(study), *made})
     crate = _crate(study, files, made, configuration.relative_to(study).as_posix())
-    with whole_file(output) as partial, zipfile.ZipFile(partial, "w") as packed:
+    with (
+        whole_file(output) as partial,
+        zipfile.ZipFile(partial, "w", strict_timestamps=False) as packed,
+    ):
         packed.writestr(CRATE, json.dumps(crate, indent=1), zipfile.ZIP_DEFLATED)
         for name in files:
             stored = Path(name).suffix in _COMPRESSED
