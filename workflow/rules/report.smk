@@ -33,8 +33,9 @@ rule report:
         further=there_already(
             *(f"figures/{figure}.png" for figure in FIGURES if part_of(figure)),
             *(f"figures/{figure}.png" for figure in sweeps("beyond/")),
-            *("beyond.md", "benchmark.md", "reliability.md", "tables/benchmark.parquet"),
+            *("beyond.md", "benchmark.md", "tables/benchmark.parquet"),
         ),
+        reliability=[file for file in ["docs/reliability.md"] if Path(file).exists()],
         tables=[rules.aggregate.input, CORRELATIONS, rules.claims.output],
         accuracy=(
             [rules.accuracy.output, rules.accuracy.input.tables[:2], AT_FULL_SIZE]
@@ -61,4 +62,4 @@ rule report:
         "Writing the report"
     shell:
         "springblock report {input.pictures:q} {input.further:q} {input.tables:q} "
-        "{input.accuracy:q} {params.films} --output {output:q} > {log:q} 2>&1"
+        "{input.reliability:q} {input.accuracy:q} {params.films} --output {output:q} > {log:q} 2>&1"
