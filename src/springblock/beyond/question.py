@@ -47,7 +47,7 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     if not np.isfinite([low, high]).all() or high == low:
         return f"{value:.3g} [no interval]{unit}"
     digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
-    return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]{unit}"
+    return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
 def power(exponent: Interval) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
@@ -200,8 +201,23 @@ def simulate_batch(
         with tqdm(seeds, desc=scene.folder, unit="realisation", disable=single) as bar:
             rows = [row(seed=seed) for seed in bar]
         write(_table(rows), output, metadata)
+        click.echo(_in_words(rows))
         if minutes is not None:
             shutil.rmtree(folder)
+
+
+def _in_words(rows: list[Row]) -> str:
+    """What runs came to: means, and of several their standard errors."""
+    told = []
+    for name, unit, factor in (
+        ("static_friction", "", 1.0),
+        ("t_max", " µs", 1e6),
+        ("t_avg", " µs", 1e6),
+    ):
+        values = factor * np.array([row[name] for row in rows], dtype=float)
+        error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
+        told.append(f"{name} {values.mean():.5g}" + (f" ± {error:.2g}" if error else "") + unit)
+    return ", ".join(told)
 
 
 def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
