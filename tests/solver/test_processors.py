@@ -44,3 +44,15 @@ def test_any_processor_finds_the_same_run_up_to_its_peak(generic):
     before = here.t_det < here.t_max
     assert before.sum() > 50
     np.testing.assert_allclose(generic["t_det"][before], here.t_det[before], rtol=TOLERANCE)
+
+
+def test_vectors_do_not_depend_on_what_is_imported_first():
+    """Numba looks at the features of the processor once: when the first function is declared."""
+    chosen = "from numba.core.registry import cpu_target as cpu; import springblock.solver; "
+    chosen += "print(cpu.target_context.codegen().magic_tuple())"
+    first = ("springblock.solver", "springblock.accuracy.plain_rk4")
+    found = {
+        subprocess.check_output([sys.executable, "-c", f"import {module}; {chosen}"])
+        for module in first
+    }
+    assert len(found) == 1

@@ -12,6 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.material import Material
+from springblock.solver import compilation as _chosen  # noqa: F401  vectors, before numba looks
 
 Array = NDArray[np.float64]
 
