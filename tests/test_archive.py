@@ -24,7 +24,7 @@ CODE = {
     "config/config.yaml": "n_blocks: 12\n",
 }
 RESULTS = ("tables/a.parquet", "figures/figure_1.png", "claims.md", "realisations/b.parquet")
-ASIDE = ("logs/a.log", "benchmarks/a.tsv", "tables/.a.parquet.123")
+ASIDE = ("logs/a.log", "benchmarks/a.tsv", "set-aside/tables/b.parquet", "tables/.a.parquet.123")
 
 
 @pytest.fixture

@@ -88,7 +88,7 @@ def _code(study: Path) -> list[str]:
 
 def _results(study: Path, results: Path) -> list[str]:
     """Files that the study made, but for logs and records of run time."""
-    aside = {"logs", "benchmarks"}
+    aside = {"benchmarks", "logs", "set-aside"}
     found = (file.relative_to(results) for file in sorted(results.rglob("*")) if file.is_file())
     kept = [name for name in found if name.parts[0] not in aside and not name.name.startswith(".")]
     if not any(name.parts[0] == "tables" for name in kept):
