@@ -43,6 +43,14 @@ def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
     assert any("$n_{p}$ = 20" in name for name in found)
 
 
+def test_coulombs_law_is_where_weakening_takes_no_way():
+    weakening = ("law", "slip_weakening")
+    laws = [(weakening, ("slip_distance", distance)) for distance in (1e-8, 1e-7)]
+    table = [row for varied in ((), *laws) for row in rows(Scene(12, varied=varied), 0.7)]
+    (line,) = sweep.lines(table, "slip_distance").values()
+    assert list(line) == [0.0, 1e-8, 1e-7]
+
+
 def test_the_caption_names_surfaces_and_seeds():
     runs = [{**at(speed).row, "seed": seed} for speed in SPEEDS[:2] for seed in range(3)]
     said = sweep.caption(runs)

@@ -100,6 +100,8 @@ def _others(row: Row, over: str) -> Names:
         named["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
         del named["n_s"]
     named.pop("N" if over == "n_blocks" else over, None)
+    if over in ("slip_distance", "speed_scale"):  # at zero they are Coulomb's law
+        named.pop("law", None)
     return tuple(named.items())
 
 
