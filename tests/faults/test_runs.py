@@ -9,8 +9,8 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
+import psutil
 import pytest
 
 from faults.damages import BATCH, FLAT, OTHER, PILLARS, PRELUDE, TABLE, flipped, outdated, truncated
@@ -40,14 +40,11 @@ def until(condition, seconds=300.0):
 
 def processes(study):
     """Processes that work in the folder of a study, by their command lines."""
-    found = {}
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            if (folder / "cwd").resolve() == study.folder:
-                found[int(folder.name)] = (folder / "cmdline").read_text()
-        except OSError:
-            continue
-    return found
+    return {
+        process.pid: " ".join(process.info["cmdline"] or ())
+        for process in psutil.process_iter(["cwd", "cmdline"])
+        if process.info["cwd"] == str(study.folder.resolve())
+    }
 
 
 def jobs(study):
@@ -75,10 +72,6 @@ def date_back(study, seconds=3600):
         os.utime(file, ns=(later, later), follow_symlinks=False)
 
 
-linux = pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-
-
-@linux
 def test_a_killed_job_is_done_again(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
@@ -92,7 +85,6 @@ def test_a_killed_job_is_done_again(study, undisturbed):
     assert study.tables == undisturbed.tables
 
 
-@linux
 def test_a_killed_run_goes_on_without_a_word_about_its_lock(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
@@ -104,7 +96,6 @@ def test_a_killed_run_goes_on_without_a_word_about_its_lock(study, undisturbed):
     assert study.tables == undisturbed.tables
 
 
-@linux
 def test_a_job_that_outlives_its_run_does_no_harm(study, undisturbed):
     """Both write the same file, whole."""
     run = begin(study)
@@ -117,7 +108,6 @@ def test_a_job_that_outlives_its_run_does_no_harm(study, undisturbed):
     study.run()
 
 
-@linux
 def test_two_runs_in_one_folder_are_refused(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
@@ -259,7 +249,6 @@ def test_results_of_older_code_are_made_again_without_metadata(study, clock):
     assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
 
 
-@linux
 def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):
     """By the command that the page has."""
     date_back(study)
