@@ -248,6 +248,7 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
         ({"step": 0.0}, "step must be finite and positive"),
         ({"step": 3e-8}, "sample_interval must be a multiple of step"),
         ({"sample_interval": 5e-9}, "sample_interval must be a multiple of step"),
+        ({"sample_interval": 1e308}, "sample_interval must be a multiple of step"),
         ({"sample_interval": math.nan}, "sample_interval must be finite and positive"),
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
         ({"duration": -1.0}, "duration must be finite and positive"),

@@ -84,8 +84,9 @@ def check_positive(name: str, value: Any) -> None:
 def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
     """How many times `unit` is in `value`; raise ValueError unless it is a whole number."""
     check_positive(name, value)
-    count = round(value / unit)
-    if count < 1 or abs(value / unit - count) > 1e-6 * count:
+    ratio = value / unit
+    count = round(ratio) if math.isfinite(ratio) else 0
+    if count < 1 or abs(ratio - count) > 1e-6 * count:
         raise ValueError(f"{name} must be a multiple of {unit_name} = {unit!r} s, not {value!r} s")
     return count
 

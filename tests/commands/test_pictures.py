@@ -70,3 +70,11 @@ def test_what_holds_no_runs_is_refused(springblock, batch, tmp_path):
     write(pq.read_table(batch(0, 1), columns=["level"]), narrow, {})
     refusal = springblock("animate", narrow, "--output", tmp_path / "a.gif", refused=True)
     assert f"{narrow} lacks the column 'n_p'" in refusal
+
+
+def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path):
+    slow, fast = batch(0, 1), batch(0, 1, "--vary", "slider_velocity=1e-3")
+    words = ("--over", "slider_velocity", "--output", tmp_path / "a.svg")
+    assert springblock("plot", slow, fast, *words) == ""
+    told = springblock("plot", slow, fast, batch(0, 2, "--n-p", 6, "--n-s", 6), *words)
+    assert told == "Left out: 3 realisations of surfaces with one slider_velocity alone\n"

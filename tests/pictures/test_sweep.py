@@ -17,8 +17,8 @@ def rows(scene, friction, seeds=5):
     rng = np.random.default_rng(7)
     numbers = {"dynamic_friction": 0.6, "t_max": 3e-4, "t_avg": 2.9e-4, "t_first": 1e-4}
     return [
-        {**scene.row, **constants, **numbers, "static_friction": friction + 0.01 * noise}
-        for noise in rng.standard_normal(seeds)
+        {**scene.row, **constants, **numbers, "static_friction": friction + 0.01 * noise, "seed": i}
+        for i, noise in enumerate(rng.standard_normal(seeds))
     ]
 
 
@@ -52,11 +52,19 @@ def test_coulombs_law_is_where_weakening_takes_no_way():
 
 
 def test_the_caption_names_surfaces_and_seeds():
-    runs = [{**at(speed).row, "seed": seed} for speed in SPEEDS[:2] for seed in range(3)]
-    said = sweep.caption(runs)
+    runs = [row for speed in SPEEDS[:2] for row in rows(at(speed), 0.8, seeds=3)]
+    said = sweep.caption(runs, "slider_velocity")
     assert said.startswith("Means over realisations with their 95 % t intervals")
     assert "N = 120, sliding direction x. Flat" in said
     assert "slider_velocity=0.00025 (seeds 0 to 2)" in said
+
+
+def test_a_surface_with_one_place_is_neither_drawn_nor_named(two_lines):
+    alone = rows(at(SPEEDS[0], n_p=60, n_s=60), 0.7)
+    everything = two_lines + alone
+    assert all(row["n_p"] < 60 for row in sweep.drawn(everything, "slider_velocity"))
+    assert len(sweep.drawn(everything, "slider_velocity")) == len(two_lines)
+    assert "60" not in sweep.caption(everything, "slider_velocity")
 
 
 def test_points_are_means_and_bars_t_intervals(two_lines):

@@ -68,9 +68,15 @@ def plot(
         else:
             rows = tables.read(files, tables.SUMMARY).to_pylist()
             picture = sweep.draw(rows, over, observables or ["static_friction"])
-            caption = sweep.caption(rows)
+            caption = sweep.caption(rows, over)
+            _tell_left_out(len(rows) - len(sweep.drawn(rows, over)), over)
         for output in outputs:
             save(picture, output, caption)
+
+
+def _tell_left_out(realisations: int, over: str) -> None:
+    if realisations:
+        click.echo(f"Left out: {realisations} realisations of surfaces with one {over} alone")
 
 
 @click.command("animate")

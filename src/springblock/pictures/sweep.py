@@ -26,10 +26,10 @@ CAPTION = """Means over realisations with their 95 % t intervals; a single reali
 Lines join ensembles that differ in nothing else."""
 
 
-def caption(rows: Iterable[Row]) -> str:
-    """Say what is drawn, and of which surfaces and seeds."""
+def caption(rows: Iterable[Row], over: str) -> str:
+    """Say what is drawn over an axis, and of which surfaces and seeds."""
     seeds: dict[Scene, list[int]] = {}
-    for row in rows:
+    for row in drawn(rows, over):
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     return f"{' '.join(CAPTION.split())} {sample_in_words(sample)}"
@@ -62,6 +62,8 @@ _LEFT, _WIDTH, _HEIGHT, _BELOW, _BETWEEN, _LINE = 16.0, 71.0, 38.0, 11.0, 5.0, 3
 def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
     """Rows by their place on the axis, for each line, named by what tells its scenes from others.
 
+    Scenes that share a line with no other are left out, if some do.
+
     Raises
     ------
     ValueError
@@ -79,6 +81,11 @@ def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
     common = set.intersection(*(set(names) for names in swept))
     ordered = sorted(swept, key=lambda names: [value for _, value in names])
     return {_label(names, common): dict(sorted(swept[names].items())) for names in ordered}
+
+
+def drawn(rows: Iterable[Row], over: str) -> list[Row]:
+    """Rows that `lines` has a place for."""
+    return [row for line in lines(rows, over).values() for runs in line.values() for row in runs]
 
 
 def _label(names: Names, common: set[tuple[str, str]]) -> str:
