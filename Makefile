@@ -39,7 +39,7 @@ test: setup $(if $(CI),browser)
 	$(BIN)/ruff format --check
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 
 # What is there serves; Chrome does as well. Only this target, and CI, install anything.
 browser:
