@@ -13,6 +13,7 @@ from springblock.cli import main
 from springblock.figures import declarations
 from springblock.report import findings, media, statements, tables, text
 from springblock.report.page import page
+from springblock.report.symbols import typeset
 from springblock.scene import Scene
 from springblock.tables import read_records
 
@@ -103,6 +104,20 @@ def test_links_and_headings_of_a_page_are_its_own():
     assert '<a href="#a-the-end">to</a>' in body
     assert '<h2 id="a-the-end">' in body
     assert 'href="https://x.org"' in body
+
+
+def test_symbols_are_set_and_nothing_but_symbols():
+    assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
+    assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"
+    for name in ("supplement_n_p", "n_p_x", "t_maximum", "static_friction", "n_blocks"):
+        assert typeset(name) == name
+
+
+def test_symbols_are_set_in_the_words_of_a_page_and_not_in_its_code():
+    body = text.rendered("a", "# T\n\nWhere n_p grows: `n_p`.\n\n| l_c |\n|---|\n| t_det |\n").body
+    assert "Where <var>n<sub>p</sub></var> grows: <code>n_p</code>." in body
+    assert "<th><var>l<sub>c</sub></var></th>" in body
+    assert '<td class="short"><var>t<sub>det</sub></var></td>' in body
 
 
 def test_a_table_leaves_out_what_is_the_same_in_all_rows():

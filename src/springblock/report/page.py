@@ -12,6 +12,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from springblock.report import findings, media, statements, tables, text
+from springblock.report.symbols import typeset
 
 #: Parts of the page and their titles, in order; those of the study's own pages come last, as these
 #: are called by their first heading.
@@ -84,6 +85,7 @@ def _rendered(**content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["typeset"] = typeset
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
     return environment.get_template("page.html").render(

@@ -8,6 +8,7 @@ from markdown_it.renderer import RendererHTML
 from markdown_it.token import Token
 
 from springblock.claims.page import anchor
+from springblock.report.symbols import typeset
 
 _SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
 _MANY = 20  #: chapters from which on the numbered ones are folded
@@ -40,7 +41,7 @@ def rendered(name: str, markdown: str) -> Page:
 
 
 def _mark(name: str, tokens: Sequence[Token]) -> None:
-    """Give headings their anchors, which must not be another page's, and keep short cells whole."""
+    """Give headings anchors that are no other page's, keep short cells whole, and set symbols."""
     for i, token in enumerate(tokens):
         if token.type == "heading_open":
             token.attrSet("id", f"{name}-{anchor(tokens[i + 1].content)}")
@@ -50,6 +51,8 @@ def _mark(name: str, tokens: Sequence[Token]) -> None:
             target = str(child.attrGet("href") or "")
             if target.startswith("#"):
                 child.attrSet("href", f"#{name}-{target[1:]}")
+            if child.type == "text":
+                child.type, child.content = "html_inline", str(typeset(child.content))
 
 
 def _width(content: str) -> str:
