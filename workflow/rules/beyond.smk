@@ -5,6 +5,13 @@ BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles", "lattice", "disorder", 
 BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 
+def simulated_beyond(groups):
+    """Realisations of these groups; there must be some beyond the paper."""
+    if not ensembles("beyond/"):
+        raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
+    return batches(ensembles("beyond/", groups))
+
+
 rule beyond_page:
     input:
         made_of("steps/beyond", "springblock.commands.beyond"),

@@ -9,8 +9,6 @@ import yaml
 from snakemake.exceptions import WorkflowError
 
 from springblock import Material, cost, origin, sources, study
-from springblock.figures import declarations
-from springblock.figures.declaration import having
 from springblock.setup import Setup
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
@@ -28,9 +26,6 @@ SETUP = Setup(
     **{key: config[key] for key in ("integrator", "step", "sample_interval")},
 )
 INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
-CORRELATIONS = expand(
-    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
-)
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
 #: Groups of the study and of what goes beyond the paper, by the folder of their tables.
@@ -41,31 +36,11 @@ ENSEMBLE = {
     for part, groups in {"": config["scenes"], "beyond/": ENSEMBLES}.items()
 }
 EVERY = ENSEMBLE["beyond/"]
-#: Those that figures are drawn from, and their scenes.
-DRAWN = study.for_figures(ENSEMBLES)
-SCENES = {group: [ensemble.scene for ensemble in members] for group, members in DRAWN.items()}
 #: Cuts of measured surfaces by the name of the mask that they make.
 CUTS = {
     ensemble.scene.mask.name: ensemble.scene.mask.cut
     for ensemble in EVERY.values()
     if ensemble.scene.mask and ensemble.scene.mask.cut
-}
-#: What figures declare whose groups of scenes the configuration simulates.
-FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
-#: Observables over an axis of some groups, as far as the configuration simulates these.
-SWEEPS = {
-    name: sweep
-    for name, sweep in config["figures"].get("sweeps", {}).items()
-    if all(ENSEMBLES.get(group) for group in sweep["groups"])
-}
-#: Those that the study draws by itself.
-CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
-
-#: What is filmed, by group: the ensemble on the surface that a figure shows.
-FILMS = {
-    group: ENSEMBLE[""][scene.folder]
-    for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
-    for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
 }
 
 CONFIGURATION = sources.configuration_digest(config)
@@ -114,13 +89,6 @@ def ensembles(part, groups=None):
     return list(dict.fromkeys(ENSEMBLE[part][each.scene.folder] for each in members))
 
 
-def simulated_beyond(groups):
-    """Realisations of these groups; there must be some beyond the paper."""
-    if not ensembles("beyond/"):
-        raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
-    return batches(ensembles("beyond/", groups))
-
-
 def scene(wildcards):
     """The scene of a job, as options of its command."""
     return EVERY[wildcards.scene].scene.arguments
@@ -151,64 +119,6 @@ def minutes(wildcards, attempt):
     ensemble = EVERY[wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
     return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, seeds_of(wildcards))
-
-
-def correlations(table, part):
-    """Files that hold a table of correlations for each ensemble of a part that has sides."""
-    scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
-    return [f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet" for scene in scenes]
-
-
-def part_of(figure):
-    """The part of the study that a figure shows."""
-    return "beyond/" if FIGURES[figure].category == "Beyond" else ""
-
-
-def needed(figure):
-    """Files that a figure is drawn from; there must be surfaces with the lengths that it shows."""
-    lengths, part = config["figures"].get(figure, {}), part_of(figure)
-    shown = lengths.items() if FIGURES[figure].source.groups else ()
-    scenes = chain.from_iterable(SCENES[group] for group in FIGURES[figure].source.groups)
-    if shown and not any(shown <= scene.lengths.items() for scene in scenes):
-        wanted = ", ".join(f"{name} = {length}" for name, length in shown)
-        raise WorkflowError(
-            f"figures.{figure} shows {wanted}, which no scene of "
-            f"{' or '.join(FIGURES[figure].source.groups)} has."
-        )
-    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
-        if scene is None:
-            yield f"{RESULTS}/tables/{table}.parquet"
-        elif table == "realisations":
-            yield from batches([ENSEMBLE[part][scene.folder]])[:number]
-        else:
-            yield f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet"
-
-
-def caption(figure):
-    """What a figure shows, and what of this study it is drawn from."""
-    lengths, part = config["figures"].get(figure, {}), part_of(figure)
-    members = {
-        group: [ENSEMBLE[part][each.scene.folder] for each in drawn]
-        for group, drawn in DRAWN.items()
-        if part or group in PARTS[part]
-    }
-    return FIGURES[figure].caption_in(members, lengths, Material(**config["material"]))
-
-
-def sweeps(part):
-    """Sweeps that belong to a part of the study: over groups of the study itself, or beyond it."""
-    own = set(config["scenes"])
-    return [
-        f"sweep_{name}" for name in SWEEPS if (set(SWEEPS[name]["groups"]) <= own) == (not part)
-    ]
-
-
-def is_part_of_all(figure):
-    """Whether `snakemake` alone draws a figure; what is upon request, once its table is there."""
-    declared = FIGURES[figure]
-    if declared.category not in CATEGORIES:
-        return False
-    return not declared.upon_request or all(Path(file).exists() for file in needed(figure))
 
 
 def there_already(*files):

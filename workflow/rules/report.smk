@@ -1,5 +1,14 @@
 # Films of the slip front, and the page that shows the study: films, figures, pages and tables.
 
+from springblock.figures.declaration import having
+
+#: What is filmed, by group: the ensemble on the surface that a figure shows.
+FILMS = {
+    group: ENSEMBLE[""][scene.folder]
+    for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
+    for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
+}
+
 for surface, shown in FILMS.items():
 
     rule:
