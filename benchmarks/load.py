@@ -1,4 +1,4 @@
-"""What many small jobs cost the workflow: N = 12, one realisation a job, on one core.
+"""What many small jobs cost the workflow: N = 12, one realisation a job, on all cores.
 
     python -m benchmarks.load                    # plans 5,000 and 20,000 of them
     python -m benchmarks.load --run 300          # and runs as many
@@ -101,7 +101,7 @@ def measured(folder: Path, jobs: int, *options: str, python: str = sys.executabl
     how = "run" if python == sys.executable else "run, bare"
     load = Load("planned" if "--dry-run" in options else how, jobs)
     begun = time.monotonic()
-    command = [python, "-m", "snakemake", "--configfile", "many.yaml", "--cores", "1"]
+    command = [python, "-m", "snakemake", "--configfile", "many.yaml", "--cores", "all"]
     with (folder / "log").open("wb") as log:
         process = subprocess.Popen(
             [*command, *options, "--", "aggregate"], cwd=folder, stdout=log, stderr=log
