@@ -14,6 +14,7 @@ container: "container/springblock.sif"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/drawn.smk"
 include: "workflow/rules/running.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/correlation.smk"

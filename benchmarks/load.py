@@ -78,6 +78,7 @@ def configuration(jobs: int) -> dict[str, object]:
         "accuracy": False,
         "scenes": dict.fromkeys(paper["scenes"]) | ours,
         "beyond": dict.fromkeys(paper["beyond"]),
+        "more": dict.fromkeys(paper["more"]),
     }
 
 

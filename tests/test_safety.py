@@ -26,7 +26,7 @@ from springblock.files import BLANK, write_sealed
 from springblock.prelude import Prelude
 from springblock.scene import Scene
 from springblock.solver.springs import MAX_BLOCKS
-from springblock.study import check, completed
+from springblock.study import PARTS, check, completed
 from springblock.surfaces import _MOST, BlockMap, Cut
 from springblock.texts import check_texts
 from test_workflow import PAPER, TINY, copied
@@ -173,7 +173,7 @@ def test_a_hostile_key_is_refused_wherever_it_is():
 
 @pytest.mark.parametrize("name", ["a/b", "../a", "a b", "", "a" * 65, "(a)", "a.b"])
 def test_names_of_groups_and_sweeps_are_words(name):
-    for part in ("scenes", "beyond"):
+    for part in PARTS:
         assert "name of up to 64" in refusal(PAPER | {part: PAPER[part] | {name: None}})
     sweeps = {name: {"groups": ["flat"], "over": "n_p"}}
     figures = PAPER["figures"] | {"sweeps": sweeps}

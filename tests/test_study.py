@@ -128,10 +128,14 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
 def test_a_scene_of_the_study_may_be_pulled_more_often_beyond_it_and_never_less():
     few = {"n_p": [10, 6], "n_s": [10], "direction": ["x"], "seeds": [3, 30], "duration": 3e-4}
     many = {"n_p": [20, 10, 6], "n_s": [10], "direction": ["x"], "seeds": [5, 500, 4]}
-    groups = ensembles(PAPER | {"scenes": {"few": few}, "beyond": {"many": many}})
+    most = {**many, "seeds": [9, 6, 7]}
+    parts = {"scenes": {"few": few}, "beyond": {"many": many}, "more": {"most": most}}
+    groups = ensembles(PAPER | parts)
     assert [len(e.seeds) for e in groups["few"]] == [3, 30]  # whatever goes beyond
     assert [len(e.seeds) for e in groups["many"]] == [5, 500, 30]
-    assert [e.duration for e in groups["many"]] == [None, 3e-4, 3e-4]
+    assert [len(e.seeds) for e in groups["most"]] == [9, 500, 30]
+    for later in ("many", "most"):
+        assert [e.duration for e in groups[later]] == [None, 3e-4, 3e-4]
 
 
 def test_a_group_may_be_left_out():
@@ -293,7 +297,7 @@ def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
 def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
-    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}}))
+    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}, "more": {}}))
     assert {group: len(members) for group, members in drawn.items()} == {
         "flat": 1,
         "sizes": 0,
@@ -311,7 +315,7 @@ def test_the_papers_groups_hold_its_own_surfaces(surfaces):
 def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
     """As if their digests met, which they do once in four thousand million."""
     one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
-    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}}
+    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}, "more": {}}
     monkeypatch.setattr("springblock.surfaces._name", lambda file, values: "same-00000000")
     with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
         ensembles(both)
@@ -351,10 +355,11 @@ def test_any_change_changes_the_digest():
         (("beyond", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
         (("beyond", "loading", 4, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
         (("beyond", "flat"), {"direction": ["x"], "seeds": 1}, "beyond.flat: scenes has a group"),
+        (("more", "layer"), {"direction": ["x"], "seeds": 1}, "more.layer: beyond has a group"),
         (
-            ("beyond", "more"),
+            ("more", "repetitions"),
             {"n_p": [7], "n_s": [7], "direction": ["x"], "seeds": 3},
-            "beyond.more: the period",
+            "more.repetitions: the period",
         ),
         (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
         (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),

@@ -34,6 +34,7 @@ TINY = {
         "grooves": GROOVES | {"direction": ["x", "y"], "seeds": 1},
     },
     "beyond": dict.fromkeys(PAPER["beyond"]),
+    "more": dict.fromkeys(PAPER["more"]),
     "figures": {
         "figure_4": {"n_p": 3, "n_s": 3},
         "figure_5": {"n_p": 3},
@@ -181,7 +182,7 @@ def test_the_whole_study_can_be_planned(study):
     figures = {
         name: figure
         for name, figure in declarations().items()
-        if figure.is_part_of(PAPER["scenes"] | PAPER["beyond"])
+        if figure.is_part_of(PAPER["scenes"] | PAPER["beyond"] | PAPER["more"])
     }
     assert declarations().keys() - figures.keys() == {"surfaces"}  # whose files a user brings
     upon_request = {name for name, figure in figures.items() if figure.upon_request}
@@ -190,6 +191,9 @@ def test_the_whole_study_can_be_planned(study):
     assert not {*upon_request, *further, "production_scene"} & set(jobs)
     beyond = planned(study, "--config", "results=elsewhere", "--", "beyond", **WHOLE)
     assert {"beyond_page", *further} <= set(beyond)
+    more = planned(study, "--config", "results=elsewhere", "--", "more", **WHOLE)
+    assert {"aggregate_part": 1, "correlations_table": 2, "more": 1}.items() <= more.items()
+    assert not {"claims", "beyond_page", *figures} & set(more)
     assert {f"supplement_{name}" for name in ("spacing", "size", "angle", "levels")} <= set(jobs)
     sizes = planned(study, "--config", "results=elsewhere", "--", "figure_7", **WHOLE)
     assert set(sizes) == {
@@ -218,17 +222,28 @@ def test_errors_at_full_size_belong_to_the_study_once_they_are_there(study):
     assert "realisations.parquet --production measured/tables/production.parquet" in commands
 
 
-def test_claims_rest_on_what_goes_beyond_the_paper_once_it_is_there(study):
-    table = study / "simulated/tables/beyond/realisations.parquet"
-    options = ("--config", "results=simulated", "--printshellcmds")
+@pytest.mark.parametrize("part", ["beyond/", "more/"])
+def test_claims_rest_on_what_is_simulated_upon_request_once_it_is_there(study, part):
+    results = f"with-{part[:-1]}"
+    table = study / results / f"tables/{part}realisations.parquet"
+    options = ("--config", f"results={results}", "--printshellcmds")
     alone = planned(study, *options, **WHOLE)
     table.parent.mkdir(parents=True)
     table.touch()
     assert planned(study, *options, **WHOLE)["simulate_batch"] > alone["simulate_batch"]
     commands = snakemake(study, "--dry-run", *options, **WHOLE).stdout
     for option in ("realisations", "correlation"):
-        tables = [f"--{option} simulated/tables/{part}{option}.parquet" for part in ("", "beyond/")]
+        tables = [f"--{option} {results}/tables/{place}{option}.parquet" for place in ("", part)]
         assert " ".join(tables) in commands
+
+
+def test_the_page_beyond_the_paper_rests_on_more_realisations_once_they_are_there(study):
+    options = ("--config", "results=often", "--", "beyond_page")
+    alone = planned(study, *options, **WHOLE)["simulate_batch"]
+    table = study / "often/tables/more/realisations.parquet"
+    table.parent.mkdir(parents=True)
+    table.touch()
+    assert planned(study, *options, **WHOLE)["simulate_batch"] > alone
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):

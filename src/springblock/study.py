@@ -24,6 +24,9 @@ Configuration = Mapping[str, Any]
 
 #: What YAML means by these words.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
+#: Parts of a configuration that hold groups of scenes: the study, maps and sweeps beyond it, and
+#: more of what statements rest on.
+PARTS = ("scenes", "beyond", "more")
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
 #: Realisations below which a correlation has no interval.
@@ -105,15 +108,20 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
 @contextmanager
 def _named(configuration: Configuration, group: str) -> Iterator[None]:
     """Put the key of a group of scenes before what is wrong with it."""
-    part = "scenes" if group in configuration["scenes"] else "beyond"
+    part = _part(configuration, group)
     try:
         yield
     except ValueError as reason:
         raise ValueError(f"{part}.{group}: {reason}") from reason
 
 
+def _part(configuration: Configuration, group: str) -> str:
+    """The first part of the configuration that has a group of this name."""
+    return next(part for part in PARTS if group in configuration[part])
+
+
 def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
-    known = {**configuration["scenes"], **configuration["beyond"]}
+    known = [group for part in PARTS for group in configuration[part]]
     for group in sweep["groups"]:
         if group not in known:
             raise ValueError(f"{key}.groups has {group!r}, which is none of {', '.join(known)}")
@@ -169,10 +177,10 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 
 
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
-    """Expand each group of scenes into its grids, by the group's name; those beyond the paper last.
+    """Expand each group of scenes into its grids, by the group's name, part by part.
 
-    A scene that several of them hold is one ensemble, with the largest number of seeds. What goes
-    beyond the study may pull a scene of it more often, never less, and changes nothing in it.
+    A scene that several of them hold is one ensemble, with the largest number of seeds. A later
+    part may pull a scene of an earlier one more often, never less, and changes nothing in it.
 
     Raises
     ------
@@ -181,11 +189,12 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """
     found: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
-    for part in ("scenes", "beyond"):
+    for part in PARTS:
         study, groups = dict(largest), dict[str, list[Ensemble]]()
         for group, grids in configuration[part].items():
             if group in found:
-                raise ValueError(f"{part}.{group}: scenes has a group of this name")
+                owner = _part(configuration, group)
+                raise ValueError(f"{part}.{group}: {owner} has a group of this name")
             with _named(configuration, group):
                 parts = grids if isinstance(grids, list) else [grids or {}]
                 groups[group] = [each for grid in parts for each in _expand(configuration, grid)]

@@ -32,6 +32,7 @@ TINY = {
         },
     },
     "beyond": dict.fromkeys(PAPER["beyond"]),
+    "more": dict.fromkeys(PAPER["more"]),
 }
 TARGETS = ("aggregate", "correlations")
 

@@ -5,17 +5,10 @@ BEYOND_GROUPS = ["flat", "pillars", "grooves", "angles", "lattice", "disorder", 
 BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 
-def simulated_beyond(groups):
-    """Realisations of these groups; there must be some beyond the paper."""
-    if not ensembles("beyond/"):
-        raise WorkflowError("beyond holds no scenes; config/config.yaml has some to begin with.")
-    return batches(ensembles("beyond/", groups))
-
-
 rule beyond_page:
     input:
         made_of("steps/beyond", "springblock.commands.beyond"),
-        batches=lambda wildcards: simulated_beyond(BEYOND_GROUPS),
+        batches=lambda wildcards: batches(ensembles(furthest(BEYOND_GROUPS), BEYOND_GROUPS)),
     output:
         f"{RESULTS}/beyond.md",
     log:
@@ -33,13 +26,10 @@ rule beyond_page:
 
 rule beyond:
     input:
-        expand(
-            f"{RESULTS}/tables/beyond/{{table}}.parquet",
-            table=["realisations", "correlation", "correlation_length"],
-        ),
+        lambda wildcards: tables_of("beyond/"),
         expand(
             f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[name for name in FIGURES if part_of(name) == "beyond/"] + sweeps("beyond/"),
+            figure=[name for name in FIGURES if part_of(name)] + sweeps("beyond/"),
             suffix=["pdf", "png"],
         ),
         rules.beyond_page.output,

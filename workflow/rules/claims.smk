@@ -1,8 +1,16 @@
 # What becomes of the paper's statements.
 
-#: What goes beyond the paper decides claims, too, once it has been simulated.
-SIMULATED = Path(f"{RESULTS}/tables/beyond/realisations.parquet").exists()
-CLAIM_PARTS = ["", "beyond/"] if SIMULATED and ensembles("beyond/") else [""]
+#: Groups whose realisations and preludes claims rest on, by part; those of the parts that are
+#: simulated upon request count once that has been done.
+CLAIM_GROUPS = {
+    "": ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"],
+    "beyond/": ["loading"],
+    "more/": ["repetitions", "groove_lengths", "one_level"],
+}
+CLAIM_PARTS = ["", *filter(was_simulated, ["beyond/", "more/"])]
+CLAIM_ENSEMBLES = ensembles(
+    CLAIM_PARTS[-1], chain.from_iterable(CLAIM_GROUPS[part] for part in CLAIM_PARTS)
+)
 #: Tables that claims rest on, by the option that takes them.
 CLAIM_TABLES = {
     option: expand(f"{RESULTS}/tables/{{part}}{table}.parquet", part=CLAIM_PARTS)
@@ -14,11 +22,14 @@ CLAIM_TABLES = {
 }
 if config["accuracy"]:
     CLAIM_TABLES["precision"] = rules.precision_table.output
-#: Groups whose realisations and preludes claims rest on.
-CLAIM_GROUPS = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
-if "beyond/" in CLAIM_PARTS:
-    CLAIM_GROUPS += ["loading", "groove_lengths", "one_level", "more"]
-CLAIM_ENSEMBLES = ensembles(CLAIM_PARTS[-1], CLAIM_GROUPS)
+
+
+rule more:
+    input:
+        lambda wildcards: tables_of("more/"),
+    localrule: True
+    message:
+        f"{RESULTS}/tables/more is what statements rest on, too, from the next `snakemake` on"
 
 
 rule claims:

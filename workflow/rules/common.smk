@@ -1,7 +1,8 @@
 import os
 import re
 import sys
-from itertools import chain
+from itertools import accumulate, chain
+from operator import or_
 from pathlib import Path
 from shlex import quote
 
@@ -26,16 +27,21 @@ SETUP = Setup(
     **{key: config[key] for key in ("integrator", "step", "sample_interval")},
 )
 INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
+CORRELATIONS = expand(
+    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
+)
 #: Groups of scenes, each a list of ensembles.
 ENSEMBLES = study.ensembles(config)
-#: Groups of the study and of what goes beyond the paper, by the folder of their tables.
-PARTS = {"": config["scenes"], "beyond/": config["beyond"]}
-#: The ensemble in each folder of realisations; what goes beyond the paper also draws on the study.
+#: Groups of each part of the study, by the folder of its tables.
+PARTS = {"": config["scenes"], "beyond/": config["beyond"], "more/": config["more"]}
+#: Groups that it may draw on: its own, and those of the parts before it.
+REACH = dict(zip(PARTS, accumulate(PARTS.values(), or_), strict=True))
+#: The ensemble in each folder of realisations.
 ENSEMBLE = {
     part: {each.scene.folder: each for group in groups for each in ENSEMBLES[group]}
-    for part, groups in {"": config["scenes"], "beyond/": ENSEMBLES}.items()
+    for part, groups in REACH.items()
 }
-EVERY = ENSEMBLE["beyond/"]
+EVERY = ENSEMBLE["more/"]
 #: Cuts of measured surfaces by the name of the mask that they make.
 CUTS = {
     ensemble.scene.mask.name: ensemble.scene.mask.cut
@@ -89,6 +95,26 @@ def ensembles(part, groups=None):
     return list(dict.fromkeys(ENSEMBLE[part][each.scene.folder] for each in members))
 
 
+def tables_of(part):
+    """Tables of a part that is simulated upon request; it must hold some scenes."""
+    if not ensembles(part):
+        raise WorkflowError(
+            f"{part.rstrip('/')} holds no scenes; config/config.yaml has some to begin with."
+        )
+    tables = ["realisations", "correlation", "correlation_length"]
+    return [f"{RESULTS}/tables/{part}{table}.parquet" for table in tables]
+
+
+def was_simulated(part):
+    """Whether a part that is simulated upon request has been."""
+    return bool(ensembles(part)) and Path(tables_of(part)[0]).exists()
+
+
+def furthest(groups):
+    """The part that has simulated most of these groups, or must."""
+    return "more/" if was_simulated("more/") or set(groups) & set(PARTS["more/"]) else "beyond/"
+
+
 def scene(wildcards):
     """The scene of a job, as options of its command."""
     return EVERY[wildcards.scene].scene.arguments
@@ -119,6 +145,12 @@ def minutes(wildcards, attempt):
     ensemble = EVERY[wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
     return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, seeds_of(wildcards))
+
+
+def correlations(table, part):
+    """Files that hold a table of correlations for each ensemble of a part that has sides."""
+    scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
+    return [f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet" for scene in scenes]
 
 
 def there_already(*files):

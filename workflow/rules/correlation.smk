@@ -1,16 +1,3 @@
-# How detachments along the sides of pillars are correlated.
-
-CORRELATIONS = expand(
-    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
-)
-
-
-def correlations(table, part):
-    """Files that hold a table of correlations for each ensemble of a part that has sides."""
-    scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
-    return [f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet" for scene in scenes]
-
-
 rule correlation_scene:
     input:
         made_of("steps/correlation", "springblock.commands.correlation"),

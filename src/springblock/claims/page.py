@@ -28,10 +28,10 @@ and grooved surfaces and on their preludes. Units are SI, lengths count blocks.
 ## The rule
 
 Every statement claims a range for some statistic, in one or several cases. These are surfaces with
-twenty realisations or more: some are the study's, others `snakemake beyond` simulates, and the page
-takes up what is there. The ranges were fixed before the numbers. Where the paper has words, all
-statements take them alike: what it says without exception means more than nine tenths, "most" more
-than half, "negligible" less than a tenth, "comparable" within a factor of two.
+twenty realisations or more: some are the study's, others `snakemake more` and `snakemake beyond`
+simulate, and the page takes up what is there. The ranges were fixed before the numbers. Where the
+paper has words, all statements take them alike: what it says without exception means more than nine
+tenths, "most" more than half, "negligible" less than a tenth, "comparable" within a factor of two.
 
 A finding *holds* where the interval of the statistic lies within the claimed range, *fails* where
 it lies wholly outside, and is *open* where it lies across an edge. Intervals that decide together
