@@ -195,7 +195,7 @@ def jobs_of_the_workflow():
                 path = path.replace("production/{{scene}}", "production/flat")
                 path = path.replace("{{", "{").replace("}}", "}")
                 for figure in declarations() if "{figure}" in path else [""]:
-                    for part in ("", "beyond/"):
+                    for part in ("", "beyond/", "more/"):
                         named = path.format(figure=figure, part=part, **wildcards)
                         yield text.split(":")[0].strip(), named
 
