@@ -222,6 +222,13 @@ def test_errors_at_full_size_belong_to_the_study_once_they_are_there(study):
     assert "realisations.parquet --production measured/tables/production.parquet" in commands
 
 
+def test_a_part_without_sides_has_no_correlations(study):
+    often = "more={repetitions: {n_p: [3], n_s: [3], direction: [x], seeds: 4}}"
+    jobs = planned(study, "--config", "results=elsewhere", often, "--", "more")
+    assert jobs["aggregate_part"] == 1
+    assert not {"correlation_scene", "correlations_table"} & set(jobs)
+
+
 @pytest.mark.parametrize("part", ["beyond/", "more/"])
 def test_claims_rest_on_what_is_simulated_upon_request_once_it_is_there(study, part):
     results = f"with-{part[:-1]}"

@@ -13,12 +13,10 @@ CLAIM_ENSEMBLES = ensembles(
 )
 #: Tables that claims rest on, by the option that takes them.
 CLAIM_TABLES = {
-    option: expand(f"{RESULTS}/tables/{{part}}{table}.parquet", part=CLAIM_PARTS)
-    for option, table in {
-        "realisations": "realisations",
-        "correlation": "correlation",
-        "correlation-length": "correlation_length",
-    }.items()
+    table.replace("_", "-"): [
+        file for part in CLAIM_PARTS for file in tables_of(part) if Path(file).stem == table
+    ]
+    for table in ("realisations", "correlation", "correlation_length")
 }
 if config["accuracy"]:
     CLAIM_TABLES["precision"] = rules.precision_table.output

@@ -96,12 +96,14 @@ def ensembles(part, groups=None):
 
 
 def tables_of(part):
-    """Tables of a part that is simulated upon request; it must hold some scenes."""
+    """Tables of a part, which must hold scenes; of correlations where some of these have sides."""
     if not ensembles(part):
         raise WorkflowError(
             f"{part.rstrip('/')} holds no scenes; config/config.yaml has some to begin with."
         )
-    tables = ["realisations", "correlation", "correlation_length"]
+    tables = ["realisations"]
+    if any(ensemble.scene.sides for ensemble in ensembles(part)):
+        tables += ["correlation", "correlation_length"]
     return [f"{RESULTS}/tables/{part}{table}.parquet" for table in tables]
 
 

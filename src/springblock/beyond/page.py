@@ -6,15 +6,16 @@ from springblock.beyond.question import Ensembles, Question
 
 _PAGE = """# What goes beyond the paper
 
-Written by `snakemake beyond` from realisations, those that it simulates and those of the study.
-Lengths count blocks unless they have a unit; l is the spacing of the lattice, l_z the thickness of
-the layer, 10 µm each in the paper. Numbers stand with their 95 % intervals over realisations.
-Exponents, correlation lengths, minima, variances, differences and shares of variance have
-bias-corrected and accelerated bootstrap intervals (BCa), with 1000 resamples of every ensemble by
-itself; those of means and of c(r) are what `docs/claims.md` says of means and of c(r). What begins
-in bold follows from the intervals beside it, read one by one. Questions and methods took shape
-while results came in: these are findings for others to test, not verdicts. Fewer than three
-realisations have no interval, fewer than ten no correlation.
+Written by `snakemake beyond` from realisations, those that it simulates and those of the study and
+of `snakemake more`, where that has been called. Lengths count blocks unless they have a unit; l is
+the spacing of the lattice, l_z the thickness of the layer, 10 µm each in the paper. Numbers stand
+with their 95 % intervals over realisations. Exponents, correlation lengths, minima, variances,
+differences and shares of variance have bias-corrected and accelerated bootstrap intervals (BCa),
+with 1000 resamples of every ensemble by itself; those of means and of c(r) are what
+`docs/claims.md` says of means and of c(r). What begins in bold follows from the intervals beside
+it, read one by one. Questions and methods took shape while results came in: these are findings for
+others to test, not verdicts. Fewer than three realisations have no interval, fewer than ten no
+correlation.
 
 {sections}
 """
