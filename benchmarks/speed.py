@@ -84,6 +84,7 @@ FINE_STEP = 2.5e-9
 
 SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
+LONGER = 100  #: times as many on several cores, whose threads begin anew with every call
 LARGE = (500, 2000)  #: surfaces that several cores may share
 SHARES = (0.0, 0.25, 0.5, 0.75)
 
@@ -355,7 +356,7 @@ def cores() -> Iterator[Row]:
     """Large surfaces on one core and on all there are; seconds of the wall."""
     numbers = sorted({1, os.cpu_count() or 1})
     for n in LARGE:
-        solver, steps = Solver("leapfrog", n), max(1, BLOCK_STEPS // n**2)
+        solver, steps = Solver("leapfrog", n), max(1, LONGER * BLOCK_STEPS // n**2)
         runs = {
             f"leapfrog, N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers
         }
