@@ -16,7 +16,7 @@ from springblock.sources import configuration_digest
 
 #: Files whose folder names a scene, in the results folder of a study.
 _OF_A_SCENE = re.compile(
-    r"(?P<results>.*)/(?:realisations|preludes|correlations|correlations/(?:beyond|more))/"
+    r"(?P<results>.*)/(?:realisations|preludes|correlations(?:/\w+)?)/"
     r"(?P<place>n_blocks-\d+/.*)"
 )
 
