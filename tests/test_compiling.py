@@ -40,10 +40,9 @@ def test_each_kernel_is_announced_for_itself(cache, caplog):
 
 
 KERNEL = """
-from numba import njit
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import kernel
 
-@njit(**JIT)
+@kernel
 def twice(x):
     return x + x
 

@@ -7,14 +7,13 @@ doi:10.1016/j.ijsolstr.2022.111525.
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from springblock.asperities import draw_friction
-from springblock.material import Material
-from springblock.pattern import Pattern
-from springblock.realisation import Realisation
-
 if TYPE_CHECKING:
+    from springblock.asperities import draw_friction
+    from springblock.material import Material
+    from springblock.pattern import Pattern
     from springblock.prelude import Prelude, compute_prelude
     from springblock.reading import read
+    from springblock.realisation import Realisation
     from springblock.simulation import SimulationError, simulate
 
 __all__ = [
@@ -29,11 +28,15 @@ __all__ = [
     "simulate",
 ]
 
-#: Where those names are at home that take the solver or Parquet along.
+#: Where these names are at home.
 _HOMES = {
+    "Material": "material",
+    "Pattern": "pattern",
     "Prelude": "prelude",
+    "Realisation": "realisation",
     "SimulationError": "simulation",
     "compute_prelude": "prelude",
+    "draw_friction": "asperities",
     "read": "reading",
     "simulate": "simulation",
 }
@@ -41,7 +44,7 @@ _HOMES = {
 if not TYPE_CHECKING:  # mypy would accept any name if it saw this
 
     def __getattr__(name: str) -> object:
-        """Import the solver with numba, or Parquet, for those alone who ask for it (PEP 562)."""
+        """Import NumPy, the solver, or Parquet for those alone who ask for it (PEP 562)."""
         if name not in _HOMES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return getattr(import_module(f"springblock.{_HOMES[name]}"), name)

@@ -1,6 +1,9 @@
 """The command line. Commands are imported when they are called: a job loads what it needs."""
 
+import atexit
 import gc
+import os
+from functools import cache
 from importlib import import_module
 
 import click
@@ -33,6 +36,19 @@ COMMANDS = {
 }
 
 
+@cache
+def _start_lightly() -> None:
+    """Leave out what costs a short job half of its time and is of no use to it.
+
+    Garbage would be looked for among all that imports leave some hundred times while they run,
+    and twice at the end, when the memory goes back as a whole. NumPy's linear algebra would start
+    a thread for each core, which then waits by counting.
+    """
+    gc.set_threshold(100_000)
+    atexit.register(gc.freeze)
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
 class _LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -40,8 +56,7 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        # Python would look through all that imports leave some hundred times, a tenth of a start.
-        gc.set_threshold(100_000)
+        _start_lightly()
         module, name = COMMANDS[cmd_name].split(":")
         return getattr(import_module(module), name)
 

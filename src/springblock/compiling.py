@@ -1,8 +1,6 @@
-"""A word to those who wait for the compiler, and what it need not load."""
+"""A word to those who wait for the compiler."""
 
-import importlib
 import logging
-import sys
 from functools import cache
 from pathlib import Path
 
@@ -20,15 +18,3 @@ def announce(integrator: str, cores: int) -> None:
     kernel = integrator if cores == 1 else "parallel"
     if not any(Path(numba.config.CACHE_DIR).rglob(f"{kernel}.*.nbi")):
         _LOG.warning("compiling %s once, about 15 s", integrator)
-
-
-def spare_blas() -> None:
-    """Load numba without SciPy's BLAS, which no kernel calls and which takes 0.2 s to load.
-
-    For processes of the command line alone: functions compiled in them cannot use `np.dot`.
-    """
-    blas = "scipy.linalg.cython_blas"
-    if blas not in sys.modules:
-        sys.modules[blas] = None  # type: ignore[assignment]  # numba goes on without
-        importlib.import_module("numba.np.arraymath")
-        del sys.modules[blas]

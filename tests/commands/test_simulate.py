@@ -1,6 +1,7 @@
 """springblock compile, prelude and simulate."""
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -266,17 +267,27 @@ def test_a_run_that_fails_is_named(springblock, tmp_path):
     assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
 
 
-def test_a_job_loads_neither_pandas_nor_what_no_kernel_calls(tmp_path):
+def test_a_job_loads_neither_pandas_nor_a_compiler_without_work(springblock, tmp_path):
+    """Nor does it let linear algebra start threads, unless it is told to."""
     job = ["simulate", "--n-blocks", "6", "--output", str(tmp_path / "run.parquet")]
+    springblock(*job)  # machine code is kept now
     script = f"""if True:
-        import sys
+        import os, sys
         from springblock.cli import main
         main({job}, standalone_mode=False)
         print(*sys.modules)
-        import scipy.linalg.cython_blas  # others may still have it
+        print(os.environ["OPENBLAS_NUM_THREADS"])
     """
-    outcome = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-    assert outcome.returncode == 0, outcome.stderr
-    loaded = set(outcome.stdout.split())
-    assert {"numba.np.arraymath", "pyarrow.parquet"} <= loaded
-    assert not {"pandas", "scipy.linalg", "matplotlib", "snakemake"} & loaded
+    for told, threads in ((None, "1"), ("3", "3")):
+        ours = {name: value for name, value in os.environ.items() if "OPENBLAS" not in name}
+        ours |= {"OPENBLAS_NUM_THREADS": told} if told else {}
+        command = [sys.executable, "-c", script]
+        outcome = subprocess.run(command, env=ours, capture_output=True, text=True)
+        assert outcome.returncode == 0, outcome.stderr
+        *_, modules, of_blas = outcome.stdout.splitlines()
+        loaded = set(modules.split())
+        assert {"numba", "pyarrow.parquet"} <= loaded
+        assert (
+            not {"pandas", "scipy.linalg", "matplotlib", "snakemake", "numba.np.arraymath"} & loaded
+        )
+        assert of_blas == threads

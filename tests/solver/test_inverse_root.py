@@ -3,20 +3,23 @@
 import mpmath
 import numpy as np
 import pytest
-from numba import njit
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import kernel
 from springblock.solver.inverse_root import inverse_root
 
 SMALLEST, LARGEST = np.finfo(float).smallest_normal, np.finfo(float).max
 
 
-@njit(error_model=JIT["error_model"], fastmath=JIT["fastmath"])
-def inverse_roots(x):
+@kernel
+def fill(found, x):
     """As the integrators compute it: in a loop that the compiler makes vectors of."""
-    found = np.empty_like(x)
     for i in range(len(x)):
         found[i] = inverse_root(x[i])
+
+
+def inverse_roots(x):
+    found = np.empty_like(x)
+    fill(found, x)
     return found
 
 

@@ -102,7 +102,7 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
     """Its blocks are at rest and free of force: the slider alone can make them let go."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
-    rows, blocks = leapfrog.make_rows.py_func(state.in_contact, 12, False), state.blocks
+    rows, blocks = leapfrog.make_rows(state.in_contact, False), state.blocks
     assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.wx, blocks.wy))
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
@@ -120,7 +120,7 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
 @pytest.mark.parametrize("moving", range(5))
 def test_a_moving_row_wakes_its_neighbours(moving, periodic):
     """Across periodic edges, too: the row beyond the last one is the first."""
-    rows = leapfrog.make_rows.py_func(np.ones(5, bool), 5, periodic)
+    rows = leapfrog.make_rows(np.ones(5, bool), periodic)
     rows.sliding[:] = False
     rows.sliding[moving + 1] = 5
     rows.wake[:] = 1000

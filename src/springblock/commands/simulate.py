@@ -22,7 +22,7 @@ from springblock.commands.options import (
     scene_options,
     with_options,
 )
-from springblock.compiling import announce, spare_blas
+from springblock.compiling import announce
 from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
@@ -88,7 +88,6 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
         given = {field.name: options.pop(field.name) for field in fields(Setup)}
         with one_sentence():
             setup = Setup(**given).vary(dict(scene.varied))
-        spare_blas()
         return command(scene=scene, setup=setup, **options)
 
     return scene_options(with_options(_SETUP, with_setup))

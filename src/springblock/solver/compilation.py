@@ -2,12 +2,14 @@
 
 import os
 import sysconfig
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
 import llvmlite.binding
 import numba
-from numba import types
+from numba import njit, types
 from numba.core import caching
 from numba.core.compiler import Compiler
 from numba.extending import intrinsic
@@ -73,18 +75,35 @@ class _Restrict(Compiler):  # type: ignore[misc]
         return super().define_pipelines()
 
 
+class _Kept(caching.FunctionCache):  # type: ignore[misc]
+    """Machine code that is loaded as it is.
+
+    Numba makes ready to compile before it looks for kept code: it loads all that it knows of
+    Python and NumPy, a quarter of what a short job costs. Should there be something to compile,
+    it makes ready for that by itself.
+    """
+
+    def load_overload(self, sig, target_context):
+        return self._load_overload(sig, target_context)
+
+
 #: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum. References to
-#: arrays are not counted, which costs an atomic operation for each array in each call.
-JIT = {
-    "cache": True,
+#: arrays are not counted, which costs an atomic operation for each array in each call: kernels
+#: make no arrays.
+_OPTIONS = {
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract", "nsz"},
     "pipeline_class": _Restrict,
     "_nrt": False,
 }
-#: For functions that make arrays, and hold them while others work on them.
-JIT_WITH_ARRAYS = {**JIT, "_nrt": True}
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile a function for the types that it is called with, and keep its machine code."""
+    compiled = njit(**_OPTIONS)(function)
+    compiled._cache = _Kept(function)
+    return compiled
 
 
 @intrinsic

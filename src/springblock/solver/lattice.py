@@ -14,7 +14,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.material import Material
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import kernel
 from springblock.solver.laws import Law, law_of
 from springblock.solver.springs import (
     FORCE_X,
@@ -240,14 +240,14 @@ def close_edge(ux, uy, row, grid):
         uy[i + x] = last_y if x > n else uy[i + x]
 
 
-@njit(**JIT)
+@kernel
 def close_edges(ux, uy, grid):
     """Do so for all rows."""
     for row in range(grid.n_y):
         close_edge(ux, uy, row, grid)
 
 
-@njit(**JIT)
+@kernel
 def close_rows(ux, uy, grid):
     """Let an image of the first row follow the last one, on a periodic surface.
 
@@ -268,7 +268,7 @@ def place(y, x, grid):
     return y * np.int64(grid.pitch) + x if 0 <= y < n_y and 1 <= x <= n_x else np.int64(-1)
 
 
-@njit(**JIT)
+@kernel
 def keep_peaks(peak, band, s):
     """Keep the largest |F_mot|² of each block in a band, for a prelude."""
     if peak is not None:
@@ -279,7 +279,7 @@ def keep_peaks(peak, band, s):
                 peak[i + x] = max(peak[i + x], fx * fx + fy * fy)
 
 
-@njit(**JIT)
+@kernel
 def book(ledger, samples, constants, totals, switches, k, first, every):
     """Enter step k into the ledger, and into the samples where it ends an interval.
 

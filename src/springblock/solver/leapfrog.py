@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
+from springblock.solver.compilation import add, kernel
 from springblock.solver.friction import slow_down
 from springblock.solver.lattice import (
     RUBBED,
@@ -86,9 +86,9 @@ class Rows(NamedTuple):
     squares: Array
 
 
-@njit(**JIT_WITH_ARRAYS)
-def make_rows(in_contact, n, periodic):
-    """Rows as if every one of n moved."""
+def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
+    """Rows as if every one moved."""
+    n = len(in_contact)
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
@@ -118,7 +118,7 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
     return sum_x - phantoms * ux[x], sum_y - phantoms * uy[x]
 
 
-@njit(**JIT)
+@kernel
 def _count_switches(blocks, turned, i, n):
     """Return how many blocks of a row slide that were at rest for an instant, and before the step.
 
@@ -133,7 +133,7 @@ def _count_switches(blocks, turned, i, n):
     return switches, released
 
 
-@njit(**JIT)
+@kernel
 def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
     """Kick and drift those rows of a band that are awake and hold blocks in contact.
 
@@ -180,7 +180,7 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
 
-@njit(**JIT)
+@kernel
 def _move_free_rows(blocks, rows, band, s, a):
     """As `_move_rows_in_contact` for the other rows, which are always awake.
 
@@ -209,7 +209,7 @@ def _move_free_rows(blocks, rows, band, s, a):
         rows.squares[row] = squares
 
 
-@njit(**JIT)
+@kernel
 def _find_released(blocks, law, released, count, band, s, row):
     """Add the blocks of a row that were at rest until this step; returns their number so far.
 
@@ -231,7 +231,7 @@ def _find_released(blocks, law, released, count, band, s, row):
     return count
 
 
-@njit(**JIT)
+@kernel
 def _look_around(blocks, law, released, row, x, constants, slider):
     """Reconstruct the displacements around a block at step k, and before it."""
     now, before = released.now, released.before
@@ -260,7 +260,7 @@ def _look_around(blocks, law, released, row, x, constants, slider):
             before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
 
 
-@njit(**JIT)
+@kernel
 def place_releases(blocks, law, rows, released, count, constants, k):
     """Let `count` blocks go at their times within the step, not at its end.
 
@@ -304,7 +304,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         close_edge(blocks.ux, blocks.uy, U(row), constants.grid)
 
 
-@njit(**JIT)
+@kernel
 def _note_detachments(blocks, i, n, now):
     """Note the time for blocks of one row that slide for the first time; are others yet to?"""
     wx, wy, static, t_det = blocks.wx, blocks.wy, blocks.static, blocks.t_det
@@ -318,7 +318,7 @@ def _note_detachments(blocks, i, n, now):
     return remaining > 0
 
 
-@njit(**JIT)
+@kernel
 def _steps_at_rest(static, s, own, i, n, pull):
     """Steps for which a row at rest among rows at rest is sure to stay there.
 
@@ -331,7 +331,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
     return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
 
 
-@njit(**JIT)
+@kernel
 def _settle(blocks, law, rows, released, count, band, s, pull, now):
     """See to what rows of a band have done; returns what `move_band` does."""
     n, switches = band.grid.n_x, np.int64(0)
@@ -350,7 +350,7 @@ def _settle(blocks, law, rows, released, count, band, s, pull, now):
     return switches, count
 
 
-@njit(**JIT)
+@kernel
 def move_band(blocks, law, peak, rows, released, count, band, s, constants, now):
     """Move a band whose forces are in scratch `s`.
 
@@ -364,7 +364,7 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
     return _settle(blocks, law, rows, released, count, band, s, pull, now)
 
 
-@njit(**JIT)
+@kernel
 def wake(rows, now, periodic):
     """Choose the rows that move, lie beside one that does, or may let go in step `now`."""
     n = len(rows.wake)
@@ -379,7 +379,7 @@ def wake(rows, now, periodic):
         rows.awake[n] = rows.awake[0]
 
 
-@njit(**JIT)
+@kernel
 def totals(rows):
     """Sum over rows, in their order."""
     x, y, heat, squares = 0.0, 0.0, 0.0, 0.0
@@ -391,7 +391,7 @@ def totals(rows):
     return Totals(x, y, heat, squares)
 
 
-@njit(**JIT)
+@kernel
 def _follow(state, constants, first, steps, every, samples, rows, released):
     """As `advance`, with room for rows and for the blocks that let go."""
     blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
@@ -418,14 +418,14 @@ def _follow(state, constants, first, steps, every, samples, rows, released):
     return steps, np.int64(-1), np.int64(-1)
 
 
-@njit(**JIT_WITH_ARRAYS)
-def advance(state, constants, first, steps, every, samples):
+def advance(
+    state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
+) -> tuple[int, int, int]:
     """See `Integrator.advance`.
 
     A row at rest among rows at rest is left alone until one of its blocks may let go, which
     changes no bit.
     """
-    grid = constants.grid
-    rows = make_rows(state.in_contact, np.int64(grid.n_y), grid.periodic is not None)
-    released = room(np.int64(grid.n_y * grid.n_x))
-    return _follow(state, constants, first, steps, every, samples, rows, released)
+    n_y, n_x = constants.grid.shape
+    rows = make_rows(state.in_contact, constants.grid.periodic is not None)
+    return _follow(state, constants, first, steps, every, samples, rows, room(n_y * n_x))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import kernel
 from springblock.solver.lattice import (
     Array,
     Constants,
@@ -49,7 +49,7 @@ def shares(constants: Constants, cores: int) -> list[Share]:
     ]
 
 
-@njit(**JIT)
+@kernel
 def _forces_on_end(blocks, rows, band, s, springs, slider):
     """Forces of a band, and first what the row below pulls it with."""
     if band.start > 0:
@@ -60,7 +60,7 @@ def _forces_on_end(blocks, rows, band, s, springs, slider):
     return forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
 
 
-@njit(**JIT)
+@kernel
 def _look(blocks, rows, share, constants, slider):
     """Forces at both ends of a share, before anything moves.
 
@@ -81,7 +81,7 @@ def _last_band(share, constants):
     return (share.stop - ONE) // size * size
 
 
-@njit(**JIT)
+@kernel
 def _move(blocks, law, peak, rows, share, constants, slider, now):
     """Take a share through a step.
 
@@ -114,7 +114,7 @@ def advance(
 ) -> tuple[int, int, int]:
     """As `leapfrog.advance`, on so many cores."""
     (n_y, n_x), periodic = constants.grid.shape, constants.grid.periodic is not None
-    rows, switches = make_rows(state.in_contact, n_y, periodic), 0
+    rows, switches = make_rows(state.in_contact, periodic), 0
     released, parts = room(n_y * n_x), shares(constants, cores)
     with ThreadPoolExecutor(len(parts)) as executor:
         for k in range(first, first + steps):

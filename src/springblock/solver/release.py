@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS
+from springblock.solver.compilation import kernel
 from springblock.solver.springs import Array, g
 
 
@@ -36,8 +36,7 @@ class Released(NamedTuple):
     before: Array  #: (2, 3, 3) of the middle at step k - 1
 
 
-@njit(**JIT_WITH_ARRAYS)
-def room(blocks):
+def room(blocks: int) -> Released:
     """Room for this many blocks; as long as it is not touched it takes no memory."""
     return Released(
         np.empty(blocks, np.int64),
@@ -70,7 +69,7 @@ def _pull_of_pair(patch, y, x, j, i, kappa):
     return ax + bx, ay + by
 
 
-@njit(**JIT)
+@kernel
 def force_in(patch, y, x, springs, slider):
     """F_mot of the block at (y, x) of a patch of displacements.
 
@@ -85,7 +84,7 @@ def force_in(patch, y, x, springs, slider):
     return fx, fy
 
 
-@njit(**JIT)
+@kernel
 def share_of_step(released, threshold, springs, slider, slide):
     """Return θ of the block in the middle; `slide` is the slider's way in a step.
 

@@ -16,11 +16,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from springblock.solver.compilation import JIT, JIT_WITH_ARRAYS, add
+from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
     RUBBED,
     Array,
+    Blocks,
     Constants,
+    Samples,
     State,
     Totals,
     band_from,
@@ -103,7 +105,7 @@ def _friction_direction(law, fx, fy, wx, wy, static, taken, damping):
     return 0.0, 0.0
 
 
-@njit(**JIT)
+@kernel
 def _set_out(blocks, law, stage, released, count, band, s, damping, now):
     """Choose friction's direction in a band, and let go; returns how many have let go so far.
 
@@ -139,7 +141,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
     return count
 
 
-@njit(**JIT)
+@kernel
 def _look_around(blocks, stage, released, row, x, constants):
     """Reconstruct the displacements around a block at the step's start, and one step before."""
     now, before = released.now, released.before
@@ -156,7 +158,7 @@ def _look_around(blocks, stage, released, row, x, constants):
             before[0, j, i], before[1, j, i] = ux, uy
 
 
-@njit(**JIT)
+@kernel
 def _place_releases(blocks, law, stage, released, count, constants, k):
     """Let `count` blocks go at their times before step k, not half a step before it.
 
@@ -197,7 +199,7 @@ def _taken_in_stage(blocks, law, stage, b):
     return resistance(law, way, speed, 0.0, blocks.static[b], blocks.dynamic[b])
 
 
-@njit(**JIT)
+@kernel
 def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
     """Take one stage on the rows of a band; returns the squared speed."""
     ux, uy, wx, wy, dynamic = blocks.ux, blocks.uy, blocks.wx, blocks.wy, blocks.dynamic
@@ -229,7 +231,7 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
     return weight * total
 
 
-@njit(**JIT)
+@kernel
 def _finish(blocks, law, stage, grid, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
@@ -264,14 +266,13 @@ def _finish(blocks, law, stage, grid, squares):
     return Totals(total_x, total_y, total_heat, squares)
 
 
-@njit(**JIT_WITH_ARRAYS)
-def _begin(blocks, stage):
+def _begin(blocks: Blocks, stage: Stage) -> None:
     """Let the first stage be where the blocks are; without friction any direction will do."""
     stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     stage.ex[:], stage.ey[:] = 1.0, 0.0
 
 
-@njit(**JIT)
+@kernel
 def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
     """As `advance`, with room for what is known between stages and for the blocks that let go."""
     blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
@@ -299,10 +300,11 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
     return steps, np.int64(-1), np.int64(-1)
 
 
-@njit(**JIT_WITH_ARRAYS)
-def advance(state, constants, first, steps, every, samples):
+def advance(
+    state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
+) -> tuple[int, int, int]:
     """See `Integrator.advance`."""
-    grid, stage = constants.grid, Stage(*state.work)
-    every_row, released = np.ones(grid.n_y + ONE, np.bool_), room(np.int64(grid.n_y * grid.n_x))
+    (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)
+    every_row, released = np.ones(n_y + 1, np.bool_), room(n_y * n_x)
     _begin(state.blocks, stage)
     return _follow(state, stage, constants, first, steps, every, samples, every_row, released)

@@ -28,7 +28,7 @@ from numba.extending import register_jitable
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from springblock.solver.compilation import JIT
+from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
 
@@ -304,7 +304,7 @@ def _gather(ux, uy, row, band, columns, s, force, k_s, slider):
         s[BELOW_X + x], s[BELOW_Y + x] = n_x + 0.5 * (nw_x + wne_x), n_y + 0.5 * (nw_y + wne_y)
 
 
-@njit(**JIT)
+@kernel
 def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, slider):
     """Enter F_mot of columns of a band from row `first` on.
 
@@ -320,7 +320,7 @@ def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, s
     return band.stop
 
 
-@njit(**JIT)
+@kernel
 def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider):
     """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
     broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
@@ -330,7 +330,7 @@ def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider
     return broken
 
 
-@njit(**JIT)
+@kernel
 def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
     """As `forces_on_band`, once what pulls the first row from below is known."""
     end = band.grid.width + ONE
@@ -352,7 +352,7 @@ def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
     return band.stop, U(0)
 
 
-@njit(**JIT)
+@kernel
 def forces_on_band(ux, uy, band, needed, s, springs, slider):
     """Put F_mot of a band, under a slider at (x, y), into FORCE_X and FORCE_Y of scratch `s`.
 
