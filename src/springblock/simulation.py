@@ -11,7 +11,6 @@ from tqdm import tqdm
 
 from springblock.checkpoint import Checkpoint, belonging
 from springblock.checks import checked_surface, count_samples, whole_multiple
-from springblock.compiling import announce
 from springblock.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.direction import heading
 from springblock.energy import Energy, elastic_energy
@@ -139,7 +138,6 @@ def simulate(
         snapshots = motion.resume(kept)
     if prelude is not None:
         motion.skip(prelude, here, min([*stops, math.inf if end is None else end]) - 1)
-    announce(integrator, cores)
     with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
         while len(snapshots) < len(stops) or not motion.is_over(end, limit):
             pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL

@@ -12,7 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.material import Material
-from springblock.solver import compilation as _chosen  # noqa: F401  vectors, before numba looks
+from springblock.solver.compilation import keep
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,8 @@ class Solution:
     steps: int
 
 
-@njit(cache=True)
+@keep
+@njit
 def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
     n_y, n_x = contact.shape
     k_int, k_s, mass, length, gamma, speed = c
@@ -61,7 +62,8 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
             a[y, x, 1] = (fy / mass - gamma * v[y, x, 1]) if moves else 0.0
 
 
-@njit(cache=True)
+@keep
+@njit
 def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det):
     n_y, n_x = contact.shape
     r, v = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2))

@@ -12,6 +12,7 @@ import click
 import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
+from tqdm.contrib.logging import logging_redirect_tqdm
 
 from springblock.asperities import draw_friction
 from springblock.checkpoint import check_belonging
@@ -22,7 +23,6 @@ from springblock.commands.options import (
     scene_options,
     with_options,
 )
-from springblock.compiling import announce
 from springblock.defaults import SAMPLE_INTERVAL, STEP
 from springblock.material import Material
 from springblock.prelude import Prelude, compute_prelude
@@ -138,7 +138,6 @@ _CORES = click.option(
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
-    announce(setup.integrator, cores)
     with one_sentence():
         known = scene.mu_static_field and scene.mu_static_field.values
         how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
@@ -197,7 +196,8 @@ def simulate_batch(
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
             row = partial(row, checkpoint_interval=60.0 * minutes)
             row = partial(_kept_row, folder, belongs, row)
-        with tqdm(seeds, desc=scene.folder, unit="realisation", disable=single) as bar:
+        counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
+        with logging_redirect_tqdm(), counted as bar:
             rows = [row(seed=seed) for seed in bar]
         write(_table(rows), output, metadata)
         click.echo(_in_words(rows))

@@ -1,33 +1,43 @@
 """How the kernels are compiled, and where their machine code is kept."""
 
+import hashlib
+import inspect
+import logging
 import os
+import pickle
 import sysconfig
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
-from uuid import uuid4
 
 import llvmlite.binding
 import numba
 from numba import njit, types
 from numba.core import caching
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, CompileResult
+from numba.core.serialize import dumps
 from numba.extending import intrinsic
 
+from springblock.files import BLANK, read_sealed, write_sealed
 from springblock.sources import digest
 
-
-def _default_cache() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "springblock"
+_LOG = logging.getLogger(__name__)
 
 
-# Numba finds stale machine code by the time stamp of the file that holds the function, and does
-# not see that a function inlined from another file has changed. One folder per digest does. Its
-# index tells processors and their features apart, so unlike nodes can share the folder.
-numba.config.CACHE_DIR = str(
-    Path(os.environ.get("NUMBA_CACHE_DIR") or _default_cache())
-    / f"{digest('springblock.solver')}-{sysconfig.get_python_version()}"
+def _caches() -> Path:
+    """Folder for what can be made again."""
+    try:
+        home = Path.home()
+    except RuntimeError:  # nobody's, as some containers have it
+        home = Path()
+    return Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache") / "springblock"
+
+
+#: Where machine code is kept. A function inlined from another file may change: each state of the
+#: sources has a folder of its own. Unlike nodes share it.
+FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / (
+    f"{digest('springblock.solver')}-{sysconfig.get_python_version()}-{numba.__version__}"
 )
 
 
@@ -48,22 +58,6 @@ if not (numba.config.CPU_NAME or numba.config.CPU_FEATURES):
     numba.config.CPU_FEATURES = _wide_vectors()
 
 
-class _OwnFiles(caching.IndexDataCacheFile):  # type: ignore[misc]
-    """Files of machine code that no two processes give the same name.
-
-    Numba counts them. Processes that compile at a time, for other types or on other processors,
-    could then overwrite each other's and load what is not theirs; now all that may happen is
-    that the index forgets one of them, which is then compiled again.
-    """
-
-    def __init__(self, cache_path: str, filename_base: str, source_stamp: object):
-        super().__init__(cache_path, filename_base, source_stamp)
-        self._data_name_pattern = f"{filename_base}.{uuid4().hex}-{{number:d}}.nbc"
-
-
-caching.IndexDataCacheFile = _OwnFiles
-
-
 class _Restrict(Compiler):  # type: ignore[misc]
     """Promises that the arrays handed to a function do not overlap, as `restrict` does in C.
 
@@ -75,16 +69,56 @@ class _Restrict(Compiler):  # type: ignore[misc]
         return super().define_pipelines()
 
 
-class _Kept(caching.FunctionCache):  # type: ignore[misc]
-    """Machine code that is loaded as it is.
+class _Kept(caching.NullCache):  # type: ignore[misc]
+    """Machine code of one function, a file for each kind of processor and of arguments.
 
-    Numba makes ready to compile before it looks for kept code: it loads all that it knows of
-    Python and NumPy, a quarter of what a short job costs. Should there be something to compile,
-    it makes ready for that by itself.
+    Unlike numba's own, it is known to be whole, no two processes mistake each other's for theirs,
+    and it is loaded as it is: numba makes ready to compile first, which takes a quarter of a short
+    job. Where it cannot be kept, each process compiles what it needs.
     """
 
-    def load_overload(self, sig, target_context):
-        return self._load_overload(sig, target_context)
+    def __init__(self, compiled: Any) -> None:
+        self._function = compiled.py_func
+        self._makes_arrays = compiled.targetoptions.get("_nrt", True)
+
+    def _file(self, types_given: object, codegen: Any) -> Path:
+        source = Path(inspect.getfile(self._function))
+        made_for = repr((types_given, codegen.magic_tuple())).encode() + source.read_bytes()
+        key = hashlib.sha256(made_for).hexdigest()
+        return FOLDER / f"{source.stem}.{self._function.__qualname__}-{key[:32]}"
+
+    def load_overload(self, sig: object, target_context: Any) -> Any:
+        try:
+            kept = read_sealed(self._file(sig, target_context.codegen()))
+        except (OSError, ValueError):  # not there, or damaged
+            _say_compiling()
+            return None
+        if self._makes_arrays:
+            target_context.refresh()
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))
+
+    def save_overload(self, sig: object, result: Any) -> None:
+        try:
+            made = dumps(result._reduce()) + BLANK
+            write_sealed(self._file(sig, result.library.codegen), made)
+        except OSError as error:
+            _say_not_kept(str(error))
+
+
+@cache
+def _say_compiling() -> None:
+    _LOG.warning("compiling once for this processor and this kind of run, some 15 s")
+
+
+@cache
+def _say_not_kept(error: str) -> None:
+    _LOG.warning("machine code cannot be kept for the next time: %s", error)
+
+
+def keep(compiled: Any) -> Any:
+    """Let machine code of what numba compiles be kept."""
+    compiled._cache = _Kept(compiled)
+    return compiled
 
 
 #: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum. References to
@@ -101,9 +135,7 @@ _OPTIONS = {
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function for the types that it is called with, and keep its machine code."""
-    compiled = njit(**_OPTIONS)(function)
-    compiled._cache = _Kept(function)
-    return compiled
+    return keep(njit(**_OPTIONS)(function))
 
 
 @intrinsic
