@@ -28,11 +28,12 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick test browser test-slurm verify soak bench bench-release docs archive redraw setup lock clean
 
+# Why each job runs would be most of what is said: all the files that a figure is drawn from.
 all: setup
-	$(BIN)/snakemake
+	$(BIN)/snakemake --quiet reason
 
 quick: setup
-	$(BIN)/snakemake --configfile config/quick.yaml
+	$(BIN)/snakemake --quiet reason --configfile config/quick.yaml
 
 test: setup $(if $(CI),browser)
 	$(BIN)/ruff check

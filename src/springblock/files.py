@@ -5,6 +5,7 @@ import hashlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from uuid import uuid4
 
 #: What mends a file of a study that cannot be used.
 MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again"
@@ -19,7 +20,7 @@ _TAIL = 2**22  #: bytes at the end of a file among which its seal is looked for
 def whole_file(path: Path) -> Iterator[Path]:
     """Yield a temporary path beside `path`, and rename it to `path` once it is complete."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    partial = path.with_name(f".{path.name}.{uuid4().hex}")
     try:
         yield partial
         partial.replace(path)

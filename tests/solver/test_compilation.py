@@ -1,8 +1,11 @@
 """Machine code is kept for whoever can use it; who waits for the compiler is told so."""
 
+import os
 from pathlib import Path
 
-from kernels import COMPILING, run_kernels
+import pytest
+
+from kernels import COMPILING, KERNELS, run_kernels
 from springblock.solver import compilation
 
 
@@ -15,11 +18,37 @@ def test_unlike_processors_share_a_folder_and_no_machine_code(tmp_path):
     unlike = ({}, {"NUMBA_CPU_NAME": "generic"}) * 2
     found = [run_kernels(tmp_path / "kept", **processor) for processor in unlike]
     assert [hits for hits, *_ in found] == [["0", "0"], ["0", "0"], ["1", "1"], ["1", "1"]]
-    assert len(list(tmp_path.glob("kept/*/kernels.*"))) == 4
+    assert len(list(tmp_path.glob("kept/*/*"))) == 4
 
 
-def test_who_has_no_home_keeps_it_where_he_works(monkeypatch):
-    """As a container's users may have none, of whom nothing is known but a number."""
+def test_other_settings_of_numba_have_other_machine_code(tmp_path):
+    run_kernels(tmp_path / "kept")
+    assert run_kernels(tmp_path / "kept", NUMBA_BOUNDSCHECK="1") == (["0", "0"], [COMPILING], 0)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("FACTOR = 2.0", "FACTOR = 3.0"), ("twice(1.5)", "twice(np.float32(1.5))")],
+)
+def test_of_another_source_or_type_nothing_is_run(tmp_path, before, after):
+    """A constant is part of the code, and so are types; the kernels check what they compute."""
+    run_kernels(tmp_path / "kept")
+    changed = KERNELS.replace(before, after)
+    assert run_kernels(tmp_path / "kept", changed) == (["0", "0"], [COMPILING], 0)
+
+
+def test_what_depends_on_more_than_its_source_is_not_kept(tmp_path):
+    """Two functions of one name and place, made with other values."""
+    closure = "def made(c):\n    @keep\n    @njit\n    def twice(x):\n        return c * x\n"
+    closure += "    return twice\ntwice = made(FACTOR)\n@keep\n"
+    within = KERNELS.replace("@kernel\ndef twice(x):\n    return FACTOR * x\n\n@keep\n", closure)
+    assert within != KERNELS
+    for hits in (["0", "0"], ["0", "1"]):
+        assert run_kernels(tmp_path / "kept", within) == (hits, [COMPILING], 0)
+
+
+def test_who_has_no_home_keeps_nothing(monkeypatch):
+    """Users of containers may be no more than a number; the folder at hand may be a stranger's."""
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
     monkeypatch.setattr("os.path.expanduser", lambda path: path)
-    assert compilation._caches() == Path(".cache/springblock")
+    assert compilation._caches() == Path(os.devnull) / ".cache/springblock"

@@ -13,6 +13,7 @@ from typing import Any
 
 import llvmlite.binding
 import numba
+import numpy as np
 from numba import njit, types
 from numba.core import caching
 from numba.core.compiler import Compiler, CompileResult
@@ -29,15 +30,24 @@ def _caches() -> Path:
     """Folder for what can be made again."""
     try:
         home = Path.home()
-    except RuntimeError:  # nobody's, as some containers have it
-        home = Path()
+    except RuntimeError:  # a user who has none, as in some containers; a stranger's folder won't do
+        home = Path(os.devnull)
     return Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache") / "springblock"
 
 
 #: Where machine code is kept. A function inlined from another file may change: each state of the
 #: sources has a folder of its own. Unlike nodes share it.
-FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / (
-    f"{digest('springblock.solver')}-{sysconfig.get_python_version()}-{numba.__version__}"
+FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / digest("springblock.solver")
+
+#: What machine code depends on besides its source, the types and the processor.
+_TOOLS = (
+    sysconfig.get_config_var("EXT_SUFFIX"),
+    numba.__version__,
+    np.__version__,
+    *(
+        os.environ.get(f"NUMBA_{setting}")
+        for setting in ("OPT", "BOUNDSCHECK", "DEBUGINFO", "LOOP_VECTORIZE", "SLP_VECTORIZE")
+    ),
 )
 
 
@@ -45,7 +55,7 @@ def _wide_vectors() -> str | None:
     """Features of a processor with AVX-512, of which vectors of 512 bits are to be made use of.
 
     LLVM prefers half of that, lest the clock slows down, as it did on the first of them. None
-    leaves the choice to numba, which tells processors apart in its cache.
+    leaves the choice to numba.
     """
     try:
         features = llvmlite.binding.get_host_cpu_features()
@@ -78,14 +88,15 @@ class _Kept(caching.NullCache):  # type: ignore[misc]
     """
 
     def __init__(self, compiled: Any) -> None:
-        self._function = compiled.py_func
+        function = compiled.py_func
+        self._name = f"{function.__module__}.{function.__qualname__}"
+        self._source = _content(inspect.getfile(function)), function.__code__.co_firstlineno
+        self._depends_on_more = bool(function.__closure__)
         self._makes_arrays = compiled.targetoptions.get("_nrt", True)
 
     def _file(self, types_given: object, codegen: Any) -> Path:
-        source = Path(inspect.getfile(self._function))
-        made_for = repr((types_given, codegen.magic_tuple())).encode() + source.read_bytes()
-        key = hashlib.sha256(made_for).hexdigest()
-        return FOLDER / f"{source.stem}.{self._function.__qualname__}-{key[:32]}"
+        made_for = (self._source, types_given, codegen.magic_tuple(), _TOOLS)
+        return FOLDER / f"{self._name}-{hashlib.sha256(repr(made_for).encode()).hexdigest()[:32]}"
 
     def load_overload(self, sig: object, target_context: Any) -> Any:
         try:
@@ -98,11 +109,19 @@ class _Kept(caching.NullCache):  # type: ignore[misc]
         return CompileResult._rebuild(target_context, *pickle.loads(kept))
 
     def save_overload(self, sig: object, result: Any) -> None:
+        if self._depends_on_more or result.library.has_dynamic_globals:
+            return
         try:
             made = dumps(result._reduce()) + BLANK
             write_sealed(self._file(sig, result.library.codegen), made)
         except OSError as error:
-            _say_not_kept(str(error))
+            _say_not_kept(error.strerror)
+
+
+@cache
+def _content(source: str) -> str:
+    """Digest of a source file as it is when it is imported."""
+    return hashlib.sha256(Path(source).read_bytes()).hexdigest()
 
 
 @cache
@@ -112,12 +131,13 @@ def _say_compiling() -> None:
 
 @cache
 def _say_not_kept(error: str) -> None:
-    _LOG.warning("machine code cannot be kept for the next time: %s", error)
+    _LOG.warning("machine code cannot be kept for the next time in %s: %s", FOLDER, error)
 
 
 def keep(compiled: Any) -> Any:
     """Let machine code of what numba compiles be kept."""
-    compiled._cache = _Kept(compiled)
+    if not numba.config.DISABLE_JIT:  # and left it a function of Python's
+        compiled._cache = _Kept(compiled)
     return compiled
 
 
