@@ -7,12 +7,14 @@ from pathlib import Path
 
 KERNELS = """
 import logging
+import os
 import numpy as np
 from numba import njit
 from springblock.solver.compilation import keep, kernel
 
 logging.basicConfig(format="%(message)s")
 FACTOR = 2.0
+ONE_HALF = np.dtype(os.environ.get("OF_TYPE", "float64")).type(0.5)
 
 @kernel
 def twice(x):
@@ -23,7 +25,7 @@ def twice(x):
 def doubled(x):
     return np.full(3, x).sum()
 
-assert twice(1.5) == FACTOR * 1.5 and doubled(1.0) == 3.0
+assert twice(ONE_HALF) == FACTOR * 0.5 and doubled(1.0) == 3.0
 print(*(sum(function.stats.cache_hits.values()) for function in (twice, doubled)))
 """
 COMPILING = "compiling once for this processor and this kind of run, some 15 s"
