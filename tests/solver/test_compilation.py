@@ -46,6 +46,14 @@ def test_what_depends_on_more_than_its_source_is_not_kept(tmp_path):
         assert run_kernels(tmp_path / "kept", within) == (hits, [COMPILING], 0)
 
 
+def test_what_holds_addresses_of_its_process_is_not_kept(tmp_path):
+    """As numba has code hold those of arrays above a megabyte."""
+    large = KERNELS.replace("FACTOR = 2.0", "FACTOR, LARGE = 2.0, np.full(200_000, 2.0)")
+    large = large.replace("return FACTOR * x", "return LARGE[int(2 * x)] * x")
+    for hits in (["0", "0"], ["0", "1"]):
+        assert run_kernels(tmp_path / "kept", large) == (hits, [COMPILING], 0)
+
+
 def test_who_has_no_home_keeps_nothing(monkeypatch):
     """Users of containers may be no more than a number; the folder at hand may be a stranger's."""
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)

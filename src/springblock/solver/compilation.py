@@ -109,11 +109,12 @@ class _Kept(caching.NullCache):  # type: ignore[misc]
         return CompileResult._rebuild(target_context, *pickle.loads(kept))
 
     def save_overload(self, sig: object, result: Any) -> None:
-        if self._depends_on_more or result.library.has_dynamic_globals:
+        code = result._asdict()["library"]
+        if self._depends_on_more or code.has_dynamic_globals:  # addresses of this process
             return
         try:
             made = dumps(result._reduce()) + BLANK
-            write_sealed(self._file(sig, result.library.codegen), made)
+            write_sealed(self._file(sig, code.codegen), made)
         except OSError as error:
             _say_not_kept(error.strerror)
 
