@@ -52,7 +52,7 @@ rule all:
 
 
 onsuccess:
-    from springblock import audit
+    from springblock.study import audit
 
     audit.write_manifest(Path(RESULTS), config, Path(workflow.basedir, "environment.lock"))
     page = Path(RESULTS, "report.html").resolve()

@@ -52,14 +52,14 @@ from benchmarks.timing import (
 from springblock import Realisation, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
-from springblock.commands.options import one_sentence
-from springblock.defaults import SAMPLE_INTERVAL
-from springblock.scene import Scene
-from springblock.setup import PAPER
+from springblock.cli.options import one_sentence
+from springblock.io.tables import rows_to_table, write
+from springblock.model.defaults import SAMPLE_INTERVAL
+from springblock.model.scene import Scene
+from springblock.provenance import code_version
+from springblock.simulation.setup import PAPER
 from springblock.solver import INTEGRATORS, on_cores
 from springblock.solver.lattice import Samples, prepare, unpadded
-from springblock.sources import code_version
-from springblock.tables import rows_to_table, write
 
 N = 120
 REPETITIONS = 15
@@ -408,7 +408,7 @@ def machine() -> dict[str, str]:
         "llvm": ".".join(map(str, llvmlite.binding.llvm_version_info)),
         "gcc": c_loop.compiler_version(),
         "lammps": lammps_lattice.version(),
-        "code_version": code_version("springblock.simulation"),
+        "code_version": code_version("springblock.simulation.simulate"),
     }
 
 

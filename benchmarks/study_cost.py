@@ -16,11 +16,11 @@ from pathlib import Path
 from benchmarks.peers.missing import Missing
 from benchmarks.timing import Row, interleaved, missing, row
 from springblock import draw_friction, simulate
-from springblock.commands.simulate import batch_row
-from springblock.figures import declarations
-from springblock.scene import Scene
-from springblock.setup import Setup
-from springblock.tables import BATCH, rows_to_table, write
+from springblock.cli.simulate import batch_row
+from springblock.io.tables import BATCH, rows_to_table, write
+from springblock.model.scene import Scene
+from springblock.plotting import declarations
+from springblock.simulation.setup import Setup
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "results"
@@ -150,7 +150,7 @@ def _job_runs(folder: Path) -> dict[str, Callable[[], object]]:
     tiny = ("--n-blocks", "4", "--first-seed", "0", "--last-seed", "0", "--duration", "2e-7")
     output = ("--output", str(folder / "tiny.parquet"))
     alone = (
-        "from springblock.commands.simulate import draw_friction, simulate;"
+        "from springblock.cli.simulate import draw_friction, simulate;"
         "simulate([[True] * 4] * 4, *draw_friction(4, 0), duration=2e-7)"
     )
     return {

@@ -4,7 +4,7 @@ from itertools import product
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, PAPER_STEP, PLAIN, SCENES
 from springblock.accuracy.production import STEPS, UNITS
-from springblock.defaults import STEP
+from springblock.model.defaults import STEP
 
 QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
 QUANTITIES += ["t_det before horizon", "t_det before peak"]

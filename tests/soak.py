@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock.comparison import compare
-from springblock.tables import load
+from springblock.analysis.comparison import compare
+from springblock.io.tables import load
 
 ROOT = Path(__file__).parents[1]
 TARGETS = ("aggregate", "correlations", "claims")

@@ -16,9 +16,9 @@ import yaml
 
 import springblock
 from springblock.cli import COMMANDS, main
-from springblock.dictionary import tables
-from springblock.material import Material
-from springblock.tables import Record
+from springblock.io.dictionary import tables
+from springblock.io.tables import Record
+from springblock.model.material import Material
 
 ROOT = Path(__file__).parents[1]
 RECORDS = ROOT / "tests/api"

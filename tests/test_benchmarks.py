@@ -18,9 +18,9 @@ from benchmarks.peers.scipy_lattice import UNIT, ScipyLattice
 from benchmarks.timing import BLOCK_STEP, SCHEMA, interleaved, missing, printed, row
 from springblock import Material
 from springblock.accuracy.kernels import spring_forces
-from springblock.figures import declarations
-from springblock.scene import Scene
-from springblock.tables import rows_to_table
+from springblock.io.tables import rows_to_table
+from springblock.model.scene import Scene
+from springblock.plotting import declarations
 
 ROOT = Path(__file__).parents[1]
 BENCHMARK_FILE = """\

@@ -15,9 +15,9 @@ from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
-from springblock.dictionary import page as dictionary
-from springblock.dictionary import tables
-from springblock.tables import SETUP
+from springblock.io.dictionary import page as dictionary
+from springblock.io.dictionary import tables
+from springblock.io.tables import SETUP
 
 DOCS = Path(__file__).parents[1] / "docs"
 

@@ -9,8 +9,8 @@ import yaml
 from PIL import Image
 
 from springblock import draw_friction, simulate
-from springblock.surfaces import BlockMap
-from springblock.tables import read_records
+from springblock.io.tables import read_records
+from springblock.model.blockmap import BlockMap
 from test_workflow import GROOVES, TINY, copied, planned, snakemake
 
 ROOT = Path(__file__).parents[1]

@@ -12,7 +12,7 @@ import pytest
 
 from springblock import Material, read, simulate
 from springblock.cli import main
-from springblock.pictures import film
+from springblock.plotting.runs import film
 from test_workflow import ROOT, copied
 
 #: A box and its language; one that says `skip` needs what a test does not have.

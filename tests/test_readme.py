@@ -10,8 +10,8 @@ from pathlib import Path
 
 from springblock.accuracy.residuals import ENERGY_TOLERANCE
 from springblock.cli import main
-from springblock.pictures import film
-from springblock.scene import Scene
+from springblock.model.scene import Scene
+from springblock.plotting.runs import film
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -21,14 +21,14 @@ from snakemake_interface_executor_plugins.utils import format_cli_arg
 
 from springblock import Pattern, compute_prelude
 from springblock.arrays import read_arrays
-from springblock.checkpoint import Checkpoint
 from springblock.files import BLANK, write_sealed
-from springblock.prelude import Prelude
-from springblock.scene import Scene
+from springblock.model.blockmap import _MOST, BlockMap, Cut
+from springblock.model.scene import Scene
+from springblock.simulation.checkpoint import Checkpoint
+from springblock.simulation.prelude import Prelude
 from springblock.solver.springs import MAX_BLOCKS
-from springblock.study import PARTS, check, completed
-from springblock.surfaces import _MOST, BlockMap, Cut
-from springblock.texts import check_texts
+from springblock.study.configuration import PARTS, check, completed
+from springblock.study.texts import check_texts
 from test_workflow import PAPER, TINY, copied
 
 ROOT = Path(__file__).parents[1]
@@ -475,7 +475,7 @@ def test_metadata_of_tables_are_parsed_alone(tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    from springblock.tables import SUMMARY, read
+    from springblock.io.tables import SUMMARY, read
 
     trap = json.dumps({"__reduce__": "os.system('touch PWNED')"})
     metadata = {"configuration_digest": "$(touch PWNED)", "pandas": trap}

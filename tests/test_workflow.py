@@ -12,9 +12,9 @@ import pytest
 import yaml
 
 from springblock import Material
-from springblock.figures import declarations
+from springblock.io.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.plotting import declarations
 from springblock.solver import INTEGRATORS
-from springblock.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 ROOT = Path(__file__).parents[1]
 
@@ -303,7 +303,7 @@ def test_an_edited_solver_runs_the_simulations_again(study, edited):
     assert planned(study)["simulate_batch"] == 7
 
 
-@pytest.mark.parametrize("edited", ["src/springblock/figures/figure_3.py"], indirect=True)
+@pytest.mark.parametrize("edited", ["src/springblock/plotting/figure_3.py"], indirect=True)
 def test_an_edited_figure_draws_that_figure_again(study, edited):
     again = {"figure_3", *FILMS, "report", "all"}  # films have its colours
     assert set(planned(study)) == again

@@ -10,7 +10,7 @@ from benchmarks.verification import references
 from benchmarks.verification.metrics import NAMES, errors, uncertainties
 from benchmarks.verification.problems import PROBLEMS
 from benchmarks.verification.tables import read_answer, read_reference
-from springblock.commands.options import INPUT, one_sentence
+from springblock.cli.options import INPUT, one_sentence
 from springblock.files import whole_file
 
 _NAME = click.Choice(list(PROBLEMS))

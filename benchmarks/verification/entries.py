@@ -9,8 +9,8 @@ from springblock import simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PLAIN
 from springblock.accuracy.surfaces import Surface
-from springblock.defaults import SAMPLE_INTERVAL
-from springblock.rows import markdown_table
+from springblock.io.rows import markdown_table
+from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.solver import INTEGRATORS
 
 #: Of each integrator, s.

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from springblock.accuracy.surfaces import Array
-from springblock.defaults import SAMPLE_INTERVAL
-from springblock.material import Material
-from springblock.pattern import Pattern
+from springblock.model.defaults import SAMPLE_INTERVAL
+from springblock.model.material import Material
+from springblock.model.pattern import Pattern
 
 
 @dataclass(frozen=True)

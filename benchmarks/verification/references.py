@@ -18,7 +18,7 @@ from benchmarks.verification.tables import (
 from springblock.accuracy import reference
 from springblock.accuracy.conventions import HORIZON_NUDGE
 from springblock.accuracy.surfaces import Surface, drawn
-from springblock.defaults import SAMPLE_INTERVAL
+from springblock.model.defaults import SAMPLE_INTERVAL
 
 PUBLISHED, COARSE = 1e-11, 1e-10  #: relative tolerances of the event-located solution
 STEPS = (1e-9, 5e-10)  #: of the leapfrog that checks it, s

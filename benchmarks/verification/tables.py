@@ -9,8 +9,8 @@ import numpy as np
 
 from benchmarks.verification.problems import Problem
 from springblock.accuracy.surfaces import Array, Surface
-from springblock.defaults import SAMPLE_INTERVAL
 from springblock.files import whole_file
+from springblock.model.defaults import SAMPLE_INTERVAL
 
 SURFACE = ("y", "x", "contact", "mu_static", "mu_dynamic")
 T_DET = ("y", "x", "t_det")

@@ -8,13 +8,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from springblock.asperities import draw_friction
-    from springblock.material import Material
-    from springblock.pattern import Pattern
-    from springblock.prelude import Prelude, compute_prelude
-    from springblock.reading import read
-    from springblock.realisation import Realisation
-    from springblock.simulation import SimulationError, simulate
+    from springblock.io.reading import read
+    from springblock.model.asperities import draw_friction
+    from springblock.model.material import Material
+    from springblock.model.pattern import Pattern
+    from springblock.simulation.prelude import Prelude, compute_prelude
+    from springblock.simulation.realisation import Realisation
+    from springblock.simulation.simulate import SimulationError, simulate
 
 __all__ = [
     "Material",
@@ -30,15 +30,15 @@ __all__ = [
 
 #: Where these names are at home.
 _HOMES = {
-    "Material": "material",
-    "Pattern": "pattern",
-    "Prelude": "prelude",
-    "Realisation": "realisation",
-    "SimulationError": "simulation",
-    "compute_prelude": "prelude",
-    "draw_friction": "asperities",
-    "read": "reading",
-    "simulate": "simulation",
+    "Material": "model.material",
+    "Pattern": "model.pattern",
+    "Prelude": "simulation.prelude",
+    "Realisation": "simulation.realisation",
+    "SimulationError": "simulation.simulate",
+    "compute_prelude": "simulation.prelude",
+    "draw_friction": "model.asperities",
+    "read": "io.reading",
+    "simulate": "simulation.simulate",
 }
 
 if not TYPE_CHECKING:  # mypy would accept any name if it saw this

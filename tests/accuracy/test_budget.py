@@ -19,7 +19,7 @@ from springblock.accuracy.budget import (
     study_budget,
 )
 from springblock.accuracy.conventions import DELAY, LENGTH
-from springblock.defaults import STEP
+from springblock.model.defaults import STEP
 
 CONFIG = Path(__file__).parents[2] / "config/config.yaml"
 CURVATURE, DEVIATION, COST = 2e12, 5e-3, 1.6e-8  #: bias/h² in 1/s², of a run, CPU time x h in s²

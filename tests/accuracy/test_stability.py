@@ -5,7 +5,7 @@ from click.testing import CliRunner
 
 from springblock.accuracy.stability.cases import Family, Outcome
 from springblock.accuracy.stability.table import all_cases
-from springblock.commands import stability
+from springblock.cli import stability
 
 CASES = list(all_cases())
 

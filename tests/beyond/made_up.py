@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy.signal import lfilter
 
-from springblock.material import Material
-from springblock.scene import Scene
-from springblock.tables import Record
+from springblock.io.tables import Record
+from springblock.model.material import Material
+from springblock.model.scene import Scene
 
 T_MAX = 100e-6  #: s
 

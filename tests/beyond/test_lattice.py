@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from beyond.made_up import PLACES, SIZES, lattices
+from springblock.analysis.correlation import fit_tail
 from springblock.beyond.lattice import (
     QUESTION,
     Layer,
@@ -16,8 +17,7 @@ from springblock.beyond.lattice import (
     refined,
 )
 from springblock.beyond.resampling import area, means
-from springblock.correlation import fit_tail
-from springblock.scene import Scene
+from springblock.model.scene import Scene
 
 LAWS = {
     "lattice": (lambda spacing, l_z, scatter: 3.0 * spacing, (1.0, 0.0)),

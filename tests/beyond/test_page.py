@@ -6,7 +6,7 @@ from beyond.made_up import lean
 from springblock.beyond import QUESTIONS, clusters, friction, lattice, scatter, variance
 from springblock.beyond.page import page
 from springblock.beyond.question import by_scene
-from springblock.scene import Scene
+from springblock.model.scene import Scene
 
 
 def test_questions_without_realisations_say_what_they_need():

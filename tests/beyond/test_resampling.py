@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from beyond.made_up import ensemble
+from springblock.analysis.correlation import side_times
+from springblock.analysis.statistics import Interval
 from springblock.beyond.question import number, power
 from springblock.beyond.resampling import SideLength, difference, interval, lowest, means, slopes
-from springblock.correlation import side_times
-from springblock.scene import Scene
-from springblock.statistics import Interval
+from springblock.model.scene import Scene
 
 
 def test_exponents_of_a_power_law_are_exact():

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from beyond.made_up import T_MAX, ensemble, lean, record
+from springblock.analysis.statistics import cluster_sizes
 from springblock.beyond import clusters, scatter, sliding, variance
-from springblock.scene import Scene
-from springblock.statistics import cluster_sizes
+from springblock.model.scene import Scene
 
 FLAT = Scene(40)
 

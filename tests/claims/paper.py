@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from springblock import draw_friction
+from springblock.analysis.statistics import pillar_ring
 from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.rule import Evidence
-from springblock.rows import Row
-from springblock.scene import Scene
-from springblock.statistics import pillar_ring
-from springblock.tables import Record
+from springblock.io.rows import Row
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
 
 N, SEEDS = 48, range(60)
 NAMES = ("slider_velocity", "pressure", "mu_static_std")

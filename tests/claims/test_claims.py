@@ -28,9 +28,9 @@ from springblock.claims.flat import lonely
 from springblock.claims.grooves import both_peaks, edge, grooved_parts, valley
 from springblock.claims.rule import Claim, Estimate, Evidence, verdict
 from springblock.claims.samples import difference, first_patch, isolated, position, rates, share
-from springblock.rows import Row
-from springblock.scene import Scene
-from springblock.tables import Record
+from springblock.io.rows import Row
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
 
 BY_NAME = {claim.test.__name__: claim for claim in CLAIMS}
 

@@ -7,6 +7,7 @@ from click.testing import CliRunner
 
 from beyond.made_up import record
 from springblock import compute_prelude
+from springblock.analysis.statistics import mean_interval, share_interval, students_t
 from springblock.claims.page import page
 from springblock.claims.rule import (
     ENOUGH,
@@ -20,12 +21,11 @@ from springblock.claims.rule import (
 )
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
-from springblock.commands.claims import _by_scene, _stress
-from springblock.scene import Scene
-from springblock.setup import Setup
-from springblock.statistics import mean_interval, share_interval, students_t
-from springblock.surfaces import BlockMap
-from springblock.tables import SUMMARY, rows_to_table, write
+from springblock.cli.claims import _by_scene, _stress
+from springblock.io.tables import SUMMARY, rows_to_table, write
+from springblock.model.blockmap import BlockMap
+from springblock.model.scene import Scene
+from springblock.simulation.setup import Setup
 
 INF = float("inf")
 
@@ -245,7 +245,7 @@ def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
 
 
 def test_the_command_reports_what_was_not_simulated(tmp_path, monkeypatch):
-    monkeypatch.setattr("springblock.commands.claims.read_records", lambda batches: [])
+    monkeypatch.setattr("springblock.cli.claims.read_records", lambda batches: [])
     row = dict.fromkeys(SUMMARY.names, 0) | Setup().constants | Scene(12).row
     table, claims, text = (tmp_path / name for name in ("table", "claims.parquet", "claims.md"))
     runs = [row | {"t_avg": 1.0 + 0.001 * seed, "seed": seed} for seed in range(ENOUGH)]

@@ -5,8 +5,8 @@ import shutil
 
 import pyarrow.parquet as pq
 
-from springblock.prelude import Prelude
-from springblock.tables import load, origin_of, write
+from springblock.io.tables import load, origin_of, write
+from springblock.simulation.prelude import Prelude
 
 FLAT, PILLARS = "n_blocks-12/level-0/direction-x", "n_blocks-12/level-1/n_p-6/n_s-6/direction-x"
 BATCH = f"realisations/{FLAT}/seeds-0-1.parquet"

@@ -27,9 +27,9 @@ from faults.damages import (
     unsealed,
     with_constant,
 )
-from springblock.audit import faults
 from springblock.files import BLANK, read_sealed, write_sealed
-from springblock.surfaces import BlockMap
+from springblock.model.blockmap import BlockMap
+from springblock.study.audit import faults
 
 #: What is done to which file, and words of the sentence about it.
 FAULTS = {

@@ -15,7 +15,7 @@ import pytest
 
 from faults.damages import BATCH, FLAT, OTHER, PILLARS, PRELUDE, TABLE, flipped, outdated, truncated
 from faults.studies import ROOT, copy
-from springblock.audit import faults
+from springblock.study.audit import faults
 
 
 def begin(study, *options):

@@ -4,7 +4,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from faults.studies import copy
-from springblock.comparison import compare
+from springblock.analysis.comparison import compare
 
 SEEDS = 3
 

@@ -10,12 +10,12 @@ from springblock.claims import CLAIMS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.cli import main
-from springblock.figures import declarations
+from springblock.io.tables import read_records
+from springblock.model.scene import Scene
+from springblock.plotting import declarations
 from springblock.report import findings, media, statements, tables, text
 from springblock.report.page import page
 from springblock.report.symbols import typeset
-from springblock.scene import Scene
-from springblock.tables import read_records
 
 
 def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):

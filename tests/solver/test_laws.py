@@ -6,7 +6,7 @@ from numba import njit
 from scipy.integrate import quad
 
 from springblock import Material
-from springblock.material import LAWS
+from springblock.model.material import LAWS
 from springblock.solver import laws
 from springblock.solver.friction import slow_down
 from springblock.solver.laws import SlipWeakening, VelocityWeakening, law_of

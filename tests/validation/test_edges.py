@@ -10,8 +10,8 @@ from springblock.accuracy import plain_rk4
 from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
 from springblock.accuracy.reference import solve
 from springblock.accuracy.surfaces import uniform
-from springblock.energy import elastic_energy
-from springblock.simulation import SimulationError
+from springblock.simulation.energy import elastic_energy
+from springblock.simulation.simulate import SimulationError
 from springblock.solver import INTEGRATORS
 
 PAPER = Material()

@@ -7,7 +7,7 @@ import pytest
 
 from springblock import Material, Pattern, simulate
 from springblock.accuracy.surfaces import drawn, flat, uniform
-from springblock.defaults import STEP
+from springblock.model.defaults import STEP
 
 PAPER = Material()
 INTEGRATORS = ["leapfrog", "rk4"]

@@ -8,7 +8,7 @@ COMPILED = rules.compile.input
 rule compare_scene:
     input:
         COMPILED,
-        made_of("steps/compare_scene", "springblock.commands.measure"),
+        made_of("steps/compare_scene", "springblock.cli.measure"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -44,7 +44,7 @@ rule compare:
 
 rule precision_table:
     input:
-        made_of("steps/precision_table", "springblock.commands.collect"),
+        made_of("steps/precision_table", "springblock.cli.collect"),
         tables=rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
@@ -64,7 +64,7 @@ rule precision_table:
 rule production_scene:
     input:
         COMPILED,
-        made_of("steps/production_scene", "springblock.commands.production"),
+        made_of("steps/production_scene", "springblock.cli.production"),
     output:
         f"{RESULTS}/accuracy/production/{{scene}}.parquet",
     log:
@@ -84,7 +84,7 @@ rule production_scene:
 
 rule production_table:
     input:
-        made_of("steps/production_table", "springblock.commands.collect"),
+        made_of("steps/production_table", "springblock.cli.collect"),
         tables=expand(rules.production_scene.output, scene=conventions.SCENES),
     output:
         f"{RESULTS}/tables/production.parquet",
@@ -117,7 +117,7 @@ rule production:
 rule stability_table:
     input:
         COMPILED,
-        made_of("steps/stability_table", "springblock.commands.stability"),
+        made_of("steps/stability_table", "springblock.cli.stability"),
     output:
         f"{RESULTS}/tables/stability.parquet",
     log:
@@ -139,7 +139,7 @@ AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).
 
 rule accuracy:
     input:
-        made_of("steps/accuracy", "springblock.commands.accuracy"),
+        made_of("steps/accuracy", "springblock.cli.accuracy"),
         tables=[
             rules.precision_table.output,
             rules.stability_table.output,

@@ -7,7 +7,7 @@ BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 rule beyond_page:
     input:
-        made_of("steps/beyond", "springblock.commands.beyond"),
+        made_of("steps/beyond", "springblock.cli.beyond"),
         batches=lambda wildcards: batches(ensembles(furthest(BEYOND_GROUPS), BEYOND_GROUPS)),
     output:
         f"{RESULTS}/beyond.md",

@@ -33,7 +33,7 @@ rule more:
 rule claims:
     input:
         *CLAIM_TABLES.values(),
-        made_of("steps/claims", "springblock.commands.claims", configuration=CONFIGURATION),
+        made_of("steps/claims", "springblock.cli.claims", configuration=CONFIGURATION),
         batches=batches(CLAIM_ENSEMBLES),
         preludes=[
             f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"

@@ -9,8 +9,10 @@ from shlex import quote
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import Material, cost, origin, sources, study
-from springblock.setup import Setup
+from springblock import Material, provenance as sources
+from springblock.io import origin
+from springblock.study import configuration as study, cost
+from springblock.simulation.setup import Setup
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
@@ -51,7 +53,7 @@ CUTS = {
 
 CONFIGURATION = sources.configuration_digest(config)
 #: Code that realisations are computed with.
-SIMULATING = sources.digest("springblock.commands.simulate")
+SIMULATING = sources.digest("springblock.cli.simulate")
 #: What is made of code and conditions whose digests these files have in their names, by the file.
 ORIGINS = {}
 

@@ -1,6 +1,6 @@
 rule correlation_scene:
     input:
-        made_of("steps/correlation", "springblock.commands.correlation"),
+        made_of("steps/correlation", "springblock.cli.correlation"),
         batches=lambda wildcards: batches([ENSEMBLE[wildcards.part][wildcards.scene]]),
     output:
         correlation=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation.parquet",
@@ -31,7 +31,7 @@ rule correlation:
 
 rule correlations_table:
     input:
-        made_of("steps/correlations", "springblock.commands.collect", configuration=CONFIGURATION),
+        made_of("steps/correlations", "springblock.cli.collect", configuration=CONFIGURATION),
         tables=lambda wildcards: correlations(wildcards.table, wildcards.part),
     output:
         f"{RESULTS}/tables/{{part}}{{table}}.parquet",

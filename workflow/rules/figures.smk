@@ -8,8 +8,8 @@ for figure, declared in FIGURES.items():
         input:
             made_of(
                 f"figures/{figure}",
-                "springblock.commands.figure",
-                f"springblock.figures.{figure}",
+                "springblock.cli.figure",
+                f"springblock.plotting.{figure}",
                 options=declared.source.options(
                     config["n_blocks"], config["figures"].get(figure, {})
                 ),
@@ -51,7 +51,7 @@ for name, sweep in SWEEPS.items():
         name:
             f"sweep_{name}"
         input:
-            made_of(f"figures/sweep_{name}", "springblock.pictures.sweep", **sweep),
+            made_of(f"figures/sweep_{name}", "springblock.plotting.runs.sweep", **sweep),
             batches=lambda wildcards, groups=sweep["groups"]: batches(
                 ensembles(furthest(groups), groups)
             ),

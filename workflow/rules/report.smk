@@ -1,6 +1,6 @@
 # Films of the slip front, and the page that shows the study: films, figures, pages and tables.
 
-from springblock.figures.declaration import having
+from springblock.plotting.declaration import having
 
 #: What is filmed, by group: the ensemble on the surface that a figure shows.
 FILMS = {
@@ -15,7 +15,7 @@ for surface, shown in FILMS.items():
         name:
             f"film_{surface}"
         input:
-            made_of(f"films/{surface}", "springblock.pictures.film"),
+            made_of(f"films/{surface}", "springblock.plotting.runs.film"),
             batch=batches([shown])[:1],
         output:
             f"{RESULTS}/films/{surface}.mp4",
@@ -34,7 +34,7 @@ for surface, shown in FILMS.items():
 
 rule report:
     input:
-        made_of("steps/report", "springblock.commands.report"),
+        made_of("steps/report", "springblock.cli.report"),
         pictures=expand(
             f"{RESULTS}/figures/{{figure}}.png",
             figure=[*filter(is_part_of_all, FIGURES), *sweeps("")],

@@ -47,7 +47,7 @@ rule compile:
 
 rule mask_topography:
     input:
-        made_of("steps/mask", "springblock.commands.mask"),
+        made_of("steps/mask", "springblock.cli.mask"),
         topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
     output:
         f"{RESULTS}/surfaces/{{mask}}.npy",
@@ -153,7 +153,7 @@ rule simulate:
 
 rule aggregate_part:
     input:
-        made_of("steps/aggregate", "springblock.commands.aggregate", configuration=CONFIGURATION),
+        made_of("steps/aggregate", "springblock.cli.aggregate", configuration=CONFIGURATION),
         batches=lambda wildcards: batches(ensembles(wildcards.part)),
     output:
         f"{RESULTS}/tables/{{part}}realisations.parquet",

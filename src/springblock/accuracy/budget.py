@@ -15,8 +15,8 @@ from math import inf, sqrt
 from typing import NamedTuple
 
 from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH
-from springblock.defaults import STEP
-from springblock.rows import Row
+from springblock.io.rows import Row
+from springblock.model.defaults import STEP
 
 #: Realisations of a scene in the study, by what errors are asked of; l_c of pillars needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}

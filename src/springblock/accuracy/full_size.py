@@ -14,8 +14,8 @@ from springblock.accuracy.budget import (
     study_budget,
 )
 from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCENES
-from springblock.defaults import STEP
-from springblock.rows import Row, markdown_table, select
+from springblock.io.rows import Row, markdown_table, select
+from springblock.model.defaults import STEP
 
 _WITHOUT = """`snakemake production` measures errors with the study's own number of blocks in a
 quarter of an hour; this page was written without its table.

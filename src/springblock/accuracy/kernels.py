@@ -3,8 +3,8 @@
 import numpy as np
 
 from springblock.accuracy.surfaces import Array
-from springblock.material import Material
-from springblock.simulation import SimulationError
+from springblock.model.material import Material
+from springblock.simulation.simulate import SimulationError
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, close_edges, close_rows, prepare, unpadded
 from springblock.solver.springs import (

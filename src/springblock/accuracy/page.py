@@ -16,8 +16,8 @@ from springblock.accuracy.conventions import (
     order,
 )
 from springblock.accuracy.residuals import ENERGY_TOLERANCE, OUT_OF_LINE
-from springblock.defaults import STEP
-from springblock.rows import Row, markdown_table, select
+from springblock.io.rows import Row, markdown_table, select
+from springblock.model.defaults import STEP
 
 _PAGE = """# What to trust, and how far
 

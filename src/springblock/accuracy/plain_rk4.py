@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.material import Material
+from springblock.model.material import Material
 from springblock.solver.compilation import keep
 
 Array = NDArray[np.float64]

@@ -17,14 +17,14 @@ from tqdm import tqdm
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
 from springblock.accuracy.surfaces import Array, drawn
 from springblock.accuracy.work_precision import timed
-from springblock.correlation import Correlation, fit_tail, side_times
-from springblock.defaults import STEP
-from springblock.pattern import Pattern
-from springblock.prelude import Prelude, compute_prelude
-from springblock.realisation import Realisation
-from springblock.rows import Row
-from springblock.simulation import simulate
-from springblock.tables import column
+from springblock.analysis.correlation import Correlation, fit_tail, side_times
+from springblock.io.rows import Row
+from springblock.io.tables import column
+from springblock.model.defaults import STEP
+from springblock.model.pattern import Pattern
+from springblock.simulation.prelude import Prelude, compute_prelude
+from springblock.simulation.realisation import Realisation
+from springblock.simulation.simulate import simulate
 
 SCHEMA = pa.schema(
     [

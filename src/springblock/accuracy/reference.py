@@ -41,7 +41,7 @@ from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq, minimize_scalar
 
-from springblock.material import Material
+from springblock.model.material import Material
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -4,7 +4,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from statistics import median
 
-from springblock.rows import Row
+from springblock.io.rows import Row
 
 #: Energy residual, as a share of the slider's work, that no realisation should exceed.
 ENERGY_TOLERANCE = 5e-4

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.asperities import draw_friction
-from springblock.material import Material
-from springblock.pattern import Pattern
+from springblock.model.asperities import draw_friction
+from springblock.model.material import Material
+from springblock.model.pattern import Pattern
 
 Array = NDArray[np.float64]
 Surface = tuple[NDArray[np.bool_], Array, Array]

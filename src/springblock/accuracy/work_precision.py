@@ -23,13 +23,13 @@ from tqdm import tqdm
 from springblock.accuracy import plain_rk4, reference
 from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
 from springblock.accuracy.surfaces import Array, Surface, drawn
-from springblock.pattern import Pattern
-from springblock.prelude import compute_prelude
-from springblock.realisation import Realisation
-from springblock.rows import Row
-from springblock.simulation import simulate
+from springblock.io.rows import Row
+from springblock.io.tables import column
+from springblock.model.pattern import Pattern
+from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.realisation import Realisation
+from springblock.simulation.simulate import simulate
 from springblock.solver import INTEGRATORS
-from springblock.tables import column
 
 SCHEMA = pa.schema(
     [

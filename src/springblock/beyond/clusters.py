@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.analysis.statistics import Interval, cluster_sizes, mean_interval
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
-from springblock.rows import markdown_table
-from springblock.scene import Scene
-from springblock.statistics import Interval, cluster_sizes, mean_interval
-from springblock.tables import Record
+from springblock.io.rows import markdown_table
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
 
 Mask = NDArray[np.bool_]
 _SHUFFLES = 20

@@ -6,11 +6,11 @@ from fractions import Fraction
 
 import numpy as np
 
+from springblock.analysis.statistics import Interval, mean_interval, standard_error
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import interval, lowest_place, means
-from springblock.rows import markdown_table
-from springblock.run import Array, Run
-from springblock.statistics import Interval, mean_interval, standard_error
+from springblock.io.rows import markdown_table
+from springblock.simulation.run import Array, Run
 
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from springblock.analysis.correlation import fit_tail, side_times
+from springblock.analysis.statistics import Interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number, power
 from springblock.beyond.resampling import (
@@ -22,12 +24,10 @@ from springblock.beyond.resampling import (
     means,
     slopes,
 )
-from springblock.correlation import fit_tail, side_times
-from springblock.rows import markdown_table
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import Interval
-from springblock.tables import Record
+from springblock.io.rows import markdown_table
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "step"}

@@ -5,12 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from springblock.analysis.statistics import Interval, lesser_prominence, mean_interval
 from springblock.beyond.question import Ensembles, Question, number
 from springblock.beyond.resampling import difference
-from springblock.rows import markdown_table
-from springblock.run import Array, Run, friction
-from springblock.scene import Scene
-from springblock.statistics import Interval, lesser_prominence, mean_interval
+from springblock.io.rows import markdown_table
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array, Run, friction
 
 _ANGLES = {"x": 0.0, "y": 90.0}  #: degrees from grooves along x
 

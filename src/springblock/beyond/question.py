@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from springblock.scene import Scene
-from springblock.statistics import Interval
-from springblock.tables import Record
+from springblock.analysis.statistics import Interval
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most
 

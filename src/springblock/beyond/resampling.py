@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.correlation import Correlation, fit_tail
-from springblock.run import Array
-from springblock.statistics import Interval, bootstrap_weights
+from springblock.analysis.correlation import Correlation, fit_tail
+from springblock.analysis.statistics import Interval, bootstrap_weights
+from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
 Statistic = Callable[..., Array]  #: of samples, (..., k) each, and their axis: (...)
@@ -106,7 +106,7 @@ class SideLength:
 
     Called with numbers of realisations, as a bootstrap draws them, (..., k), it returns lengths,
     (...). `estimate` takes c(r), (b, r), and its errors, (r,), which stay those of all
-    realisations. `times` are those of `springblock.correlation.side_times`.
+    realisations. `times` are those of `springblock.analysis.correlation.side_times`.
     """
 
     def __init__(self, times: Array, last: int, estimate: Estimate = fit_tail) -> None:

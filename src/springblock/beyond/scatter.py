@@ -4,15 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from springblock.analysis.correlation import side_times
+from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import FEWEST, Sample, SideLength, interval, lowest_place, slopes
-from springblock.correlation import side_times
-from springblock.rows import markdown_table
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import Interval, mean_interval
-from springblock.tables import Record
+from springblock.io.rows import markdown_table
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 _SHORTEST = 9  #: n_p from which on three distances can be fitted
 LAST = 6  #: blocks, the end of all fits here, or a third of shorter sides

@@ -3,15 +3,15 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from springblock.analysis.correlation import Correlation, groove_times, side_times
+from springblock.analysis.statistics import Interval
 from springblock.beyond.peaks import angle
 from springblock.beyond.question import Ensembles, Question, number
 from springblock.beyond.resampling import FEWEST, SideLength
-from springblock.correlation import Correlation, groove_times, side_times
-from springblock.rows import markdown_table
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import Interval
-from springblock.tables import Record
+from springblock.io.rows import markdown_table
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 LAST = 6  #: blocks, the end of all fits here
 _FAR = 3  #: blocks, the paper's lower bound of l_c

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import interval, slopes
-from springblock.rows import markdown_table
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import Interval, mean_interval
+from springblock.io.rows import markdown_table
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 Pattern = tuple[int, int]  #: n_p and n_s, blocks; zeros on flat surfaces
 

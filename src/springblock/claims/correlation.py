@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.analysis.correlation import LAST, side_times
 from springblock.claims.rule import Claim, Estimate, Evidence, Finding, Table
 from springblock.claims.samples import (
     ALONG,
@@ -25,10 +26,9 @@ from springblock.claims.samples import (
     place,
     scenes_along_x,
 )
-from springblock.correlation import LAST, side_times
-from springblock.rows import Row, select
-from springblock.run import Array
-from springblock.scene import Scene
+from springblock.io.rows import Row, select
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 _FAR = 3  #: blocks, the paper's lower bound of the correlation length
 _ABOUT = 2.5  #: blocks, which "about three or more" still allows

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from springblock.asperities import draw_friction
+from springblock.analysis.statistics import bootstrap_interval, repeatability
 from springblock.claims.rule import Claim, Estimate, Evidence, Finding, Range
 from springblock.claims.samples import (
     ALIKE,
@@ -31,9 +31,9 @@ from springblock.claims.samples import (
     scenes_along_x,
     share_of,
 )
-from springblock.run import Array, Run
-from springblock.statistics import bootstrap_interval, repeatability
-from springblock.tables import Record
+from springblock.io.tables import Record
+from springblock.model.asperities import draw_friction
+from springblock.simulation.run import Array, Run
 
 _EARLY = 0.9  #: of t_max
 _CORE = 10  #: blocks from the edges of the surface to its core

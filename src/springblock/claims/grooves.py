@@ -10,6 +10,13 @@ from operator import attrgetter
 
 import numpy as np
 
+from springblock.analysis.statistics import (
+    bootstrap_interval,
+    common_curve,
+    lesser_prominence,
+    load_peaks,
+    pillar_map,
+)
 from springblock.claims.rule import Case, Claim, Estimate, Evidence, Finding, Range
 from springblock.claims.samples import (
     ALONG,
@@ -29,16 +36,9 @@ from springblock.claims.samples import (
     scenes_along_x,
     share,
 )
-from springblock.run import Array, Run
-from springblock.scene import Scene
-from springblock.statistics import (
-    bootstrap_interval,
-    common_curve,
-    lesser_prominence,
-    load_peaks,
-    pillar_map,
-)
-from springblock.tables import Record
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array, Run
 
 _STANDS_OUT = 0.01  #: prominence of a load peak over the largest force, as in figure 9
 _BURST = 0.02  #: of t_avg, over which detachments are counted

@@ -19,8 +19,8 @@ from springblock.claims.samples import (
     over_runs,
     scenes_along_x,
 )
-from springblock.run import Array, Run
-from springblock.scene import Scene
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array, Run
 
 _FEW = 3  #: surfaces that a trend needs
 _CHANGES = 0.01  #: share of static friction by which it is manipulated

@@ -6,6 +6,7 @@ from operator import attrgetter
 
 import numpy as np
 
+from springblock.analysis.statistics import cluster_sizes
 from springblock.claims.rule import Claim, Estimate, Evidence, Finding
 from springblock.claims.samples import (
     INF,
@@ -18,9 +19,8 @@ from springblock.claims.samples import (
     over_runs,
     position,
 )
-from springblock.run import Run
-from springblock.scene import Scene
-from springblock.statistics import cluster_sizes
+from springblock.model.scene import Scene
+from springblock.simulation.run import Run
 
 _FRONT = 20  #: blocks that detach side by side before they count as a front
 _LATE = 1e-6  #: s after t_max at which fronts are counted

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from springblock.accuracy.conventions import PAPER_STEP, ensemble_error
 from springblock.claims.rule import Claim, Evidence, Finding
 from springblock.claims.samples import interval
-from springblock.rows import select
+from springblock.io.rows import select
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from springblock.claims.untested import UNTESTED
-from springblock.rows import Row, markdown_table
+from springblock.io.rows import Row, markdown_table
 
 _LINE = 160  #: characters of a verdict in the list of statements
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims.rule import Case, Claim, Estimate, Evidence, Finding
 from springblock.claims.samples import (
     ALIKE,
@@ -25,10 +26,9 @@ from springblock.claims.samples import (
     scenes_along_x,
     share,
 )
-from springblock.run import Array, Run
-from springblock.scene import Scene
-from springblock.statistics import pillar_map, pillar_ring, repeatability
-from springblock.tables import Record
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array, Run
 
 _BORDER = 2  #: blocks from the edge: those on the border and those beside them
 _BROAD = 20  #: n_p from which on most blocks of a pillar are not of its border

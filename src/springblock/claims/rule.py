@@ -7,11 +7,11 @@ from itertools import groupby
 from statistics import median
 from typing import Any
 
-from springblock.rows import Row
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import Interval, share_interval, students_t
-from springblock.tables import Record
+from springblock.analysis.statistics import Interval, share_interval, students_t
+from springblock.io.rows import Row
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
 Case = Mapping[str, str | int | float]

@@ -7,17 +7,17 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.claims.rule import Case, Estimate, Finding, Share, describe
-from springblock.rows import Row
-from springblock.run import Array, Run
-from springblock.scene import Scene
-from springblock.statistics import (
+from springblock.analysis.statistics import (
     difference_interval,
     mean_interval,
     position_interval,
     share_interval,
 )
-from springblock.tables import Record
+from springblock.claims.rule import Case, Estimate, Finding, Share, describe
+from springblock.io.rows import Row
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array, Run
 
 Mask = NDArray[np.bool_]
 Sample = Mapping[int, float]  #: a number per realisation, by its seed

@@ -29,10 +29,10 @@ from springblock.claims.samples import (
     position,
     scenes_along_x,
 )
-from springblock.rows import select
-from springblock.run import Run
-from springblock.scene import Scene
-from springblock.tables import Record
+from springblock.io.rows import select
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.simulation.run import Run
 
 Quantities = Mapping[str, Callable[[Record], float]]  #: of a realisation, by their names
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from springblock.analysis.statistics import pillar_ring
 from springblock.claims.correlation import most_like
 from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.rule import Claim, Estimate, Evidence, Finding
@@ -21,9 +22,8 @@ from springblock.claims.samples import (
     place,
     scenes_along_x,
 )
-from springblock.run import Array
-from springblock.scene import Scene
-from springblock.statistics import pillar_ring
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
 
 _NEEDS = "preludes of"
 _OVER_MEAN = "over the mean of the surface"

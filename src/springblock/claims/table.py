@@ -14,8 +14,8 @@ from springblock.claims.rule import (
     outcomes,
     verdict,
 )
-from springblock.rows import Row
-from springblock.tables import column
+from springblock.io.rows import Row
+from springblock.io.tables import column
 
 SCHEMA = pa.schema(
     [

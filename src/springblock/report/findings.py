@@ -4,12 +4,12 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.beyond.question import number
-from springblock.figures.caption import surface_in_words
-from springblock.figures.style import MICRO
-from springblock.rows import Row
-from springblock.scene import Scene
-from springblock.statistics import Interval, difference_interval, mean_interval
+from springblock.io.rows import Row
+from springblock.model.scene import Scene
+from springblock.plotting.caption import surface_in_words
+from springblock.plotting.style import MICRO
 
 Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
 

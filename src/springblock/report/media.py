@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image
 
-from springblock.figures import declarations
-from springblock.figures.caption import sample_in_words
-from springblock.figures.style import MICRO
-from springblock.pictures import film
-from springblock.tables import Record, read_records
+from springblock.io.tables import Record, read_records
+from springblock.plotting import declarations
+from springblock.plotting.caption import sample_in_words
+from springblock.plotting.runs import film
+from springblock.plotting.style import MICRO
 
 _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them
 _SWEEPS = "Sweeps"

@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from springblock.claims.page import anchor, decided
-from springblock.rows import Row
+from springblock.io.rows import Row
 
 #: Verdicts in the order in which they are listed.
 VERDICTS = ("reproduced", "depends on", "not reproduced", "not settled", "not tested")

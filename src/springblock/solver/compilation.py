@@ -21,7 +21,7 @@ from numba.core.serialize import dumps
 from numba.extending import intrinsic
 
 from springblock.files import BLANK, read_sealed, write_sealed
-from springblock.sources import digest
+from springblock.provenance import digest
 
 _LOG = logging.getLogger(__name__)
 

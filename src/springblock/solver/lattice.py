@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from springblock.material import Material
+from springblock.model.material import Material
 from springblock.solver.compilation import kernel
 from springblock.solver.laws import Law, law_of
 from springblock.solver.springs import (

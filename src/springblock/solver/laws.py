@@ -29,7 +29,7 @@ from numba import types
 from numba.extending import overload
 from numpy.typing import NDArray
 
-from springblock.material import Material
+from springblock.model.material import Material
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from springblock.accuracy.stability.pull import PAPER, Pull, pulled_at
 from springblock.accuracy.stability.schemes import limit, limit_of_damping
 from springblock.accuracy.stability.step import beyond_the_limit
 from springblock.accuracy.surfaces import Array, uniform
-from springblock.material import Material
-from springblock.realisation import Realisation
+from springblock.model.material import Material
+from springblock.simulation.realisation import Realisation
 
 
 def force_at_the_end(pull: Pull, run: Realisation) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from springblock.simulation import SimulationError
+from springblock.simulation.simulate import SimulationError
 
 # Quantities that are judged in several modules.
 FRICTION = "static friction"

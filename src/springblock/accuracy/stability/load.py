@@ -15,9 +15,9 @@ from springblock.accuracy.stability.pull import PAPER, SEED, Pull, pulled_at, re
 from springblock.accuracy.stability.schemes import limit
 from springblock.accuracy.stability.surface import COLUMNS, FREE_COLUMN
 from springblock.accuracy.surfaces import Array, Surface, flat
-from springblock.material import Material
-from springblock.realisation import Realisation
-from springblock.simulation import SimulationError
+from springblock.model.material import Material
+from springblock.simulation.realisation import Realisation
+from springblock.simulation.simulate import SimulationError
 
 BURST, COLLAPSE = 3.0, -0.75  #: (r/L)² - 1 of a spring twice and half as long
 DURATION = 30.0

@@ -8,9 +8,9 @@ import numpy as np
 from springblock.accuracy.stability.cases import Outcome, compared
 from springblock.accuracy.stability.schemes import limit
 from springblock.accuracy.surfaces import Surface
-from springblock.material import Material
-from springblock.realisation import Realisation
-from springblock.simulation import simulate
+from springblock.model.material import Material
+from springblock.simulation.realisation import Realisation
+from springblock.simulation.simulate import simulate
 
 PAPER = Material()
 SEED = 1

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from springblock.accuracy.surfaces import Array
-from springblock.material import Material
+from springblock.model.material import Material
 from springblock.solver import INTEGRATORS
 
 #: Greatest stable omega h of a mode without damping.

@@ -9,7 +9,7 @@ from springblock.accuracy.stability.cases import FIRST, FRICTION, Case, Family, 
 from springblock.accuracy.stability.pull import PAPER, ROUNDING, SEED, Pull, pulled_at, release
 from springblock.accuracy.stability.surface import first_detachment, scattered
 from springblock.accuracy.surfaces import flat, uniform
-from springblock.simulation import simulate
+from springblock.simulation.simulate import simulate
 from springblock.solver.springs import MAX_BLOCKS
 
 

@@ -13,9 +13,9 @@ from springblock.accuracy.stability.cases import FRICTION, LARGEST, Case, Family
 from springblock.accuracy.stability.pull import PAPER, SEED, Pull, pulled_at, release
 from springblock.accuracy.stability.schemes import STABLE, limit_of_damping, turn
 from springblock.accuracy.surfaces import Array, drawn
-from springblock.material import Material
-from springblock.pattern import Pattern
-from springblock.realisation import Realisation
+from springblock.model.material import Material
+from springblock.model.pattern import Pattern
+from springblock.simulation.realisation import Realisation
 
 #: Avalanches on pillars excite the highest modes.
 PILLARS = Pattern.pillars(8, 2, 2)

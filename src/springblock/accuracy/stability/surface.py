@@ -10,7 +10,7 @@ from springblock.accuracy.stability import schemes
 from springblock.accuracy.stability.cases import FIRST, FRICTION, Case, Family, Outcome
 from springblock.accuracy.stability.pull import PAPER, ROUNDING, SEED, Pull, pulled_at, release
 from springblock.accuracy.surfaces import flat
-from springblock.material import Material
+from springblock.model.material import Material
 
 #: Two columns of two blocks, the left one held fast. The free ones move by (a, b) and (a, -b): the
 #: axial spring beside them, the one between them (strained by 2b), and a diagonal give K_int times

@@ -17,8 +17,8 @@ from springblock.accuracy.stability import (
     weakening,
 )
 from springblock.accuracy.stability.cases import Case, Outcome
+from springblock.io.tables import column
 from springblock.solver import INTEGRATORS
-from springblock.tables import column
 
 SCHEMA = pa.schema(
     [

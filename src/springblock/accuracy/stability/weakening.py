@@ -18,7 +18,7 @@ from springblock.accuracy.stability.block import force_at_the_end, with_damping
 from springblock.accuracy.stability.cases import Case, Family, Outcome
 from springblock.accuracy.stability.pull import Pull, pulled_at
 from springblock.accuracy.surfaces import uniform
-from springblock.material import Material
+from springblock.model.material import Material
 
 SPEED, MU_STATIC, MU_DYNAMIC = 0.01, 1.0, 0.6
 DROP = MU_STATIC - MU_DYNAMIC

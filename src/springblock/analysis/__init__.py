@@ -1,0 +1,1 @@
+"""Statistics, correlations and comparisons of realisations."""

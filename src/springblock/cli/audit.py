@@ -1,0 +1,74 @@
+"""springblock verify and repair: whether results are what they should be, and what if not."""
+
+from pathlib import Path
+
+import click
+
+from springblock.analysis import comparison
+from springblock.cli.options import one_sentence
+from springblock.io.tables import load
+from springblock.study import audit
+
+FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
+
+
+@click.command("verify")
+@click.argument("results", type=FOLDER)
+@click.argument("other", type=FOLDER, required=False)
+@click.option("--lock", type=click.Path(exists=True, path_type=Path), help="Lock file of today.")
+def verify(results: Path, other: Path | None, lock: Path | None) -> None:
+    """Hold a folder of RESULTS against its checksums, its manifest and the code of today.
+
+    With OTHER say where the tables of two studies differ, and whether within their intervals. The
+    exit status is 0 where all is as it should be, or within, 1 otherwise.
+    """
+    with one_sentence():
+        found = [fault.reason for fault in audit.faults(results)]
+        found += [change.reason for change in audit.changes(results)]
+        found += audit.other_origin(results, lock)
+        for line in found or [f"{results} is as its study has left it"]:
+            click.echo(line)
+        if other is not None:
+            found += _differences(results, other)
+    if found:
+        raise SystemExit(1)
+
+
+def _differences(results: Path, other: Path) -> list[str]:
+    """Say where the tables of two studies differ; return what lies outside the intervals."""
+    outside = []
+    for file in sorted((results / "tables").rglob("*.parquet")):
+        name = file.relative_to(results)
+        if not (other / name).exists():
+            click.echo(f"{name}: {other} has none")
+            continue
+        first, second = load(file), load(other / name)
+        if comparison.compare(first, second).same:
+            click.echo(f"{name}: the same {first.num_rows} rows, to the bit")
+            continue
+        found = comparison.estimates(first, second)
+        apart = comparison.apart(found)
+        click.echo(
+            f"{name}: different; of {len(found)} values with intervals that differ, {len(apart)} "
+            "do so by more than 95 % intervals of all of them together allow"
+        )
+        outside += [f"  {each}" for each in apart]
+        for each in apart:
+            click.echo(f"  {each}")
+    return outside
+
+
+@click.command("repair")
+@click.argument("results", type=FOLDER)
+def repair(results: Path) -> None:
+    """Set files of RESULTS aside that cannot be used, for `snakemake` to make them again.
+
+    Nothing is removed: they keep their places in the folder `set-aside` of RESULTS.
+    """
+    with one_sentence():
+        number = 0
+        for fault in audit.set_aside(results):
+            click.echo(fault.reason)
+            number += 1
+        files = "1 file is" if number == 1 else f"{number} files are"
+        click.echo(f"{files} set aside in {results / 'set-aside'}" if number else "all is well")

@@ -1,0 +1,99 @@
+"""springblock figure NAME: one figure, written in as many formats as --output is given."""
+
+from collections.abc import Callable
+from functools import partial
+from importlib import import_module
+from operator import attrgetter
+from pathlib import Path
+from typing import Any
+
+import click
+
+from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
+from springblock.io.tables import (
+    CORRELATION,
+    CORRELATION_LENGTH,
+    Record,
+    load,
+    read,
+    read_records,
+    refuse_mixture,
+)
+from springblock.plotting import declarations
+from springblock.plotting.declaration import Correlations, Realisations, Source, Surface, Table
+from springblock.plotting.style import save
+
+Paths = tuple[Path, ...]
+
+
+def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
+    """Records of each scene in `batches` by the scene's `keys`, which tell the scenes apart."""
+    found: dict[Any, list[Record]] = {}
+    for record in read_records(batches):
+        found.setdefault(attrgetter(*keys)(record.scene), []).append(record)
+    for value, records in found.items():
+        scenes = {record.scene.folder for record in records}
+        if len(scenes) > 1:
+            what = f"{', '.join(keys)} = {value}"
+            raise ValueError(f"several scenes have {what}: {', '.join(sorted(scenes))}")
+    return found
+
+
+def _realisations(source: Realisations, batches: Paths) -> list[Any]:
+    if source.keys:
+        return [ensembles(batches, *source.keys)]
+    scenes = ensembles(batches, "folder")
+    if len(scenes) > 1:
+        raise ValueError(f"one scene is drawn, not {' and '.join(sorted(scenes))}")
+    return list(scenes.values())
+
+
+def _correlations(source: Correlations, correlation: Path, lengths: Paths) -> list[Any]:
+    tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
+    refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
+    return [table.to_pandas() for table in tables]
+
+
+_one = partial(click.argument, type=INPUT)
+_many = partial(_one, nargs=-1, required=True)
+#: What the command of a figure takes, and how that becomes what `draw` takes, by kind of source.
+_SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
+    Source: ([], lambda source: []),
+    Surface: ([scene_options], lambda source, scene: [scene.pattern]),
+    Table: ([_one("table")], lambda source, table: [load(table).to_pandas()]),
+    Realisations: ([_many("batches")], _realisations),
+    Correlations: ([_one("correlation"), _many("lengths")], _correlations),
+}
+_OUTPUTS = click.option(
+    "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
+)
+_CAPTION = click.option("--caption", help="Kept with the picture; by default the general one.")
+
+
+class _Figures(click.Group):
+    """A command for each figure, made from what the figure declares."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(declarations())
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
+        figures = declarations()
+        if cmd_name not in figures:
+            raise click.UsageError(f"{cmd_name!r} is no figure; there are {', '.join(figures)}")
+        declared = figures[cmd_name]
+        takes, given = _SOURCES[type(declared.source)]
+
+        def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
+            draw = import_module(f"springblock.plotting.{cmd_name}").draw
+            with one_sentence():
+                picture = draw(*given(declared.source, **inputs))
+                for output in outputs:
+                    save(picture, output, caption or declared.caption)
+
+        command = click.command(cmd_name, help=declared.caption, short_help=declared.title)
+        return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
+
+
+@click.group("figure", cls=_Figures, subcommand_metavar="NAME [INPUTS]... --output FILE")
+def figure() -> None:
+    """Draw a figure from what the study has computed."""

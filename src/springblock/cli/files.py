@@ -1,0 +1,117 @@
+"""springblock info, compare and dictionary: what is in a file, and where two differ."""
+
+import json
+import zipfile
+from pathlib import Path
+
+import click
+import pyarrow as pa
+
+from springblock.analysis import comparison
+from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.files import whole_file
+from springblock.io.dictionary import columns, page, tables
+from springblock.io.tables import load, origin_of
+from springblock.model.scene import Scene
+from springblock.simulation.prelude import Prelude
+
+_SHOWN = 12  #: scenes that are named
+
+
+@click.command("info")
+@click.argument("file", type=INPUT)
+def info(file: Path) -> None:
+    """Say what FILE holds, a table or a prelude: rows, scenes, origin, columns with their units."""
+    with one_sentence():
+        for line in _prelude(file) if zipfile.is_zipfile(file) else _table(file):
+            click.echo(line)
+
+
+def _prelude(file: Path) -> list[str]:
+    loaded = Prelude.read(file)
+    states = ", ".join(str(samples) for samples in loaded.samples)
+    constants = ", ".join(f"{name}={value}" for name, value in loaded.constants.items())
+    return [
+        f"{file}: the loading of a scene before its first detachment",
+        f"states after {states} samples",
+        f"material: {constants}",
+    ]
+
+
+def _table(file: Path) -> list[str]:
+    table = load(file)
+    schema, origin = table.schema, origin_of(table)
+    if "inputs" in origin:
+        origin["inputs"] = f"{len(json.loads(origin['inputs']))} files"
+    lines = [f"{file}: {table.num_rows} rows, {len(schema)} columns"]
+    lines += [f"{key}: {value}" for key, value in origin.items()]
+    lines += _scenes(table)
+    cells = [[cell.strip("`") for cell in line] for line in columns(schema)]
+    widths = [max(len(line[i]) for line in cells) for i in range(3)]
+    for *short, meaning in cells:
+        padded = (cell.ljust(width) for cell, width in zip(short, widths, strict=True))
+        lines.append("  ".join([*padded, meaning]).rstrip())
+    return lines
+
+
+def _scenes(table: pa.Table) -> list[str]:
+    """Scenes that a table holds, and how many rows of each."""
+    if not {"n_blocks", "varied"} <= set(table.column_names):
+        return []
+    names = [name for name in Scene(1).row if name in table.column_names]
+    found = table.group_by(names).aggregate([([], "count_all")]).to_pylist()
+    lines = [f"  {Scene.from_row(row).folder}: {row['count_all']}" for row in found]
+    more = [f"  and {len(lines) - _SHOWN} more"] if len(lines) > _SHOWN else []
+    return [f"{len(lines)} scenes, with so many rows:", *lines[:_SHOWN], *more]
+
+
+@click.command("compare")
+@click.argument("first", type=click.Path(exists=True, path_type=Path))
+@click.argument("second", type=click.Path(exists=True, path_type=Path))
+def compare(first: Path, second: Path) -> None:
+    """Say where the tables FIRST and SECOND differ, or all tables of two folders.
+
+    Rows of the same scene and seed are compared, to the bit. The exit status is 0 where all is the
+    same, 1 otherwise.
+    """
+    with one_sentence():
+        same = True
+        for name, *files in _pairs(first, second):
+            found = comparison.compare(*map(load, files))
+            click.echo(f"{name}: {_in_words(found)}")
+            same &= found.same
+    if not same:
+        raise SystemExit(1)
+
+
+def _pairs(first: Path, second: Path) -> list[tuple[str, Path, Path]]:
+    """Pairs of files, each with a name for both."""
+    if first.is_file() and second.is_file():
+        return [(f"{first} and {second}", first, second)]
+    folders = first, second
+    found = [{file.relative_to(each) for file in each.rglob("*.parquet")} for each in folders]
+    odd = ", ".join(sorted(map(str, found[0] ^ found[1]))[:_SHOWN])
+    if odd or not found[0]:
+        raise ValueError(f"{first} and {second} do not hold the same tables: {odd or 'none'}")
+    return [(str(name), first / name, second / name) for name in sorted(found[0])]
+
+
+def _in_words(found: comparison.Comparison) -> str:
+    if found.same:
+        return f"the same {found.both} rows, to the bit"
+    lines = [f"{found.both} rows in both"]
+    for rows, where in ((found.first, "first"), (found.second, "second")):
+        lines[0] += f", {rows} in the {where} alone" if rows else ""
+    for name, rows, largest, relative in found.differences:
+        how_many = "1 row differs" if rows == 1 else f"{rows} rows differ"
+        size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
+        lines.append(f"  {name}: {how_many}, {size}")
+    return "\n".join(lines)
+
+
+@click.command("dictionary")
+@click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
+def dictionary(output: Path) -> None:
+    """Write down what every column of every table means, and its unit."""
+    with whole_file(output) as partial:
+        partial.write_text(page(tables()), encoding="utf-8")

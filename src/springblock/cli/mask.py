@@ -1,0 +1,33 @@
+"""springblock mask: a contact mask from a measured surface."""
+
+import io
+from pathlib import Path
+
+import click
+import numpy as np
+
+from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.files import BLANK, write_sealed
+from springblock.model.blockmap import Cut
+from springblock.model.material import Material
+
+
+@click.command("mask")
+@click.argument("topography", type=INPUT)
+@click.option("--bearing-area", type=float, help="Share of the blocks in contact, the highest.")
+@click.option("--height", type=float, help="m, that blocks in contact reach.")
+@click.option(
+    "--spacing", type=float, default=Material().spacing, show_default=True, help="m, of blocks."
+)
+@click.option("--output", type=OUTPUT, required=True, help="Array of NumPy (.npy).")
+def mask(
+    topography: Path, bearing_area: float | None, height: float | None, spacing: float, output: Path
+) -> None:
+    """Cut TOPOGRAPHY at a bearing area or a height: the blocks in contact, for --mask."""
+    with one_sentence():
+        contact = Cut(topography, spacing, bearing_area, height).mask()
+        content = io.BytesIO()
+        np.save(content, contact)
+        write_sealed(output, content.getvalue() + BLANK)
+        rows, columns = contact.shape
+        click.echo(f"{output}: {rows} x {columns} blocks, {contact.mean():.1%} in contact")

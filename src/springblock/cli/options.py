@@ -1,0 +1,123 @@
+"""Options and errors that several commands share."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import fields
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import click
+
+from springblock.model.blockmap import BlockMap
+from springblock.model.direction import normalised
+from springblock.model.scene import EDGES, Scene, Varied, in_order
+
+OUTPUT = click.Path(dir_okay=False, path_type=Path)
+INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
+
+
+def _direction(context: click.Context, parameter: click.Parameter, value: str) -> str:
+    try:
+        return normalised(value)
+    except (TypeError, ValueError) as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def _varied(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> Varied:
+    """Read name=value pairs."""
+    try:
+        return in_order(dict(value.partition("=")[::2] for value in values))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def _map(read: Callable[[Path], BlockMap]) -> Callable[..., BlockMap | None]:
+    """Read a file of one value per block."""
+
+    def given(
+        context: click.Context, parameter: click.Parameter, file: Path | None
+    ) -> BlockMap | None:
+        try:
+            return None if file is None else read(file)
+        except ValueError as error:
+            raise click.BadParameter(str(error)) from None
+
+    return given
+
+
+_SCENE = [
+    click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
+    click.option("--n-rows", type=int, default=0, help="Blocks along y; as many if unsaid."),
+    click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
+    click.option("--n-s", type=int, default=0, help="Distance between them, blocks."),
+    click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
+    click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
+    click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
+    click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
+    click.option(
+        "--along-3", type=click.Choice("xy"), help="Axis that these grooves run along; y if unsaid."
+    ),
+    click.option("--edges", type=click.Choice(EDGES), default="free", show_default=True),
+    click.option(
+        "--mask",
+        type=INPUT,
+        callback=_map(BlockMap.mask),
+        help="Blocks in contact: white in an image, not zero in an array (.npy).",
+    ),
+    click.option(
+        "--mu-static",
+        "mu_static_field",
+        type=INPUT,
+        callback=_map(BlockMap.coefficients),
+        help="Array (.npy) of static coefficients, which are then not drawn.",
+    ),
+    click.option(
+        "--mu-dynamic",
+        "mu_dynamic_field",
+        type=INPUT,
+        callback=_map(BlockMap.coefficients),
+        help="The same of dynamic ones.",
+    ),
+    click.option(
+        "--direction", default="x", callback=_direction, show_default=True, help="x, y or degrees."
+    ),
+    click.option(
+        "--vary",
+        "varied",
+        multiple=True,
+        callback=_varied,
+        help="A constant of its own: step=1e-8.",
+    ),
+]
+
+
+def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a scene; the command gets them as `scene`."""
+
+    @wraps(command)
+    def with_scene(**options: Any) -> Any:
+        given = {field.name: options.pop(field.name) for field in fields(Scene)}
+        with one_sentence():
+            scene = Scene(**given | {"along_3": given["along_3"] or ""})
+        return command(scene=scene, **options)
+
+    return with_options(_SCENE, with_scene)
+
+
+def with_options(
+    options: list[Callable[..., Any]], command: Callable[..., Any]
+) -> Callable[..., Any]:
+    """Add several options, in the order in which the help shows them."""
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@contextmanager
+def one_sentence() -> Iterator[None]:
+    """Report what is wrong with the input in one sentence, without a traceback."""
+    try:
+        yield
+    except (OSError, TypeError, ValueError, RuntimeError) as error:
+        raise click.ClickException(str(error)) from error

@@ -1,0 +1,98 @@
+"""springblock plot, animate and show: pictures of one run, still or moving, and of one surface."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
+from springblock.io import tables
+from springblock.io.reading import read
+from springblock.io.tables import Record
+from springblock.model.scene import Scene
+from springblock.plotting.runs import film, still, surface, sweep
+from springblock.plotting.style import save
+
+_RUN = [
+    click.argument("run", type=INPUT),
+    click.option("--seed", type=int, help="Which run of the file; the first if unsaid."),
+]
+
+
+def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the file that `springblock simulate` has written, and which of its runs is meant."""
+    return with_options(_RUN, command)
+
+
+def _chosen(path: Path, seed: int | None) -> Record:
+    runs = {run.seed: run for run in read(path)}
+    if seed is None:
+        return next(iter(runs.values()))
+    if seed not in runs:
+        held = ", ".join(map(str, runs))
+        raise ValueError(f"{path} holds no run of seed {seed}; there are {held}")
+    return runs[seed]
+
+
+@click.command("plot")
+@click.argument("files", type=INPUT, nargs=-1, required=True)
+@click.option("--seed", type=int, help="Which run of a file; the first if unsaid.")
+@click.option("--over", help="Draw means of all runs over this instead: slider_velocity, n_p, ...")
+@click.option(
+    "--of",
+    "observables",
+    type=click.Choice(list(sweep.OBSERVABLES)),
+    multiple=True,
+    help="What is drawn over it; static_friction if unsaid. May be given several times.",
+)
+@click.option(
+    "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG."
+)
+def plot(
+    files: tuple[Path, ...],
+    seed: int | None,
+    over: str | None,
+    observables: tuple[str, ...],
+    outputs: tuple[Path, ...],
+) -> None:
+    """Draw one run: force, detachments, their map, and snapshots if any.
+
+    With --over all runs of FILES, which may be tables of realisations, over what tells them apart.
+    """
+    with one_sentence():
+        if over is None:
+            if len(files) > 1:
+                raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
+            picture, caption = still.draw(_chosen(files[0], seed)), still.CAPTION
+        else:
+            rows = tables.read(files, tables.SUMMARY).to_pylist()
+            picture = sweep.draw(rows, over, observables or ["static_friction"])
+            caption = sweep.caption(rows, over)
+            _tell_left_out(len(rows) - len(sweep.drawn(rows, over)), over)
+        for output in outputs:
+            save(picture, output, caption)
+
+
+def _tell_left_out(realisations: int, over: str) -> None:
+    if realisations:
+        click.echo(f"Left out: {realisations} realisations of surfaces with one {over} alone")
+
+
+@click.command("animate")
+@run_options
+@click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file; 7.5 s.")
+def animate(run: Path, seed: int | None, output: Path) -> None:
+    """Film one run of a file RUN: the blocks that let go, while the force runs along."""
+    with one_sentence():
+        film.write(_chosen(run, seed), output)
+
+
+@click.command("show")
+@scene_options
+@click.option("--output", type=OUTPUT, required=True, help="PDF, PNG or SVG file.")
+def show(scene: Scene, output: Path) -> None:
+    """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
+    with one_sentence():
+        picture = surface.draw(scene.contact, scene.direction, str(scene))
+        save(picture, output, surface.CAPTION)

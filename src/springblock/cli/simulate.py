@@ -1,0 +1,266 @@
+"""springblock prelude and simulate: a batch of realisations of one scene."""
+
+import json
+import shutil
+from collections.abc import Callable
+from dataclasses import fields, replace
+from functools import partial, wraps
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+import pyarrow as pa
+from tqdm import tqdm
+from tqdm.contrib.logging import logging_redirect_tqdm
+
+from springblock.cli.options import (
+    INPUT,
+    OUTPUT,
+    one_sentence,
+    scene_options,
+    with_options,
+)
+from springblock.io.rows import Row
+from springblock.io.tables import BATCH, SNAPSHOTS, load, rows_to_table, write
+from springblock.model.asperities import draw_friction
+from springblock.model.defaults import SAMPLE_INTERVAL, STEP
+from springblock.model.material import Material
+from springblock.model.scene import TEXTS, Scene
+from springblock.provenance import code_version, configuration_digest
+from springblock.simulation.checkpoint import check_belonging
+from springblock.simulation.prelude import Prelude, compute_prelude
+from springblock.simulation.realisation import Realisation
+from springblock.simulation.setup import Setup
+from springblock.simulation.simulate import SimulationError, simulate
+from springblock.solver import INTEGRATORS
+
+
+def _constants(
+    context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> Material:
+    """Read name=value pairs; what is not named has the paper's value."""
+    constants: dict[str, Any] = dict(Material().items())
+    for value in values:
+        name, _, number = value.partition("=")
+        if name not in constants:
+            raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
+        try:
+            constants[name] = number if name in TEXTS else float(number)
+        except ValueError:
+            raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
+    try:
+        return Material(**constants)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+_SETUP = [
+    click.option(
+        "--material",
+        multiple=True,
+        callback=_constants,
+        help="A constant in SI units: youngs_modulus=1e7, in Pa. May be given several times.",
+    ),
+    click.option(
+        "--integrator",
+        type=click.Choice(list(INTEGRATORS)),
+        default="leapfrog",
+        show_default=True,
+        help="Method that follows the blocks through time.",
+    ),
+    click.option("--step", type=float, default=STEP, show_default=True, help="Of integration, s."),
+    click.option(
+        "--sample-interval",
+        type=float,
+        default=SAMPLE_INTERVAL,
+        show_default=True,
+        help="Between two entries of the force curve, s.",
+    ),
+]
+
+
+def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a scene and of how to compute it, which the command gets as `setup`."""
+
+    @wraps(command)
+    def with_setup(*, scene: Scene, **options: Any) -> Any:
+        given = {field.name: options.pop(field.name) for field in fields(Setup)}
+        with one_sentence():
+            setup = Setup(**given).vary(dict(scene.varied))
+        return command(scene=scene, setup=setup, **options)
+
+    return scene_options(with_options(_SETUP, with_setup))
+
+
+def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
+    """mu_static and mu_dynamic, (N_y, N_x) each: drawn, unless the scene has them from files."""
+    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.is_periodic)
+    of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
+    return (
+        mu_static if of_static is None else of_static.values,
+        mu_dynamic if of_dynamic is None else of_dynamic.values,
+    )
+
+
+def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
+    """One row of a batch."""
+    return {
+        **scene.row,
+        **setup.constants,
+        "seed": seed,
+        "static_friction": run.static_friction,
+        "dynamic_friction": run.dynamic_friction,
+        "t_max": run.t_max,
+        "t_avg": run.t_avg,
+        "t_first": run.t_first,
+        "energy_error": run.energy.relative_residual,
+        "steps": run.steps,
+        "force": run.force,
+        "detachments": run.detachments,
+        "switches": run.switches,
+        "t_det": run.t_det.ravel(),
+        "normal_force": run.normal_force,
+        "snapshot_times": run.snapshot_times,
+        "snapshots": run.snapshots.ravel(),
+        "contact": scene.contact.ravel(),
+    }
+
+
+_CORES = click.option(
+    "--cores", type=int, default=1, show_default=True, help="Cores for one large surface."
+)
+
+
+@click.command("prelude")
+@setup_options
+@_CORES
+@click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
+def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
+    """Compute the loading of one scene before its first detachment, for all seeds to share."""
+    with one_sentence():
+        known = scene.mu_static_field and scene.mu_static_field.values
+        how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
+        loaded = compute_prelude(scene.contact, direction=scene.direction, **how)
+        replace(loaded, scene=scene.folder, code_version=code_version(__name__)).save(output)
+
+
+@click.command("simulate")
+@setup_options
+@click.option("--first-seed", type=int, default=0, show_default=True, help="Of the coefficients.")
+@click.option("--last-seed", type=int, help="Itself included; by default the first one.")
+@click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
+@click.option(
+    "--snapshot",
+    "snapshot_times",
+    type=float,
+    multiple=True,
+    help="Time at which displacements are kept, s. May be given several times.",
+)
+@click.option("--prelude", type=INPUT, help="Written by `springblock prelude`; saves time.")
+@_CORES
+@click.option(
+    "--checkpoint",
+    "minutes",
+    type=click.FloatRange(min=0.0, min_open=True),
+    help="Minutes after which unfinished runs are kept again, in OUTPUT.checkpoint. The same "
+    "command goes on from there; the folder is removed at the end.",
+)
+@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
+def simulate_batch(
+    scene: Scene,
+    setup: Setup,
+    first_seed: int,
+    last_seed: int | None,
+    duration: float | None,
+    snapshot_times: tuple[float, ...],
+    prelude: Path | None,
+    cores: int,
+    minutes: float | None,
+    output: Path,
+) -> None:
+    """Run the realisations of one scene from --first-seed to --last-seed."""
+    seeds = range(first_seed, (first_seed if last_seed is None else last_seed) + 1)
+    if not seeds:
+        raise click.BadParameter(f"{last_seed} comes before --first-seed {first_seed}")
+    single = len(seeds) == 1
+    asked: dict[str, Any] = {"duration": duration}
+    if snapshot_times:
+        asked["snapshot_times"] = snapshot_times
+    with one_sentence():
+        loaded = None if prelude is None else Prelude.read(prelude)
+        row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
+        metadata = _metadata(setup.conditions(duration) | asked)
+        folder = output.with_name(f"{output.name}.checkpoint")
+        if minutes is not None:
+            belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
+            row = partial(row, checkpoint_interval=60.0 * minutes)
+            row = partial(_kept_row, folder, belongs, row)
+        counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
+        with logging_redirect_tqdm(), counted as bar:
+            rows = [row(seed=seed) for seed in bar]
+        write(_table(rows), output, metadata)
+        click.echo(_in_words(rows))
+        if minutes is not None:
+            shutil.rmtree(folder)
+
+
+def _in_words(rows: list[Row]) -> str:
+    """What runs came to: means, and of several their standard errors."""
+    told = []
+    for name, unit, factor in (
+        ("static_friction", "", 1.0),
+        ("t_max", " µs", 1e6),
+        ("t_avg", " µs", 1e6),
+    ):
+        values = factor * np.array([row[name] for row in rows], dtype=float)
+        error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
+        told.append(f"{name} {values.mean():.5g}" + (f" ± {error:.2g}" if error else "") + unit)
+    return ", ".join(told)
+
+
+def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
+    """Run one realisation."""
+    drawn = coefficients(scene, seed, setup.material)
+    options |= {"direction": scene.direction, "periodic": scene.is_periodic, **vars(setup)}
+    try:
+        run = simulate(scene.contact, *drawn, **options)
+    except SimulationError as error:
+        raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
+    return batch_row(scene, setup, seed, run)
+
+
+def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row], seed: int) -> Row:
+    """Row of a realisation that is finished in `folder`, or of one that is finished now."""
+    file, ours = folder / f"seed={seed}.parquet", json.dumps(belongs)
+    if file.exists():
+        table = load(file)
+        check_belonging(file, json.loads(table.schema.metadata[b"belongs"]), json.loads(ours))
+        return table.to_pylist()[0]
+    row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))
+    write(_table([row]), file, {"belongs": ours})
+    return row
+
+
+def _table(rows: list[Row]) -> pa.Table:
+    """Table of a batch; with snapshots where they were asked for."""
+    kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
+    return rows_to_table(rows, pa.schema([*BATCH, *kept]))
+
+
+def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
+    return {
+        "code_version": code_version(__name__),
+        "configuration": json.dumps(configuration, sort_keys=True),
+        "configuration_digest": configuration_digest(configuration),
+    }
+
+
+@click.command("compile")
+@click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog")
+def compile_kernels(integrator: str) -> None:
+    """Compile an integrator once, so that no job has to."""
+    surface = Scene(n_blocks=4).pattern.contact
+    prelude = compute_prelude(surface, integrator=integrator)
+    simulate(surface, *draw_friction(4, 0), integrator=integrator, prelude=prelude)
+    click.echo(f"{integrator} is compiled")

@@ -1,1 +1,0 @@
-"""What the workflow's rules call; every job can be run again by hand."""

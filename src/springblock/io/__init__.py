@@ -1,0 +1,1 @@
+"""Tables as Parquet files: their columns, and writing and reading them."""

@@ -1,0 +1,80 @@
+"""What the tables of a study hold: every column with its unit and its meaning."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import pyarrow as pa
+
+from springblock.io.rows import markdown_table
+from springblock.io.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+
+_PAGE = """# The tables
+
+Written by `springblock dictionary` from the schemas that the files themselves carry. Every table is
+a Parquet file, and all read alike:
+
+    import pandas as pd
+
+    pd.read_parquet("results/tables/realisations.parquet")
+    pd.read_parquet("results/realisations")  # all batches at once, curves and fields included
+
+`springblock info FILE` says of any file what it holds and what made it. Units are SI; what counts
+blocks, or is a number of its own, says so.
+
+{sections}
+"""
+
+
+class Described(NamedTuple):
+    """A kind of table, where a study keeps it, and what one row of it is."""
+
+    name: str
+    where: str
+    row: str
+    schema: pa.Schema
+
+
+def tables() -> list[Described]:
+    """Every kind of table that a study writes."""
+    from springblock.accuracy import production, work_precision
+    from springblock.accuracy.stability import table as stability
+    from springblock.claims import table as claims
+
+    kinds = [
+        ("realisations", "a realisation", SUMMARY),
+        ("correlation", "a distance along a kind of side", CORRELATION),
+        ("correlation_length", "a kind of side", CORRELATION_LENGTH),
+        ("claims", "a finding on a statement of the paper", claims.SCHEMA),
+        ("work_precision", "an error at one step", work_precision.SCHEMA),
+        ("production", "an error at full size at one step", production.SCHEMA),
+        ("stability", "a stiff or extreme case", stability.SCHEMA),
+    ]
+    batches = "realisations/SCENE/seeds-FIRST-LAST.parquet"
+    return [
+        Described("batches", batches, "a realisation, with its curves and fields", BATCH),
+        *(Described(name, f"tables/{name}.parquet", row, schema) for name, row, schema in kinds),
+    ]
+
+
+def page(described: Iterable[Described]) -> str:
+    """Write the dictionary of all tables, in Markdown."""
+    return _PAGE.format(sections="\n\n".join(map(_section, described)))
+
+
+def _section(table: Described) -> str:
+    says = f"`results/{table.where}`: each row is {table.row}."
+    header = ["column", "type", "unit", "meaning"]
+    return f"## {table.name}\n\n{says}\n\n{markdown_table(header, columns(table.schema))}"
+
+
+def columns(schema: pa.Schema) -> list[list[str]]:
+    """Name, type, unit and meaning of each column, as the file says."""
+    return [
+        [f"`{field.name}`", str(field.type).replace("element: ", ""), *_said(field)]
+        for field in schema
+    ]
+
+
+def _said(field: pa.Field) -> list[str]:
+    said = field.metadata or {}
+    return [said.get(key, b"").decode().replace("|", "\\|") for key in (b"unit", b"meaning")]

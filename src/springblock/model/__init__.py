@@ -1,0 +1,1 @@
+"""The physical model: material, pattern, scene and friction coefficients."""

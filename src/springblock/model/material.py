@@ -1,0 +1,131 @@
+"""The elastic layer, its loading and its surface: every constant of the paper, in SI units."""
+
+import math
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, fields
+
+
+def _positive(value: float) -> bool:
+    return value > 0.0
+
+
+def _not_negative(value: float) -> bool:
+    return value >= 0.0
+
+
+#: How the coefficients of the blocks may be distributed, see `springblock.model.asperities`.
+DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
+#: Laws of friction of a block that slides, see `springblock.solver.laws`, and the constant that
+#: each of them needs.
+LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
+#: Fields that may be zero; all other numbers must be positive.
+_MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
+_MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
+#: Fields that are words, and what they may be.
+_WORDS: dict[str, Collection[str]] = {"distribution": DISTRIBUTIONS, "law": LAWS}
+
+
+@dataclass(frozen=True)
+class Material:
+    """Constants of the spring-block model (Costagliola et al. 2022, section 2).
+
+    The defaults are the paper's values. The spring constants and the block mass follow from
+    them: the lattice is equivalent to an isotropic sheet with Poisson's ratio 1/3 in plane
+    stress (Absi & Prager 1975, doi:10.1016/0045-7825(75)90013-2).
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a field is not a number, not finite, negative, or zero where it may not be; where
+        what follows from them is beyond floating point; where there is no such distribution or
+        law; or where a law lacks its constant, or has that of another.
+    """
+
+    youngs_modulus: float = 1e7  #: E, Pa
+    density: float = 1200.0  #: rho, kg/m³
+    pressure: float = 5e4  #: P, Pa, over the whole nominal area
+    slider_velocity: float = 5e-4  #: v, m/s
+    spacing: float = 1e-5  #: l, m, distance between blocks
+    thickness: float = 1e-5  #: l_z, m, of the layer
+    gamma: float = 5e3  #: damping frequency, 1/s (the paper's 5 ms⁻¹)
+    mu_static: float = 1.0  #: mean of the microscopic static coefficient
+    mu_static_std: float = 0.1  #: its standard deviation
+    mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
+    mu_dynamic_std: float = 0.05  #: its standard deviation
+    distribution: str = "normal"  #: of both, one of `DISTRIBUTIONS`
+    correlation_length: float = 0.0  #: m, over which they are alike; 0: each block for itself
+    law: str = "coulomb"  #: of friction, one of `LAWS`
+    slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
+    speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
+
+    def __post_init__(self) -> None:
+        for name, value in self.items():
+            if name in _WORDS:
+                if value not in _WORDS[name]:
+                    known = ", ".join(_WORDS[name])
+                    raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
+                continue
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise TypeError(f"Material.{name} must be a number, not {value!r}")
+            allowed = _not_negative if name in _MAY_VANISH else _positive
+            if not (math.isfinite(value) and allowed(value)):
+                bound = "zero or positive" if name in _MAY_VANISH else "positive"
+                raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
+            object.__setattr__(self, name, float(value))
+        self._check_derived()
+        self._check_law()
+
+    def _check_derived(self) -> None:
+        for name in ("k_int", "k_s", "mass", "block_load", "omega_max"):
+            try:
+                derived = getattr(self, name)
+            except (OverflowError, ZeroDivisionError):
+                derived = math.nan
+            if not (math.isfinite(derived) and derived > 0.0):
+                raise ValueError(f"these constants take Material.{name} beyond floating point")
+
+    def _check_law(self) -> None:
+        for law, name in LAWS.items():
+            value = getattr(self, name) if name else 0.0
+            if law == self.law and name and not value:
+                raise ValueError(f"Material.{name} must be positive with {law}, not {value!r}")
+            if law != self.law and value:
+                raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
+
+    def items(self) -> Iterator[tuple[str, float | str]]:
+        """Yield (name, value) of every constant; all are numbers but words."""
+        return ((field.name, getattr(self, field.name)) for field in fields(self))
+
+    @property
+    def k_int(self) -> float:
+        """Stiffness of an axial spring, N/m: K_int = 3/4 E l_z; a diagonal one has half."""
+        return 0.75 * self.youngs_modulus * self.thickness
+
+    @property
+    def k_s(self) -> float:
+        """Stiffness between a block and the slider, N/m: K_s = K_int l²/l_z²."""
+        return self.k_int * (self.spacing / self.thickness) ** 2
+
+    @property
+    def mass(self) -> float:
+        """Mass of a block, kg: m = rho l² l_z."""
+        return self.density * self.spacing**2 * self.thickness
+
+    @property
+    def block_load(self) -> float:
+        """Normal force on one block of a flat surface, N: P l²."""
+        return self.pressure * self.spacing**2
+
+    @property
+    def omega_min(self) -> float:
+        """Lowest angular frequency of the free lattice, rad/s: all blocks on their K_s."""
+        return math.sqrt(self.k_s / self.mass)
+
+    @property
+    def omega_max(self) -> float:
+        """Highest angular frequency of the lattice, rad/s, at wave vector (π, 0).
+
+        There an axial pair along x and four diagonals are strained in full:
+        m ω² = K_s + 6 K_int.
+        """
+        return math.sqrt((self.k_s + 6.0 * self.k_int) / self.mass)

@@ -1,0 +1,272 @@
+"""A scene: one surface, pulled one way. What the study varies besides the seed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from shlex import quote
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.model.blockmap import BlockMap
+from springblock.model.direction import normalised
+from springblock.model.material import Material
+from springblock.model.pattern import Pattern
+
+LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: of a scene, two for each level
+_PATTERN = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
+#: Those of one value per block that a file says, and the options that take the file.
+MAPS = {"mask": "--mask", "mu_static_field": "--mu-static", "mu_dynamic_field": "--mu-dynamic"}
+#: Columns that tell scenes apart, in the order in which the rows of a table are sorted by them.
+COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
+EDGES = ("free", "periodic")
+#: What else a scene may have of its own, instead of the study's.
+CONSTANTS = (*dict(Material().items()), "integrator", "step")
+TEXTS = ("integrator", "distribution", "law")  #: those of them that are no numbers
+_SIDE = 6  #: blocks of the shortest side along which a correlation is measured
+
+Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Pattern and sliding direction; lengths of 0 stand for no such level.
+
+    Without pillars the grooves of level 2 cross the whole surface. They run along x, those of
+    level 3 along y unless `along_3` says otherwise; a sliding direction y swaps their parts.
+
+    A mask takes the place of the pattern, and of N. Coefficients from files take the place of
+    those that are drawn.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a length is given without its partner or without the level above it, the direction
+        is none, a constant that is varied has no such name or value, or what is read from files
+        does not fit.
+    """
+
+    n_blocks: int = 0  #: N, along x; 0 for as many as the mask has
+    n_p: int = 0
+    n_s: int = 0
+    n_p2: int = 0
+    n_s2: int = 0
+    n_p3: int = 0
+    n_s3: int = 0
+    direction: str = "x"  #: "x", "y" or an angle from x in degrees, which is kept as text
+    along_3: str = ""  #: axis that the grooves of level 3 run along; "" without them
+    varied: Varied = ()  #: constants of its own, instead of the study's
+    n_rows: int = 0  #: N_y; 0 for as many as n_blocks
+    edges: str = "free"  #: or "periodic", both ways
+    mask: BlockMap | None = None  #: blocks in contact
+    mu_static_field: BlockMap | None = None  #: coefficients that are not drawn
+    mu_dynamic_field: BlockMap | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", normalised(self.direction))
+        object.__setattr__(self, "varied", in_order(dict(self.varied)))
+        self._check_levels()
+        self._check_maps()
+        if self.n_rows == self.n_blocks:
+            object.__setattr__(self, "n_rows", 0)
+        if self.edges not in EDGES:
+            raise ValueError(f"edges must be {' or '.join(EDGES)}, not {self.edges!r}")
+
+    def _check_levels(self) -> None:
+        for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
+            for one, other in ((size, gap), (gap, size)):
+                if getattr(self, one) and not getattr(self, other):
+                    raise ValueError(f"{one} = {getattr(self, one)} needs {other}")
+        if self.n_p3 and not self.n_p2:
+            raise ValueError(f"n_p3 = {self.n_p3} needs n_p2")
+        along = self.along_3 or ("y" if self.n_p3 else "")
+        if along not in (("x", "y") if self.n_p3 else ("",)):
+            fit = "'x' or 'y'" if self.n_p3 else "left out without n_p3"
+            raise ValueError(f"along_3 must be {fit}, not {self.along_3!r}")
+        object.__setattr__(self, "along_3", along)
+
+    def _check_maps(self) -> None:
+        if self.mask and self.names:
+            raise ValueError(f"a mask cannot be given together with {', '.join(self.names)}")
+        if self.mask and self.mask.values is not None:
+            rows, columns = self.mask.values.shape
+            if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
+                raise ValueError(
+                    f"n_blocks and n_rows are those of the mask, {columns} and {rows}, "
+                    f"not {self.n_blocks} and {self.n_rows or self.n_blocks}"
+                )
+            object.__setattr__(self, "n_blocks", columns)
+            object.__setattr__(self, "n_rows", rows)
+        for name in ("mu_static", "mu_dynamic"):
+            self._check_field(name, getattr(self, f"{name}_field"))
+        idle = {"distribution", "correlation_length"} & dict(self.varied).keys()
+        if idle and not self.is_drawn:
+            raise ValueError(f"{min(idle)} cannot be varied where all coefficients are from files")
+
+    def _check_field(self, name: str, field: BlockMap | None) -> None:
+        if field is None:
+            return
+        for constant in (name, f"{name}_std"):
+            if constant in dict(self.varied):
+                raise ValueError(f"{constant} cannot be varied where {field} says {name}")
+        if field.values is None:
+            return
+        if field.values.shape != self.shape:
+            raise ValueError(
+                f"{field} must have the shape (N_y, N_x) = {self.shape} of the surface, "
+                f"not {field.values.shape}"
+            )
+        within = field.values[self.contact]
+        if not (np.isfinite(within) & (within >= 0.0)).all():
+            raise ValueError(f"{field} must be finite and not negative wherever there is contact")
+
+    @classmethod
+    def from_row(cls, row: Mapping[str, Any]) -> "Scene":
+        """Return the scene that a row of a table belongs to; of its maps a table has the names."""
+        named = {key: row[key] for key in COLUMNS if key not in ("level", "varied", *MAPS)}
+        named |= {key: BlockMap(row[key]) for key in MAPS if row[key]}
+        pairs = [pair.split("=") for pair in row["varied"].split(", ") if pair]
+        return cls(**named, varied=tuple((name, value) for name, value in pairs))
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """Its columns in a row of a table."""
+        varied = ", ".join(f"{name}={value}" for name, value in self.varied)
+        maps = {key: str(getattr(self, key) or "") for key in MAPS}
+        own = {"varied": varied, "n_rows": self.shape[0], **maps}
+        return {key: getattr(self, key) for key in COLUMNS} | own
+
+    @property
+    def lengths(self) -> dict[str, int]:
+        """The lengths of its levels by their names."""
+        return {key: getattr(self, key) for key in LENGTHS if getattr(self, key)}
+
+    @property
+    def level(self) -> int:
+        """Number of levels of the pattern: 0 for a flat surface, -1 for a mask of one's own."""
+        return -1 if self.mask else len(self.lengths) // 2
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Blocks along y and along x."""
+        return self.n_rows or self.n_blocks, self.n_blocks
+
+    @property
+    def is_periodic(self) -> bool:
+        """Whether the surface goes on as it begins, both ways."""
+        return self.edges == "periodic"
+
+    @property
+    def is_papers(self) -> bool:
+        """Whether the paper might have this surface: square, with edges, and nothing from files."""
+        return not (self.n_rows or self.is_periodic or any(getattr(self, key) for key in MAPS))
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether a coefficient is drawn; where none is, all seeds are the same run."""
+        return not (self.mu_static_field and self.mu_dynamic_field)
+
+    @property
+    def contact(self) -> NDArray[np.bool_]:
+        """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x].
+
+        Raises ValueError where lengths do not fit, or no more than the name of a mask is known.
+        """
+        if self.mask is None:
+            return self.pattern.contact
+        if self.mask.values is None:
+            raise ValueError(f"of the mask {self.mask} nothing is known here but its name")
+        return self.mask.values
+
+    @property
+    def pattern(self) -> Pattern:
+        """The pattern; raises ValueError where its lengths do not fit, or it has a mask instead."""
+        if self.mask:
+            raise ValueError(f"the mask {self.mask} is no pattern of pillars and grooves")
+        pattern = Pattern.flat(self.n_blocks, self.n_rows or None)
+        if self.n_p:
+            pattern = pattern.pillared(self.n_p, self.n_s)
+        if self.n_p2:
+            pattern = pattern.grooved(self.n_p2, self.n_s2, along="x")
+        if self.n_p3:
+            pattern = pattern.grooved(self.n_p3, self.n_s3, along=self.along_3)
+        return pattern
+
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """Axes along which pillars have sides that nothing cuts, 6 blocks long or more."""
+        if self.n_p < _SIDE or self.along_3 == "y":
+            return ()
+        return ("x",) if self.n_p2 else ("x", "y")
+
+    @property
+    def names(self) -> dict[str, Any]:
+        """Lengths of its levels, and what else tells patterns of them apart, by name."""
+        return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
+
+    @property
+    def named(self) -> dict[str, str]:
+        """All that tells it from other scenes, by name."""
+        named = {**self._size, **({} if self.mask else {"level": self.level}), **self.names}
+        named |= {key: getattr(self, key) for key in MAPS if getattr(self, key)}
+        named |= {**self._edges, **dict(self.varied), "direction": self.direction}
+        return {key: str(value) for key, value in named.items()}
+
+    @property
+    def folder(self) -> str:
+        """Folder of its realisations.
+
+        Without the "=" that would make readers of many files take its parts for columns again.
+        """
+        return "/".join(f"{key}-{value}" for key, value in self.named.items())
+
+    def __str__(self) -> str:
+        """Name it as captions and titles do."""
+        return ", ".join(f"{key} = {value}" for key, value in self.named.items())
+
+    @property
+    def arguments(self) -> str:
+        """The scene as options of `springblock simulate`; its maps as the files they come from."""
+        size = {} if self.mask else self._size
+        named = {**size, **self.names, **self._edges, "direction": self.direction}
+        options = [f"--{key.replace('_', '-')} {value}" for key, value in named.items()]
+        options += [f"{MAPS[key]} {quote(str(file))}" for key, file in self.files.items()]
+        return " ".join(options + [f"--vary {name}={value}" for name, value in self.varied])
+
+    @property
+    def files(self) -> dict[str, Path]:
+        """Files that its maps are read from, by column."""
+        maps = {key: getattr(self, key) for key in MAPS}
+        return {key: each.file for key, each in maps.items() if each and each.file}
+
+    @property
+    def _size(self) -> dict[str, int]:
+        return {"n_blocks": self.n_blocks} | ({"n_rows": self.n_rows} if self.n_rows else {})
+
+    @property
+    def _edges(self) -> dict[str, str]:
+        return {"edges": self.edges} if self.is_periodic else {}
+
+
+def in_order(constants: Mapping[str, Any]) -> Varied:
+    """Constants in the one order, and numbers as numbers, even where they come as text.
+
+    Raises
+    ------
+    ValueError
+        Where there is no constant of that name, or it is no number.
+    """
+    for name in constants:
+        if name not in CONSTANTS:
+            raise ValueError(f"{name!r} is no constant; there are {', '.join(CONSTANTS)}")
+    return tuple((name, _value(name, constants[name])) for name in CONSTANTS if name in constants)
+
+
+def _value(name: str, value: Any) -> str | float:
+    if name in TEXTS:
+        return str(value)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be a number, not {value!r}") from None

@@ -1,0 +1,89 @@
+"""What a figure is drawn from, in words: surfaces, sliding directions, seeds and material."""
+
+from collections.abc import Iterable, Mapping
+
+from springblock.model.material import Material
+from springblock.model.scene import LENGTHS, Scene
+
+#: By level, without pillars and with them.
+_SURFACES = (("flat", "grooves", "grooves"), ("", "pillars", "grooved pillars"))
+_NAMES = {"n_blocks": "N =", "direction": "sliding direction"}
+
+
+def surface_in_words(*surfaces: Mapping[str, int]) -> str:
+    """Name the lengths of surfaces of one level: n_p/n_s = 6/6, 20/20."""
+    levels = []
+    for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
+        pairs = [f"{lengths[size]}/{lengths[gap]}" for lengths in surfaces if lengths.get(size)]
+        if pairs:
+            levels.append(f"{size}/{gap} = {_listed(pairs)}")
+    return ", ".join(levels)
+
+
+def sample_in_words(sample: Mapping[Scene, range]) -> str:
+    """Say which scenes were simulated with which seeds, those of the same seeds together.
+
+    N and the sliding direction come first where all scenes share them.
+    """
+    scenes = sorted(sample, key=lambda s: (s.level, *s.lengths.values(), s.n_blocks))
+    shared = [name for name in _NAMES if len(_values(scenes, name)) == 1]
+    alike: dict[tuple[str, str, range], list[Scene]] = {}
+    for scene in scenes:
+        varied = ", ".join(filter(None, [scene.row["varied"], *_own(scene)]))
+        alike.setdefault((_surface(scene), varied, sample[scene]), []).append(scene)
+    kinds: dict[str, list[str]] = {}
+    for (surface, varied, seeds), some in alike.items():
+        parts = [surface_in_words(*(scene.lengths for scene in some)), varied]
+        parts += [_named(some, name) for name in _NAMES if name not in shared]
+        text = f"{', '.join(filter(None, parts))} ({_seeds(seeds)})"
+        kinds.setdefault(surface, []).append(text.strip())
+    sentences = [", ".join(_named(scenes, name) for name in shared)]
+    sentences += [f"{surface} {'; '.join(texts)}" for surface, texts in kinds.items()]
+    return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences if text)
+
+
+def _surface(scene: Scene) -> str:
+    """What kind of surface a scene has."""
+    if scene.mask:
+        return f"surface {scene.mask}"
+    if scene.n_p3:
+        return f"pillars grooved twice, the second time along {scene.along_3},"
+    return _SURFACES[scene.n_p > 0][scene.level]
+
+
+def _own(scene: Scene) -> list[str]:
+    """What else a surface has that those of the paper have not."""
+    rows = f"n_rows = {scene.n_rows}" if scene.n_rows else ""
+    edges = "periodic edges" if scene.is_periodic else ""
+    fields = {"mu_static": scene.mu_static_field, "mu_dynamic": scene.mu_dynamic_field}
+    return [rows, edges, *(f"{name} from {field}" for name, field in fields.items() if field)]
+
+
+def material_in_words(material: Material) -> str:
+    """Name the constants that are not the paper's."""
+    paper = dict(Material().items())
+    others = [
+        f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
+        for name, value in material.items()
+        if value != paper[name]
+    ]
+    return f"Material of the paper{', but ' if others else ''}{_listed(others)}."
+
+
+def _named(scenes: Iterable[Scene], name: str) -> str:
+    return f"{_NAMES[name]} {_listed(_values(scenes, name))}"
+
+
+def _values(scenes: Iterable[Scene], name: str) -> list[str]:
+    values = dict.fromkeys(str(getattr(scene, name)) for scene in scenes)
+    angles = name == "direction"
+    return [f"{v}°" if angles and v not in ("x", "y") else v for v in values]
+
+
+def _seeds(seeds: range) -> str:
+    return f"seed {seeds[0]}" if len(seeds) == 1 else f"seeds {seeds[0]} to {seeds[-1]}"
+
+
+def _listed(names: Iterable[str]) -> str:
+    """Join names, each once."""
+    return ", ".join(dict.fromkeys(names))

@@ -1,0 +1,177 @@
+"""What a figure says of itself: what it shows, and what it is drawn from.
+
+A module of this folder with a constant `FIGURE` and a function `draw` is a figure of the study:
+the command line and the workflow learn all else from its declaration.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import Any, Literal, NamedTuple, Protocol
+
+from springblock.model.material import Material
+from springblock.model.scene import Scene
+from springblock.plotting.caption import material_in_words, sample_in_words, surface_in_words
+
+Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
+Scenes = Sequence[Scene]
+Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
+Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
+
+#: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
+INTERVALS = "95 % t intervals over realisations"
+CORRELATION_INTERVALS = "95 % BCa bootstrap intervals over realisations"
+
+
+class Ensemble(Protocol):
+    """What figures know of `study.Ensemble`, which would bring the solver into their digest."""
+
+    @property
+    def scene(self) -> Scene:
+        """What is simulated."""
+
+    @property
+    def seeds(self) -> range:
+        """Seeds of its realisations."""
+
+
+Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
+
+
+class Need(NamedTuple):
+    """A table of one scene or, without a scene, of the whole study."""
+
+    table: str
+    scene: Scene | None = None
+    batches: int | None = None  #: of its realisations, from the first seed on; None for all
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """What a figure is drawn from; this one needs nothing."""
+
+    groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
+    also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
+
+    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
+        """Return the tables that `draw` is given, in the order in which the command takes them."""
+        return []
+
+    def options(self, n_blocks: int, lengths: Lengths) -> str:
+        """Return what the command takes beside tables."""
+        return ""
+
+    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        """Return what it is in a study, in whole sentences: surfaces, seeds and material."""
+        groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
+        known = {e.scene: e.seeds for members in ensembles.values() for e in members}
+        sample = {
+            need.scene: known[need.scene] if need.batches is None else known[need.scene][:1]
+            for need in self.needs(groups, lengths)
+            if need.scene
+        }
+        return f"{sample_in_words(sample)} {material_in_words(material)}" if sample else ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Surface(Source):
+    """A pattern with the lengths that the configuration gives under the figure's name.
+
+    It is as large as the study's surfaces, or as it must be to hold so many `pillars` each way.
+    """
+
+    pillars: int = 1
+
+    def options(self, n_blocks: int, lengths: Lengths) -> str:
+        needed = self.pillars * (lengths["n_p"] + lengths["n_s"])
+        return Scene(max(n_blocks, needed), **lengths).arguments
+
+    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        return f"Drawn with {surface_in_words(lengths)}."
+
+
+@dataclass(frozen=True)
+class Table(Source):
+    """A table of the whole study."""
+
+    name: str
+
+    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
+        return [Need(self.name)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Realisations(Source):
+    """Realisations of scenes, which `draw` takes by the values of `keys`.
+
+    These tell the scenes apart: of several with the same values the first is drawn. Without keys
+    that is one scene, and `draw` takes its realisations alone.
+    """
+
+    keys: tuple[str, ...] = ()
+    pick: Callable[..., Iterable[Scene]] = chain  #: given the scenes of each group
+    batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
+
+    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
+        picked = self.pick(*(groups.get(group, []) for group in self.groups + self.also))
+        scenes = first_of_each(self.keys, having(lengths, picked))
+        return [Need("realisations", scene, self.batches) for scene in scenes]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Correlations(Source):
+    """Correlations of the scene that has the configuration's lengths, and l_c for each n_p."""
+
+    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
+        scenes = [scene for group in self.groups for scene in groups[group] if scene.sides]
+        shown, sizes = first_of_each((), having(lengths, scenes)), first_of_each(("n_p",), scenes)
+        curves = [Need("correlation", scene) for scene in shown]
+        return curves + [Need("correlation_length", scene) for scene in sizes]
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What a figure shows, and what it is drawn from."""
+
+    title: str
+    category: Category
+    caption: str  #: in whole sentences; lines may break anywhere
+    source: Source
+    upon_request: bool = False  #: left out of the whole study until its table has been asked for
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "caption", " ".join(self.caption.split()))
+
+    def caption_in(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+        """Return the caption, and after it what the figure is drawn from in a study."""
+        return f"{self.caption} {self.source.in_words(ensembles, lengths, material)}".strip()
+
+    def is_part_of(self, groups: Groups) -> bool:
+        """Whether a study has all groups of scenes that the figure is drawn from."""
+        return all(groups.get(group) for group in self.source.groups)
+
+
+def having(lengths: Lengths, scenes: Iterable[Scene]) -> list[Scene]:
+    """Return the scenes that have all these lengths."""
+    wanted = lengths.items()
+    return [s for s in scenes if all(getattr(s, key) == length for key, length in wanted)]
+
+
+def first_of_each(keys: Sequence[str], scenes: Iterable[Scene]) -> list[Scene]:
+    """Return the first scene of each value of `keys`; without keys the first of all."""
+    first: dict[tuple[Any, ...], Scene] = {}
+    for scene in scenes:
+        first.setdefault(tuple(getattr(scene, key) for key in keys), scene)
+    return list(first.values())
+
+
+def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
+    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
+    return [*flat, *pillars, *one_pattern(grooves)]
+
+
+def one_pattern(*groups: Scenes) -> list[Scene]:
+    """Return the scenes of all groups with the pattern of the last group's first one."""
+    last = groups[-1][0]
+    size, direction = last.n_blocks, last.direction
+    return [s for s in chain(*groups) if replace(s, n_blocks=size, direction=direction) == last]

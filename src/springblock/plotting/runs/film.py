@@ -1,0 +1,232 @@
+"""A film of one run: the blocks that let go, while the force runs along."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
+
+from springblock.files import whole_file
+from springblock.plotting import style
+from springblock.plotting.runs.maps import (
+    DISPLACED,
+    draw_key,
+    draw_map,
+    draw_times_bar,
+    painted,
+    size_of_displacement,
+)
+from springblock.plotting.style import BLACK, GREY, MICRO, VERMILION, journal
+from springblock.simulation.run import Array, Run, friction
+
+FRAMES, PER_SECOND = 150, 20  #: 7.5 s
+_HOLD = 15  #: of these frames show the end
+_AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
+_FAINT = "0.75"  #: curves that are still to come
+_PIXELS = 5  #: per mm
+_HEIGHT = 108.0  #: mm
+_MAP, _BOTTOM, _SIDE = 13.0, 25.0, 72.0  #: left and lower edge and side, mm: 360 pixels
+
+Frame = NDArray[np.uint8]  #: (height, width, 3)
+#: Moves a panel on to a time, given the time of the frame before, s; returns what has moved.
+Update = Callable[[float, float], list[Artist]]
+
+
+def write(run: Run, path: Path) -> None:
+    """Write a film as GIF or MP4, whole or not at all, as the suffix of `path` says.
+
+    Raises
+    ------
+    ValueError
+        Where the suffix is another one, or MP4 is not installed.
+    """
+    if path.suffix not in _WRITERS:
+        raise ValueError(f"films are written as {' or '.join(_WRITERS)}, not as {path.suffix!r}")
+    with whole_file(path) as partial:
+        _WRITERS[path.suffix](frames(run), partial)
+
+
+@journal
+def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
+    """Draw the frames of these times in s, or all: what stands still once, and on it what moves."""
+    picture, update = scenery(run)
+    canvas: Any = FigureCanvasAgg(picture)  # which has no types of its own
+    canvas.draw()
+    still, drawn, before = canvas.copy_from_bbox(picture.bbox), [], 0.0
+    for now in moments(run) if times is None else np.asarray(times, dtype=float):
+        canvas.restore_region(still)
+        for artist in update(now, before):
+            picture.draw_artist(artist)
+        drawn.append(np.array(canvas.buffer_rgba())[..., :3])
+        before = now
+    return drawn
+
+
+def moments(run: Run) -> Array:
+    """Times of the frames in s, (FRAMES,): evenly spaced, and the last one for a while."""
+    start, stop = span(run)
+    return np.append(np.linspace(start, stop, FRAMES - _HOLD), np.full(_HOLD, stop))
+
+
+def span(run: Run) -> tuple[float, float]:
+    """Times in s between which there is something to be seen.
+
+    That is the time from the first to the last detachment or snapshot, and a little before and
+    after it: the loading, half of a run or more, and steady sliding show nothing.
+    """
+    end = float(run.time[-1])
+    seen = np.append(run.t_det[np.isfinite(run.t_det)], run.snapshot_times)
+    first, last = (seen.min(), seen.max()) if seen.size else (0.0, end)
+    around = _AROUND * (last - first) + run.time[1]
+    return max(0.0, first - around), min(end, last + around)
+
+
+@journal
+def scenery(run: Run) -> tuple[Figure, Update]:
+    """Draw what stands still, and return it with the function that moves the rest."""
+    kept = len(run.snapshots) > 0
+    curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
+    picture = style.figure(curves + 84.0, _HEIGHT)
+    picture.set_dpi(_PIXELS / style.MM)
+    title = picture.text(0.5, 0.975, run.name, ha="center", va="top")
+    title.set_fontsize(style.NORMAL)
+    updates = [_blocks(picture, run)]
+    if kept:
+        updates.append(_displacement(picture, run))
+    force = style.axes(picture, curves, 63.0, 80.0, 37.0)
+    updates.append(_force(force, run))
+    share = style.axes(picture, curves, 11.0, 80.0, 37.0)
+    updates.append(_share(share, run))
+    for ax in (force, share):
+        ax.set_xlabel("time (µs)")
+        ax.axvline(MICRO * run.t_max, color=GREY, linestyle=":", linewidth=0.8, zorder=0.5)
+    force.text(
+        *(MICRO * run.t_max, 1.03),
+        r"$t_\mathrm{max}$",
+        ha="center",
+        va="bottom",
+        transform=force.get_xaxis_transform(),
+    )
+
+    def update(now: float, before: float) -> list[Artist]:
+        return [artist for move in updates for artist in move(now, before)]
+
+    return picture, update
+
+
+def _blocks(picture: Figure, run: Run) -> Update:
+    """Map of the blocks that have detached so far."""
+    ax = style.axes(picture, _MAP, _BOTTOM, _SIDE, _SIDE)
+    image = draw_map(ax, painted(run, until=0.0))
+    image.set_animated(True)
+    elsewhere = [] if run.contact.all() else ["not in contact"]
+    draw_key(ax, "not detached", "detaching now", *elsewhere)
+    if np.isfinite(run.t_det).any():
+        draw_times_bar(picture, style.axes(picture, _MAP, 8.5, _SIDE, 3.0), run)
+
+    def update(now: float, before: float) -> list[Artist]:
+        image.set_data(painted(run, now, before))
+        return [image]
+
+    return update
+
+
+def _displacement(picture: Figure, run: Run) -> Update:
+    """Map of the latest snapshot so far; before the first there is none."""
+    left = _MAP + _SIDE + 14.0
+    ax = style.axes(picture, left, _BOTTOM, _SIDE, _SIDE)
+    fields = [size_of_displacement(snapshot) for snapshot in run.snapshots]
+    norm = Normalize(0.0, max(float(np.max(fields)), 1e-12))
+    image = draw_map(ax, np.full_like(fields[0], np.nan))
+    image.set(cmap=DISPLACED, norm=norm, animated=True)
+    title = ax.set_title("", animated=True)
+    bar = style.axes(picture, left, 8.5, _SIDE, 3.0)
+    picture.colorbar(ScalarMappable(norm, DISPLACED), bar, orientation="horizontal").set_label(
+        r"displacement $|u|$ (nm)"
+    )
+
+    def update(now: float, before: float) -> list[Artist]:
+        latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
+        image.set_data(fields[latest] if latest >= 0 else np.full_like(fields[0], np.nan))
+        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
+        return [image, title]
+
+    return update
+
+
+def _force(ax: Axes, run: Run) -> Update:
+    """Force of the whole run; what the film shows of it is shaded."""
+    start, stop = span(run)
+    ax.axvspan(MICRO * start, MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
+    ax.set_ylabel(r"friction force $F_\mathrm{fr}/F_n$")
+    ax.set_xlim(0.0, MICRO * run.time[-1])
+    return _curve(ax, run, friction(run))
+
+
+def _share(ax: Axes, run: Run) -> Update:
+    """Share of the contact blocks that have detached, as long as the film takes."""
+    ax.set_ylabel("detached blocks (%)")
+    start, stop = span(run)
+    ax.set_xlim(MICRO * start, MICRO * stop)
+    return _curve(ax, run, 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact))
+
+
+def _curve(ax: Axes, run: Run, values: Array) -> Update:
+    """A curve over time, as far as it has come in black, with a cursor."""
+    time = MICRO * run.time
+    ax.plot(time, values, color=_FAINT, linewidth=0.8)
+    (so_far,) = ax.plot([], [], color=BLACK, animated=True)
+    cursor = ax.axvline(0.0, color=VERMILION, linewidth=0.8, animated=True)
+
+    def update(now: float, before: float) -> list[Artist]:
+        count = int(np.searchsorted(run.time, now, side="right"))
+        so_far.set_data(time[:count], values[:count])
+        cursor.set_xdata([MICRO * now] * 2)
+        return [so_far, cursor]
+
+    return update
+
+
+def _gif(drawn: list[Frame], file: Path) -> None:
+    # one palette for all: that of the last frame, whose keys and bars hold every colour
+    palette = Image.fromarray(drawn[-1]).quantize(method=Image.Quantize.FASTOCTREE)
+    first, *rest = (
+        Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
+        for frame in drawn
+    )
+    pace = 1000 // PER_SECOND  # ms
+    first.save(file, "GIF", save_all=True, append_images=rest, duration=pace, loop=0)
+
+
+def _mp4(drawn: list[Frame], file: Path) -> None:
+    try:
+        from imageio_ffmpeg import write_frames
+    except ModuleNotFoundError:
+        raise ValueError(
+            "films of type MP4 need the package imageio-ffmpeg, springblock[mp4]; GIF does not"
+        ) from None
+
+    height, width, _ = drawn[0].shape
+    film = write_frames(
+        str(file),
+        (width, height),
+        fps=PER_SECOND,
+        codec="libx264",
+        macro_block_size=2,
+        output_params=["-f", "mp4"],
+    )
+    film.send(None)
+    for frame in drawn:
+        film.send(np.ascontiguousarray(frame))
+    film.close()
+
+
+_WRITERS = {".gif": _gif, ".mp4": _mp4}

@@ -1,0 +1,168 @@
+"""Any observable of ensembles over anything that tells them apart."""
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import cycle
+from typing import Any, NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from springblock.analysis.statistics import mean_interval
+from springblock.io.rows import Row
+from springblock.io.tables import AXES, SCENE, SETUP
+from springblock.model.scene import LENGTHS, Scene
+from springblock.plotting import style
+from springblock.plotting.caption import sample_in_words
+from springblock.plotting.ensembles import FRICTION, LAG
+from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
+from springblock.plotting.sweeps import draw_sweep, powers
+
+Names = tuple[tuple[str, str], ...]
+
+CAPTION = """Means over realisations with their 95 % t intervals; a single realisation has none.
+Lines join ensembles that differ in nothing else."""
+
+
+def caption(rows: Iterable[Row], over: str) -> str:
+    """Say what is drawn over an axis, and of which surfaces and seeds."""
+    seeds: dict[Scene, list[int]] = {}
+    for row in drawn(rows, over):
+        seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
+    sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
+    return f"{' '.join(CAPTION.split())} {sample_in_words(sample)}"
+
+
+class Observable(NamedTuple):
+    """A number of each realisation, how its axis is called, and its unit there."""
+
+    label: str
+    of: Callable[[Row], float]
+
+
+OBSERVABLES: dict[str, Observable] = {
+    "static_friction": Observable(FRICTION, lambda row: row["static_friction"]),
+    "dynamic_friction": Observable("dynamic friction", lambda row: row["dynamic_friction"]),
+    "t_max": Observable(r"$t_\mathrm{max}$ (µs)", lambda row: MICRO * row["t_max"]),
+    "t_avg": Observable(r"$t_\mathrm{avg}$ (µs)", lambda row: MICRO * row["t_avg"]),
+    "t_first": Observable("first detachment (µs)", lambda row: MICRO * row["t_first"]),
+    "t_max-t_avg": Observable(LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
+}
+
+_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+_DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
+_NAMED = 6  #: places that stand below a logarithmic axis themselves, at most
+_WIDE = 24  #: characters of a line's name from which on names stand below each other
+_LEFT, _WIDTH, _HEIGHT, _BELOW, _BETWEEN, _LINE = 16.0, 71.0, 38.0, 11.0, 5.0, 3.6  #: mm
+
+
+def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
+    """Rows by their place on the axis, for each line, named by what tells its scenes from others.
+
+    Scenes that share a line with no other are left out, if some do.
+
+    Raises
+    ------
+    ValueError
+        Where there is no such axis, or all realisations have the same place on it.
+    """
+    if over not in AXES:
+        raise ValueError(f"{over!r} is no axis; there are {', '.join(AXES)}")
+    found: dict[Names, dict[float, list[Row]]] = {}
+    for row in rows:
+        found.setdefault(_others(row, over), {}).setdefault(_place(row, over), []).append(row)
+    places = {place for line in found.values() for place in line}
+    if len(places) < 2:
+        raise ValueError(f"{over} is the same in all realisations: nothing to draw over it")
+    swept = {names: line for names, line in found.items() if len(line) > 1} or found
+    common = set.intersection(*(set(names) for names in swept))
+    ordered = sorted(swept, key=lambda names: [value for _, value in names])
+    return {_label(names, common): dict(sorted(swept[names].items())) for names in ordered}
+
+
+def drawn(rows: Iterable[Row], over: str) -> list[Row]:
+    """Rows that `lines` has a place for."""
+    return [row for line in lines(rows, over).values() for runs in line.values() for row in runs]
+
+
+def _label(names: Names, common: set[tuple[str, str]]) -> str:
+    """What tells the scenes of a line from those of others."""
+    own = [f"{_math(key)} = {value}" for key, value in names if (key, value) not in common]
+    return ", ".join(own) or "as the study"
+
+
+def _place(row: Row, over: str) -> float:
+    value = row[over]
+    return {"x": 0.0, "y": 90.0}[value] if value in ("x", "y") else float(value)
+
+
+def _others(row: Row, over: str) -> Names:
+    """What tells a scene from others besides its place; n_s in proportion, where pillars grow."""
+    scene = Scene.from_row(row)
+    named = {"N" if key == "n_blocks" else key: value for key, value in scene.named.items()}
+    if over == "n_p" and scene.n_p:
+        named["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
+        del named["n_s"]
+    named.pop("N" if over == "n_blocks" else over, None)
+    if over in ("slip_distance", "speed_scale"):  # at zero they are Coulomb's law
+        named.pop("law", None)
+    return tuple(named.items())
+
+
+def _math(name: str) -> str:
+    """Lengths as the paper prints them, other names in words."""
+    printed = re.sub(r"n_(\w+)", r"$n_{\1}$", name)
+    return printed if name in ("n_s/n_p", *LENGTHS) else name.replace("_", " ")
+
+
+@style.journal
+def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
+    """Draw observables over an axis, a panel each; rows are of the table `realisations`."""
+    found = lines(rows, over)
+    columns = 1 if max(map(len, found)) > _WIDE else 2
+    legend = 3.0 + (_LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0)
+    height = _BELOW + len(observables) * (_HEIGHT + _BETWEEN) + legend
+    picture = style.figure(style.COLUMN, height)
+    for i, name in enumerate(observables):
+        above = _BELOW + (len(observables) - 1 - i) * (_HEIGHT + _BETWEEN)
+        ax = style.axes(picture, _LEFT, above, _WIDTH, _HEIGHT)
+        _draw_panel(ax, found, over, OBSERVABLES[name])
+        if len(observables) > 1:
+            style.panel_letter(ax, "abcdefgh"[i], left=12.0, above=1.0)
+        if i < len(observables) - 1:
+            ax.tick_params(labelbottom=False)
+            ax.set_xlabel("")
+    if len(found) > 1:
+        handles = picture.axes[0].get_legend_handles_labels()
+        place: dict[str, Any] = {"bbox_to_anchor": (_LEFT / style.COLUMN, 1.0)}
+        picture.legend(*handles, loc="upper left", ncols=columns, borderaxespad=0.3, **place)
+    return picture
+
+
+def _draw_panel(
+    ax: Axes, found: Mapping[str, Mapping[float, list[Row]]], over: str, seen: Observable
+) -> None:
+    looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
+    for (name, line), (color, marker) in zip(found.items(), looks, strict=False):
+        intervals = [mean_interval([seen.of(row) for row in runs]) for runs in line.values()]
+        draw_sweep(ax, list(line), intervals, color, marker=marker, label=name)
+    places = sorted({place for line in found.values() for place in line})
+    ax.set_xlabel(_axis(over))
+    ax.set_ylabel(seen.label)
+    if places[0] <= 0.0 or places[-1] < _DECADE * places[0]:
+        return
+    if len(places) <= _NAMED:
+        powers(ax, places, _axis(over))
+    else:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _axis(over: str) -> str:
+    """Meaning and unit of an axis, as the tables say."""
+    field = next(field for field in (*SCENE, *SETUP) if field.name == over)
+    unit = "degrees" if over == "direction" else field.metadata[b"unit"].decode()
+    return _math(over) + ("" if unit == "1" else f" ({unit})")

@@ -1,0 +1,1 @@
+"""One realisation: set up, loaded, run, and what it yields."""

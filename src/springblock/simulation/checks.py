@@ -1,0 +1,102 @@
+"""What a run may be asked for: surfaces and times that make sense."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from springblock.model.direction import REAL
+from springblock.solver.springs import MAX_BLOCKS
+
+Array = NDArray[np.float64]
+
+#: Blocks of the shortest side with periodic edges: on a shorter one a block is its own neighbour,
+#: or twice that of another.
+_SHORTEST_PERIOD = 3
+
+
+def checked_surface(
+    contact: ArrayLike, mu_static: ArrayLike, mu_dynamic: ArrayLike, periodic: Any = False
+) -> tuple[NDArray[np.bool_], Array, Array]:
+    """Return contact and coefficients, (N_y, N_x) each, the latter zero outside the contact.
+
+    A contact may be given as 0 and 1, a coefficient as one number for all blocks.
+
+    Raises
+    ------
+    TypeError, ValueError
+        With a sentence on what is wrong with them.
+    """
+    mask = _as_mask(contact)
+    if mask.ndim != 2:
+        raise ValueError(f"contact must have the shape (N_y, N_x), not {mask.shape}")
+    if max(mask.shape) > MAX_BLOCKS:
+        raise ValueError(
+            f"contact has the shape {mask.shape}; this solver goes up to {MAX_BLOCKS} blocks a side"
+        )
+    if not isinstance(periodic, bool):
+        raise TypeError(f"periodic must be True or False, not {periodic!r}")
+    if periodic and min(mask.shape) < _SHORTEST_PERIOD:
+        raise ValueError(
+            f"contact has the shape {mask.shape}; with periodic edges each side must hold at least "
+            f"{_SHORTEST_PERIOD} blocks"
+        )
+    if not mask.any():
+        raise ValueError("contact is False everywhere: at least one block must bear the load")
+    fields = []
+    for name, values in (("mu_static", mu_static), ("mu_dynamic", mu_dynamic)):
+        mu = np.asarray(values)
+        if mu.dtype.kind not in "iuf":
+            raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
+        if mu.ndim == 0:
+            mu = np.broadcast_to(mu, mask.shape)
+        if mu.shape != mask.shape:
+            raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
+        in_contact = mu[mask]
+        if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
+            raise ValueError(f"{name} must be finite and not negative wherever there is contact")
+        fields.append(np.where(mask, mu, 0.0).astype(float))
+    return mask, fields[0], fields[1]
+
+
+def _as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
+    """Contact as it is, or made of the whole numbers 0 and 1."""
+    mask = np.asarray(contact)
+    if mask.dtype == np.bool_:
+        return mask
+    if mask.dtype.kind not in "iu":
+        raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")
+    other = mask[(mask != 0) & (mask != 1)]
+    if other.size:
+        raise ValueError(f"contact must hold bool, or 0 and 1, not {other[0]}")
+    return mask.astype(bool)
+
+
+def check_positive(name: str, value: Any) -> None:
+    """Refuse what is not a finite, positive number of seconds."""
+    if isinstance(value, bool) or not isinstance(value, REAL):
+        raise TypeError(f"{name} must be a number of seconds, not {value!r}")
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"{name} must be finite and positive, not {value!r}")
+
+
+def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
+    """How many times `unit` is in `value`; raise ValueError unless it is a whole number."""
+    check_positive(name, value)
+    ratio = value / unit
+    count = round(ratio) if math.isfinite(ratio) else 0
+    if count < 1 or abs(ratio - count) > 1e-6 * count:
+        raise ValueError(f"{name} must be a multiple of {unit_name} = {unit!r} s, not {value!r} s")
+    return count
+
+
+def count_samples(duration: float, sample_interval: float) -> int:
+    """Whole sample intervals within the duration; at least one."""
+    check_positive("duration", duration)
+    if duration < sample_interval * (1.0 - 1e-9):
+        raise ValueError(
+            f"duration must be at least one sample_interval = {sample_interval!r} s, "
+            f"not {duration!r} s"
+        )
+    return int(duration / sample_interval + 1e-6)

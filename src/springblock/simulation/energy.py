@@ -1,0 +1,64 @@
+"""The energy ledger of a run: where the slider's work has gone."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.model.material import Material
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Work of the slider and its whereabouts at the end of a run, in J."""
+
+    work_in: float  #: done by the slider
+    elastic: float  #: stored in all springs
+    kinetic: float
+    friction: float  #: turned into heat by friction with the substrate
+    viscous: float  #: turned into heat by damping
+
+    @property
+    def relative_residual(self) -> float:
+        """What is missing from the balance, as a share of `work_in`; NaN where there is none."""
+        if self.work_in == 0.0:
+            return math.nan
+        spent = self.elastic + self.kinetic + self.friction + self.viscous
+        return (self.work_in - spent) / self.work_in
+
+
+def _stretch_squared(
+    apart: NDArray[np.float64], rest_x: float, rest_y: float
+) -> NDArray[np.float64]:
+    """(r - L)² of springs with rest vector (rest_x, rest_y) whose ends moved `apart`, (2, ...)."""
+    rest2 = rest_x**2 + rest_y**2
+    q = (2.0 * (rest_x * apart[0] + rest_y * apart[1]) + apart[0] ** 2 + apart[1] ** 2) / rest2
+    return rest2 * (q / (1.0 + np.sqrt(1.0 + q))) ** 2  # r - L without cancellation
+
+
+def elastic_energy(
+    displacement: NDArray[np.float64],
+    slider: NDArray[np.float64],
+    material: Material,
+    periodic: bool = False,
+) -> float:
+    """Energy in all springs, J, of displacements (2, N_y, N_x) in m under a slider at (2,) in m.
+
+    On a periodic surface springs across the edges are among them.
+    """
+    length, k_int = material.spacing, material.k_int
+    d, every = displacement, slice(None)
+    if periodic:  # with images of the first row and column, whose own springs are not counted again
+        d, every = np.pad(d, ((0, 0), (0, 1), (0, 1)), mode="wrap"), slice(-1)
+    springs = (
+        (k_int, d[:, every, 1:] - d[:, every, :-1], length, 0.0),
+        (k_int, d[:, 1:, every] - d[:, :-1, every], 0.0, length),
+        (k_int / 2.0, d[:, 1:, 1:] - d[:, :-1, :-1], length, length),
+        (k_int / 2.0, d[:, 1:, :-1] - d[:, :-1, 1:], -length, length),
+    )
+    internal = sum(
+        0.5 * k * float(np.sum(_stretch_squared(apart, *rest))) for k, apart, *rest in springs
+    )
+    hung = 0.5 * material.k_s * float(np.sum((slider[:, None, None] - displacement) ** 2))
+    return internal + hung

@@ -1,0 +1,83 @@
+"""What one run yields."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.simulation.energy import Energy
+from springblock.simulation.run import Visible
+
+Array = NDArray[np.float64]
+
+#: Share of the drop after the peak by which the force must have risen again: then it has passed
+#: its first minimum.
+_REBOUND = 0.1
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Realisation(Visible):
+    """What one run yields, in SI units. Fields over blocks are indexed [y, x]."""
+
+    time: Array  #: (n,) s, multiples of the sample interval, from zero
+    force: Array  #: (n,) N, |ΣF_s|
+    detachments: NDArray[np.int64]  #: (n,) blocks that detached for the first time in the interval
+    switches: NDArray[np.int64]  #: (n,) blocks that went from rest to sliding, again or not
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    normal_force: float  #: P l² N_y N_x, N
+    energy: Energy  #: at the end, J
+    steps: int  #: of the integrator
+    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
+    velocity: Array  #: (2, N_y, N_x) m/s, at the end
+    snapshots: Array  #: (k, 2, N_y, N_x) m, displacement at the times asked for
+    snapshot_times: Array  #: (k,) s, these times
+    contact: NDArray[np.bool_]  #: (N_y, N_x) blocks in contact with the substrate
+
+    @property
+    def t_max(self) -> float:
+        """Time of the force maximum, s."""
+        return float(self.time[np.argmax(self.force)])
+
+    @property
+    def static_friction(self) -> float:
+        """Global static friction coefficient: the maximum of the force over P l² N_y N_x."""
+        return float(self.force.max()) / self.normal_force
+
+    @property
+    def dynamic_friction(self) -> float:
+        """Mean of force over P l² N_y N_x after the first minimum that follows the peak.
+
+        Over the samples that the run holds; the force still oscillates there. NaN where the run
+        ends before, or the force does not fall.
+        """
+        minimum = first_minimum(self.force)
+        return (
+            math.nan if minimum is None else float(self.force[minimum:].mean()) / self.normal_force
+        )
+
+    @property
+    def t_avg(self) -> float:
+        """Mean of t_det over the contact blocks that have detached, s; NaN where none has."""
+        detached = self.t_det[np.isfinite(self.t_det)]
+        return float(detached.mean()) if detached.size else math.nan
+
+    @property
+    def t_first(self) -> float:
+        """Time of the first detachment, s; NaN where there is none."""
+        detached = self.t_det[np.isfinite(self.t_det)]
+        return float(detached.min()) if detached.size else math.nan
+
+
+def first_minimum(force: Array) -> int | None:
+    """Index of the first minimum after the peak of `force`; None if it is not passed yet.
+
+    A minimum counts once the force has risen again by a tenth of its drop from the peak.
+    """
+    peak = int(np.argmax(force))
+    after = force[peak:]
+    lowest = np.minimum.accumulate(after)
+    rebound = after - lowest > _REBOUND * (after[0] - lowest)
+    if not rebound.any():
+        return None
+    return peak + int(np.argmin(after[: int(np.argmax(rebound)) + 1]))

@@ -1,0 +1,309 @@
+"""From a contact mask and its friction coefficients to a realisation."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from tqdm import tqdm
+
+from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
+from springblock.model.direction import heading
+from springblock.model.material import Material
+from springblock.simulation.checkpoint import Checkpoint, belonging
+from springblock.simulation.checks import checked_surface, count_samples, whole_multiple
+from springblock.simulation.energy import Energy, elastic_energy
+from springblock.simulation.prelude import Prelude, conditions
+from springblock.simulation.realisation import Realisation, first_minimum
+from springblock.simulation.setup import PAPER, Setup
+from springblock.solver import on_cores
+from springblock.solver.lattice import (
+    SQUARES,
+    WORK,
+    Advance,
+    Constants,
+    Samples,
+    State,
+    prepare,
+    unpadded,
+)
+
+Array = NDArray[np.float64]
+
+#: A run pauses this often, in sample intervals, to see whether it may stop.
+_SAMPLES_PER_CALL = 10
+#: A force that does not drop (mu_d = mu_s, or strong damping) is followed for this multiple of
+#: the time at which the last block has detached.
+_PATIENCE = 1.5
+#: The strongest block alone would let go at mu_s F_n/(K_s v); a run gives up at this multiple.
+_LAST_RESORT = 3.0
+
+
+class SimulationError(RuntimeError):
+    """The equations of motion could not be followed any further."""
+
+
+def simulate(
+    contact: ArrayLike,
+    mu_static: ArrayLike,
+    mu_dynamic: ArrayLike,
+    material: Material = PAPER,
+    direction: str | float = "x",
+    integrator: str = INTEGRATOR,
+    step: float = STEP,
+    duration: float | None = None,
+    sample_interval: float = SAMPLE_INTERVAL,
+    snapshot_times: Sequence[float] = (),
+    prelude: Prelude | None = None,
+    cores: int = 1,
+    periodic: bool = False,
+    progress: bool = False,
+    checkpoint: str | Path | None = None,
+    checkpoint_interval: float = 300.0,
+) -> Realisation:
+    """Pull one surface from rest and record how it lets go.
+
+    The model of Costagliola, Bosia & Pugno 2022 (doi:10.1016/j.ijsolstr.2022.111525), section 2.
+
+    Parameters
+    ----------
+    contact : (N_y, N_x) bool, or 0 and 1, [y, x]
+        Blocks in contact with the substrate, as `Pattern.contact`.
+    mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
+        Microscopic friction coefficients; not read outside the contact.
+    material : Material
+    direction : "x", "y" or an angle from x in degrees
+        Where the slider goes.
+    integrator : "leapfrog" or "rk4"
+    step : s
+        Integration step h.
+    duration : s, or None
+        None: until every contact block has detached and the force has passed its peak and the
+        first minimum after it. Where the force does not drop, until 1.5 times the last first
+        detachment.
+    sample_interval : s
+        Between entries of the force curve; a multiple of the step.
+    snapshot_times : s
+        Multiples of the sample interval at which the displacements are kept, in rising order.
+        A run without duration goes on until the last of them, if it would end before.
+    prelude : Prelude
+        States of this very scene before its first detachment, see `compute_prelude`. They
+        save time and change nothing.
+    cores : int
+        On which the leapfrog follows one large surface, to the bit as on one.
+    periodic : bool
+        Whether springs join opposite edges, which are free otherwise. Each side then holds at
+        least 3 blocks.
+    progress : bool
+        Whether to count samples on stderr.
+    checkpoint : Path
+        File that keeps the run while it is not finished. Where it is there, the run goes on from
+        it, to the bit; it is removed at the end.
+    checkpoint_interval : s
+        Of the clock on the wall, between two times that it is written.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For arguments that make no sense, an unstable step among them, and for the prelude or the
+        checkpoint of another run.
+    SimulationError
+        Where a spring collapses, bursts or becomes NaN, with time and block; or where a run
+        without duration does not come to its end.
+    """
+    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
+    setup = Setup(material, integrator, step, sample_interval)
+    advance, towards = on_cores(integrator, cores), heading(direction)
+    stops = [
+        whole_multiple("snapshot_times", time, "sample_interval", sample_interval)
+        for time in snapshot_times
+    ]
+    if stops != sorted(set(stops)):
+        raise ValueError("snapshot_times must rise from one to the next")
+    end = None if duration is None else count_samples(duration, sample_interval)
+    if end is not None and stops and stops[-1] > end:
+        raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
+    limit = _LAST_RESORT * _lone_release_time(contact, mu_static, mu_dynamic, material)
+
+    surface = contact, mu_static, mu_dynamic
+    state, constants = prepare(*surface, material, towards, setup.method, step, periodic=periodic)
+    motion = _Motion(setup, advance, state, constants)
+    here = conditions(contact, setup, towards, periodic)
+    kept, snapshots = None, list[Array]()
+    if checkpoint is not None:
+        belongs = belonging(here, surface[1:], duration=end, snapshot_times=stops)
+        kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
+        snapshots = motion.resume(kept)
+    if prelude is not None:
+        motion.skip(prelude, here, min([*stops, math.inf if end is None else end]) - 1)
+    with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
+        while len(snapshots) < len(stops) or not motion.is_over(end, limit):
+            pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
+            pause = pause if end is None else min(pause, end)
+            for stop in [stop for stop in stops if motion.samples < stop <= pause]:
+                motion.proceed(stop)
+                snapshots.append(motion.displacement())
+            motion.proceed(pause)
+            bar.update(motion.samples - bar.n)
+            if kept is not None and kept.is_due:
+                kept.save(motion.state, motion.record, snapshots)
+    run = motion.result(snapshots, stops)
+    if kept is not None:
+        kept.path.unlink(missing_ok=True)
+    return run
+
+
+@dataclass
+class _Motion:
+    """Blocks on their way, between two calls of the compiled loop."""
+
+    setup: Setup
+    advance: Advance
+    state: State
+    constants: Constants
+    samples: int = 0  #: taken so far, not counting the one at rest
+    record: list[Samples] = field(default_factory=lambda: [Samples.empty(1)])
+
+    @property
+    def steps(self) -> int:
+        """Taken so far."""
+        return self.samples * self.setup.every
+
+    def skip(self, prelude: Prelude, expected: str, latest: float) -> None:
+        """Start from the latest state of a prelude that will do, instead of from zero."""
+        if prelude.conditions != expected:
+            raise ValueError(
+                "this prelude belongs to another scene, material, integrator, step or "
+                "sample_interval"
+            )
+        if not self.samples:
+            self.samples, taken = prelude.start(self.state, self.constants, latest)
+            self.record.append(taken)
+
+    def resume(self, kept: Checkpoint) -> list[Array]:
+        """Go on from a checkpoint, if there is one, and return the snapshots taken before it."""
+        if not kept.path.exists():
+            return []
+        taken, snapshots = kept.restore(self.state)
+        self.samples, self.record = len(taken.force_x) - 1, [taken]
+        return snapshots
+
+    def proceed(self, until: int) -> None:
+        """Go on to sample `until`."""
+        if until == self.samples:
+            return
+        every, more, first = self.setup.every, until - self.samples, self.steps
+        taken = Samples.empty(more)
+        done, row, column = self.advance(
+            self.state, self.constants, first, more * every, every, taken
+        )
+        if row >= 0:
+            raise SimulationError(
+                f"at t = {(first + done) * self.setup.step:.4g} s a spring at block "
+                f"(y, x) = ({row}, {column}) has collapsed to less than half its length, grown "
+                "to more than twice, or become NaN"
+            )
+        self.samples = until
+        self.record.append(taken)
+
+    def is_over(self, end: int | None, limit: float) -> bool:
+        """Whether the scene has shown what it must: see `simulate`."""
+        if end is not None:
+            return self.samples >= end
+        blocks, step = self.state.blocks, self.setup.step
+        t_det = blocks.t_det[blocks.static > 0.0] * step
+        last = float(t_det.max())
+        now = self.steps * step
+        if math.isfinite(last):
+            return now > _PATIENCE * last or first_minimum(self.force()) is not None
+        if now > limit:
+            waiting = int(np.isinf(t_det).sum())
+            raise SimulationError(
+                f"at t = {now:.4g} s {waiting} contact blocks have not detached; "
+                "give the run a duration if that is meant to be"
+            )
+        return False
+
+    def force(self) -> Array:
+        """|ΣF_s| so far, in the kernel's unit."""
+        x = np.concatenate([samples.force_x for samples in self.record])
+        y = np.concatenate([samples.force_y for samples in self.record])
+        return np.hypot(x, y)
+
+    def displacement(self) -> Array:
+        """(2, N_y, N_x) m."""
+        blocks, grid = self.state.blocks, self.constants.grid
+        u = np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
+        return self.setup.material.spacing * u
+
+    def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
+        """Turn what has been recorded into SI units."""
+        grid, material, step = self.constants.grid, self.setup.material, self.setup.step
+        n_y, n_x = grid.shape
+        t_det = step * unpadded(self.state.blocks.t_det, grid)
+        t_det = np.where(np.isfinite(t_det), t_det, np.nan)
+        time = self.setup.every * step * np.arange(self.samples + 1.0)
+        velocity, heat = self.setup.method.at_step(self.state, self.constants, self.steps)
+        velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
+        force = self._newton() * self.force()
+        energy = self._energy(velocity, heat)
+        if not math.isfinite(energy.relative_residual):
+            raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
+        return Realisation(
+            time=time,
+            force=force,
+            detachments=self._first_detachments(),
+            switches=np.concatenate([samples.switches for samples in self.record]),
+            t_det=t_det,
+            normal_force=material.block_load * n_y * n_x,
+            energy=energy,
+            steps=self.steps,
+            displacement=self.displacement(),
+            velocity=velocity,
+            snapshots=np.array(snapshots).reshape(-1, *velocity.shape),
+            snapshot_times=self.setup.sample_interval * np.array(stops, float),
+            contact=unpadded(self.state.blocks.static, grid) > 0.0,
+        )
+
+    def _newton(self) -> float:
+        """Force in N that changes a block's velocity by one l per step in one step."""
+        material, step = self.setup.material, self.setup.step
+        force_time = self.setup.method.force_time(step, material.gamma)
+        return material.mass * material.spacing / (step * force_time)
+
+    def _first_detachments(self) -> NDArray[np.int64]:
+        """Blocks seen to detach for the first time in each interval; none before the first."""
+        t_det = self.state.blocks.t_det
+        steps = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64)
+        return np.bincount(steps // self.setup.every + 1, minlength=self.samples + 1)
+
+    def _energy(self, velocity: Array, heat: float) -> Energy:
+        material, ledger = self.setup.material, self.state.ledger
+        joule = self._newton() * material.spacing
+        slide = np.array([self.constants.slider_x, self.constants.slider_y])
+        slider = self.steps * slide * material.spacing
+        displacement = self.displacement()
+        last_pull = material.k_s * np.sum(slider[:, None, None] - displacement, axis=(1, 2))
+        # trapezoidal rule: the loop has counted the last force in full
+        work_in = joule * ledger[WORK] - 0.5 * float(last_pull @ slide) * material.spacing
+        return Energy(
+            work_in=float(work_in),
+            elastic=elastic_energy(
+                displacement, slider, material, bool(self.constants.grid.periodic)
+            ),
+            kinetic=0.5 * material.mass * float(np.sum(velocity**2)),
+            friction=joule * heat,
+            viscous=float(material.gamma * material.mass * material.spacing**2 / self.setup.step)
+            * float(ledger[SQUARES]),
+        )
+
+
+def _lone_release_time(
+    contact: NDArray[np.bool_], mu_static: Array, mu_dynamic: Array, material: Material
+) -> float:
+    """Time in s at which the strongest block would let go if its neighbours did not pull."""
+    load = material.block_load * contact.size / np.count_nonzero(contact)
+    strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
+    return strongest * load / (material.k_s * material.slider_velocity)

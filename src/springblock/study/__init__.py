@@ -1,0 +1,1 @@
+"""The study: its configuration, its cost, and the state of its results."""

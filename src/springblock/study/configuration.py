@@ -1,0 +1,329 @@
+"""The study's configuration: checked, and expanded into scenes and batches of seeds."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+
+from springblock.io.tables import AXES
+from springblock.model.asperities import check_draws
+from springblock.model.blockmap import BlockMap, Cut
+from springblock.model.material import Material
+from springblock.model.scene import LENGTHS, MAPS, Scene, Varied
+from springblock.simulation.checks import check_positive, checked_surface
+from springblock.simulation.setup import Setup
+from springblock.solver.springs import MAX_BLOCKS
+from springblock.study.texts import check_texts
+
+Configuration = Mapping[str, Any]
+
+#: What YAML means by these words.
+_YAML_WORDS = {"true": True, "false": False, "null": None}
+#: Parts of a configuration that hold groups of scenes: the study, maps and sweeps beyond it, and
+#: more of what statements rest on.
+PARTS = ("scenes", "beyond", "more")
+#: Groups that figures are drawn from, and the level of their scenes.
+_LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+#: Realisations below which a correlation has no interval.
+_CORRELATED = 3
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """A scene, how often it is simulated, and for how long."""
+
+    scene: Scene
+    seeds: range
+    duration: float | None  #: s; None until the scene has shown its peak
+
+    def batches(self, size: int) -> Iterator[range]:
+        """Split the seeds into whole batches of `size` and the rest one by one.
+
+        A larger ensemble then contains the smaller one's batches, as long as both are whole.
+        """
+        whole = self.seeds[: len(self.seeds) // size * size]
+        yield from (whole[i : i + size] for i in range(0, len(whole), size))
+        yield from (range(seed, seed + 1) for seed in self.seeds[len(whole) :])
+
+
+def completed(configuration: Configuration) -> dict[str, Any]:
+    """Read numbers that came as text, and continue lists by what `add` holds in their places.
+
+    YAML takes 1e-3, which has no point, for text, and Snakemake all that `--config` holds deeper
+    than its first level.
+    """
+    whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
+    return _continued(whole, whole.pop("add", {}))
+
+
+def _with_numbers(value: Any, key: str = "") -> Any:
+    if isinstance(value, dict):
+        return {name: _with_numbers(inner) for name, inner in value.items()}
+    if isinstance(value, list):
+        return [_with_numbers(inner) for inner in value]
+    if not isinstance(value, str) or key == "results":
+        return value
+    for read in (int, float, _YAML_WORDS.__getitem__):
+        with suppress(ValueError, KeyError):
+            return read(value)
+    return value
+
+
+def _continued(node: Any, more: Any) -> Any:
+    """Merge dictionaries, append lists, and take whatever else is new."""
+    if isinstance(node, dict) and isinstance(more, dict):
+        inner = {key: _continued(node.get(key), value) for key, value in more.items()}
+        return {**node, **inner}
+    return [*node, *more] if isinstance(node, list) and isinstance(more, list) else more
+
+
+def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
+    """Refuse a configuration that could not be computed, before anything is.
+
+    Raises
+    ------
+    TypeError, ValueError
+        With one sentence that names the key, what it holds and what it may hold.
+    """
+    check_texts(configuration)
+    validator = jsonschema.Draft202012Validator(schema)
+    error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
+    if error is not None:
+        raise ValueError(_sentence(error))
+    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    setup = Setup(Material(**configuration["material"]), **times)
+    for group, members in ensembles(configuration).items():
+        for ensemble in members:
+            with _named(configuration, group):
+                _check_ensemble(ensemble, group, setup)
+    for name, sweep in configuration["figures"].get("sweeps", {}).items():
+        _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
+
+
+@contextmanager
+def _named(configuration: Configuration, group: str) -> Iterator[None]:
+    """Put the key of a group of scenes before what is wrong with it."""
+    part = _part(configuration, group)
+    try:
+        yield
+    except ValueError as reason:
+        raise ValueError(f"{part}.{group}: {reason}") from reason
+
+
+def _part(configuration: Configuration, group: str) -> str:
+    """The first part of the configuration that has a group of this name."""
+    return next(part for part in PARTS if group in configuration[part])
+
+
+def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
+    known = [group for part in PARTS for group in configuration[part]]
+    for group in sweep["groups"]:
+        if group not in known:
+            raise ValueError(f"{key}.groups has {group!r}, which is none of {', '.join(known)}")
+    if sweep["over"] not in AXES:
+        raise ValueError(f"{key}.over is {sweep['over']!r}; it may be {', '.join(AXES)}")
+
+
+def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
+    scene, sample_interval = ensemble.scene, setup.sample_interval
+    if max(scene.shape) > MAX_BLOCKS:  # before there is an array of them
+        raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
+    ones = np.ones(scene.shape)
+    checked_surface(scene.contact, ones, ones, scene.is_periodic)
+    _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
+    if group in _LEVELS and not scene.is_papers:
+        raise ValueError(
+            "its surfaces must be the paper's, square, with free edges and without files; "
+            "others may be in a group of any other name"
+        )
+    if scene.level != _LEVELS.get(group, scene.level):
+        raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
+    if ensemble.duration is not None:
+        check_positive("duration", ensemble.duration)
+    if ensemble.duration is not None and ensemble.duration < sample_interval:
+        raise ValueError(
+            f"duration is {ensemble.duration!r} s, "
+            f"less than one sample_interval of {sample_interval!r} s"
+        )
+    if scene.sides and len(ensemble.seeds) < _CORRELATED:
+        raise ValueError(
+            f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
+        )
+
+
+def _check_draws(ensemble: Ensemble, material: Material) -> None:
+    scene, seeds = ensemble.scene, ensemble.seeds
+    if scene.is_drawn:
+        check_draws(scene.shape, material)
+    elif len(seeds) > 1:
+        raise ValueError(f"seeds is {len(seeds)}, but nothing is drawn: leave it out, or say 1")
+
+
+def _sentence(error: jsonschema.ValidationError) -> str:
+    key = ".".join(str(part) for part in error.absolute_path) or "the configuration"
+    if error.validator == "additionalProperties":
+        known = ", ".join(error.schema["properties"])
+        unknown = sorted(set(error.instance) - set(error.schema["properties"]))
+        return f"{key} has the unknown key {unknown[0]!r}; it may hold {known}"
+    if error.validator == "required":
+        return f"{key}: {error.message}"
+    meaning = error.schema.get("description")
+    return f"{key} is not valid: {error.message}" + (f" ({meaning})" if meaning else "")
+
+
+def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
+    """Expand each group of scenes into its grids, by the group's name, part by part.
+
+    A scene that several of them hold is one ensemble, with the largest number of seeds. A later
+    part may pull a scene of an earlier one more often, never less, and changes nothing in it.
+
+    Raises
+    ------
+    ValueError
+        With the name of the group, where its lists do not fit together.
+    """
+    found: dict[str, list[Ensemble]] = {}
+    largest: dict[Scene, Ensemble] = {}
+    for part in PARTS:
+        study, groups = dict(largest), dict[str, list[Ensemble]]()
+        for group, grids in configuration[part].items():
+            if group in found:
+                owner = _part(configuration, group)
+                raise ValueError(f"{part}.{group}: {owner} has a group of this name")
+            with _named(configuration, group):
+                parts = grids if isinstance(grids, list) else [grids or {}]
+                groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
+            for ensemble in groups[group]:
+                _keep_largest(largest, ensemble, study)
+        for group, members in groups.items():
+            found[group] = list(dict.fromkeys(largest[each.scene] for each in members))
+    return found
+
+
+def conditions(configuration: Configuration, ensemble: Ensemble) -> dict[str, Any]:
+    """What the realisations of an ensemble depend on besides scene, seed and code.
+
+    Batches keep the same, as `configuration` of their metadata.
+    """
+    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    setup = Setup(Material(**configuration["material"]), **times)
+    return setup.vary(dict(ensemble.scene.varied)).conditions(ensemble.duration)
+
+
+def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
+    """Ensembles that figures take by the names of groups: the paper's surfaces.
+
+    The group `surfaces`, which is drawn for itself, has those of one's own as well.
+    """
+    return {
+        group: [each for each in members if each.scene.is_papers or group == "surfaces"]
+        for group, members in groups.items()
+    }
+
+
+def _keep_largest(
+    largest: dict[Scene, Ensemble], ensemble: Ensemble, study: Mapping[Scene, Ensemble]
+) -> None:
+    scene = ensemble.scene
+    if scene in study:
+        ensemble = replace(ensemble, duration=study[scene].duration)
+    known = largest.setdefault(scene, ensemble)
+    for key in MAPS:
+        one, other = getattr(known.scene, key), getattr(scene, key)
+        if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
+            raise ValueError(f"scenes: {one.file} and {other.file} are both called {one}")
+    if known.duration != ensemble.duration:
+        raise ValueError(f"scenes: {scene.folder} is given two durations")
+    largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
+
+
+def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
+    if not grid:
+        return
+    first, duration = configuration["first_seed"], grid.get("duration")
+    n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
+    seeds = grid.get("seeds", 1)
+    counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
+    if len(counts) != len(n_p):
+        raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
+    shapes = product(_sizes(configuration, grid), grid.get("n_rows", [0]))
+    pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
+    maps = {constants: list(_maps(configuration, grid, constants)) for constants in varied}
+    ways = product(shapes, pillars, n_s, product(*deeper), grid["direction"], varied)
+    for (n, rows), (size, count), given, rest, direction, constants in ways:
+        lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
+        how = {key: grid[key] for key in ("along_3", "edges") if key in grid}
+        how |= {"direction": direction, "varied": constants, "n_rows": rows}
+        for own in maps[constants]:
+            scene = Scene(n, **lengths, **how, **own)
+            yield Ensemble(scene, range(first, first + count), duration)
+
+
+def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:
+    """N of a grid's scenes; 0 where a mask says it."""
+    of_mask = "mask" in grid or "topography" in grid
+    return grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
+
+
+def _maps(
+    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
+) -> Iterator[dict[str, Any]]:
+    """Each mask of a grid, if it has any, with the coefficients that files say."""
+    own = {
+        f"{name}_field": BlockMap.coefficients(Path(grid[name]))
+        for name in ("mu_static", "mu_dynamic")
+        if name in grid
+    }
+    masks = list(_masks(configuration, grid, constants))
+    for i, mask in enumerate(masks):
+        if mask in masks[:i]:
+            raise ValueError(f"two of its masks are the same surface, {mask}")
+    yield from ({"mask": mask} | own for mask in masks)
+    if not masks:
+        yield own
+
+
+def _masks(
+    configuration: Configuration, grid: Mapping[str, Any], constants: Varied
+) -> Iterator[BlockMap]:
+    cuts = {key: _listed(grid[key]) for key in ("bearing_area", "height") if key in grid}
+    if "mask" in grid:
+        if "topography" in grid or cuts:
+            raise ValueError("mask cannot be given together with a topography or its cut")
+        yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
+    elif "topography" in grid:
+        spacing = dict(constants).get("spacing", configuration["material"]["spacing"])
+        folder, file = Path(configuration["results"], "surfaces"), Path(grid["topography"])
+        for values in product(*cuts.values()):
+            cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))
+            yield BlockMap.of_topography(cut, folder)
+    elif cuts:
+        raise ValueError(f"{next(iter(cuts))} needs a topography")
+
+
+def _listed(given: Any) -> list[Any]:
+    """Read what may be one value or a list of them."""
+    return given if isinstance(given, list) else [given]
+
+
+def _gap(given: int | str, n_p: int) -> int:
+    """Read n_s, which may be given as a multiple or a part of n_p: "2n_p", "n_p/3"."""
+    if not isinstance(given, str):
+        return given
+    times, parts = given.split("n_p")
+    return int(times or 1) * n_p // int(parts.removeprefix("/") or 1)
+
+
+def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
+    """Each combination of the constants that a grid lists, without those that the study has."""
+    study = {**dict(Material().items()), **configuration["material"], **configuration}
+    lists = {key: grid[key] for key in ("integrator", "step") if key in grid}
+    lists |= grid.get("material", {})
+    for values in product(*lists.values()):
+        constants = dict(zip(lists, values, strict=True))
+        yield tuple((key, value) for key, value in constants.items() if value != study[key])

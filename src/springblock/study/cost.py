@@ -1,0 +1,42 @@
+"""What a job takes of a machine, from measured rates: what a queue is to be asked for."""
+
+import math
+
+from springblock.model.scene import Scene
+from springblock.simulation.setup import Setup
+
+#: CPU seconds per block and step with all blocks moving; `make bench` measures them.
+_RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
+_START = 10.0  #: s until a job computes, on a machine that is busy
+_MARGIN = 3.0  #: a slower processor; strong disorder, which takes up to 1.4 times as long to let go
+_BASE = 350  #: MB of Python and its libraries, measured as 250
+_PER_BLOCK = 600e-6  #: MB of the lattice and its prelude, measured as 400e-6
+_PER_ROW = 130e-6  #: MB of a block in each realisation of a batch, measured as 90e-6
+
+
+def loading_time(scene: Scene, setup: Setup) -> float:
+    """Time in s in which a mean block would be loaded up to its threshold: t = mu_s F_n/(K_s v).
+
+    A run that ends by itself takes 0.2 to 1.4 times as long, on all surfaces of this study.
+    """
+    contact, material = scene.contact, setup.material
+    load = material.block_load * contact.size / contact.sum()
+    return float(material.mu_static * load / (material.k_s * material.slider_velocity))
+
+
+def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
+    """CPU time in s of one realisation from zero; its prelude takes no more."""
+    steps = (duration or loading_time(scene, setup)) / setup.step
+    return steps * math.prod(scene.shape) * _RATE[setup.integrator]
+
+
+def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:
+    """Wall time in minutes to ask for, with its margin."""
+    work = realisations * cpu_seconds(scene, setup, duration)
+    return math.ceil(_MARGIN * (_START + work) / 60.0)
+
+
+def memory(scene: Scene, realisations: int = 1) -> int:
+    """Memory in MB to ask for, with its margin."""
+    blocks = math.prod(scene.shape)
+    return math.ceil(_BASE + blocks * (_PER_BLOCK + _PER_ROW * realisations))

@@ -1,0 +1,57 @@
+"""Two studies: whether they differ by more than chance."""
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from scipy.special import ndtr
+
+from springblock.analysis.comparison import apart, estimates
+from springblock.model.scene import Scene
+
+OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
+SCENES = [Scene(12), Scene(12, 6, 6), Scene(12, 6, 6, direction="y")]
+
+
+def realisations(rng, shift=0.0, k=10):
+    """A table of made-up realisations; the static friction of pillars may be shifted."""
+    rows = []
+    for scene in SCENES:
+        for seed in range(k):
+            row = dict(zip(OBSERVABLES, rng.normal(1.0, 0.1, 5), strict=True))
+            row["static_friction"] += shift * (scene.direction == "y")
+            rows.append({**scene.row, "seed": seed, **row})
+    return pa.Table.from_pylist(rows)
+
+
+def test_studies_of_one_truth_are_seldom_apart(rng):
+    """In 5 of 100 pairs at most, and four standard errors of that number."""
+    pairs = [estimates(realisations(rng), realisations(rng)) for _ in range(100)]
+    assert {len(found) for found in pairs} == {15}
+    assert sum(bool(apart(found)) for found in pairs) <= 5 + 4 * np.sqrt(5 * 0.95)
+
+
+def test_a_mean_that_is_eight_errors_off_is_named(rng):
+    error = 0.1 * np.sqrt(2 / 10)
+    found = apart(estimates(realisations(rng), realisations(rng, shift=8 * error)))
+    assert [str(each).partition(":")[0] for each in found] == [
+        "static_friction of n_blocks = 12, level = 1, n_p = 6, n_s = 6, direction = y, n_rows = 12"
+    ]
+
+
+@pytest.mark.parametrize(("difference", "errors"), [(0.1, 0.5), (1.0, 5.0)])
+def test_lengths_are_compared_by_their_limits(difference, errors):
+    """Half widths of 0.28 and 0.28 are errors of 0.2 together."""
+    half = 1.959964 * 0.2 / np.sqrt(2.0)
+    tables = [
+        pa.table({"side": ["x"], "l_c": [l_c], "ci_low": [l_c - half], "ci_high": [l_c + half]})
+        for l_c in (3.0, 3.0 + difference)
+    ]
+    (found,) = estimates(*tables)
+    assert found.p_value == pytest.approx(2.0 * ndtr(-errors), rel=1e-5)
+    assert bool(apart([found])) == (errors > 2.0)
+
+
+def test_a_study_is_not_apart_from_itself(rng):
+    table = realisations(rng)
+    assert len(estimates(table, table)) == 15
+    assert not apart(estimates(table, table))

@@ -1,0 +1,244 @@
+"""Correlation along the sides of pillars, against fields whose correlation is known."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from springblock import Pattern
+from springblock.analysis import correlation
+from springblock.analysis.correlation import (
+    Correlation,
+    amplitude,
+    design_effect,
+    fit_length,
+    fit_tail,
+    groove_times,
+    integral_length,
+    references,
+    side_times,
+)
+from springblock.analysis.statistics import bootstrap_weights
+from springblock.cli.correlation import _sides
+from springblock.model.scene import Scene
+
+MIDDLE = 4e-4  #: s, mean detachment time of the fields below
+SPREAD = 1e-6  #: s
+
+
+def times(rng, k, pillars, size, l_c):
+    """Detachment times along sides, (k, pillars, 2, size), whose c(r) is exp(-r/l_c).
+
+    Noise that forgets all but a share q of its last value: an AR(1) process.
+    """
+    q = np.exp(-1.0 / l_c) if l_c else 0.0
+    noise = rng.standard_normal((k, pillars, 2, size))
+    for x in range(1, size):
+        noise[..., x] = q * noise[..., x - 1] + np.sqrt(1.0 - q**2) * noise[..., x]
+    return MIDDLE + SPREAD * noise
+
+
+@pytest.fixture
+def decaying(rng):
+    """Sides with a correlation length of three blocks."""
+    return times(rng, 60, 9, 20, 3.0)
+
+
+def test_a_known_length_is_found(decaying):
+    found = Correlation(decaying)
+    length = found.length()
+    assert length.last == 6  # n_p/3
+    for estimate in (length.fitted, length.integral, length.tail):
+        assert estimate.low < 3.0 < estimate.high
+        assert estimate.high - estimate.low < 1.5
+    assert length.amplitude.low < 1.0 < length.amplitude.high
+    assert length.deviation < 2.0
+    assert (np.abs(length.residual.mean) < 0.03).all()
+    assert (length.residual.low < length.residual.mean).all()
+    exact = np.exp(-np.arange(len(found.mean)) / 3.0)
+    assert (found.interval.low <= exact + 1e-12).all()
+    assert (found.interval.high >= exact - 1e-12).all()
+
+
+@pytest.mark.parametrize(("size", "last"), [(6, 2), (12, 4), (20, 6), (60, 6)])
+def test_lengths_of_all_sides_that_are_long_enough_rest_on_one_range(rng, size, last):
+    assert Correlation(times(rng, 12, 2, size, 3.0)).length().last == last
+
+
+def test_what_all_blocks_of_a_realisation_share_is_no_exponential(rng):
+    shift = SPREAD * rng.standard_normal((400, 1, 1, 1))
+    flat = Correlation(times(rng, 400, 4, 20, 1.0) + shift).length()
+    assert flat.residual.low[0] > 0.0  # c(r) levels off where the fit goes on falling
+    assert flat.amplitude.high < 1.0
+
+
+def test_independent_times_have_no_correlation(rng):
+    found = Correlation(times(rng, 60, 9, 20, 0.0))
+    assert found.mean[0] == pytest.approx(1.0)
+    assert np.abs(found.mean[1:]).max() < 0.05
+    assert found.length().fitted.mean < 0.5
+
+
+def test_what_shifts_all_blocks_of_a_realisation_correlates_them_at_any_distance(rng):
+    shift = 0.5 * SPREAD * rng.standard_normal((400, 1, 1, 1))
+    found = Correlation(times(rng, 400, 4, 12, 0.0) + shift)
+    assert found.mean[1:] == pytest.approx(0.25 / 1.25, abs=0.05)
+
+
+def test_places_may_differ_in_their_means(rng, decaying):
+    place = 1e-4 * rng.random(decaying.shape[1:])
+    np.testing.assert_allclose(
+        Correlation(decaying + place).mean, Correlation(decaying).mean, rtol=1e-8
+    )
+
+
+def test_the_definition_word_by_word(rng):
+    t = times(rng, 5, 2, 10, 2.0)
+    c = np.zeros(5)
+    for r in range(5):
+        for pillar, side, x0, step in np.ndindex(2, 2, 2, 2):
+            x = x0 + 4  # the two blocks in the middle of ten
+            one, two = t[:, pillar, side, x], t[:, pillar, side, x + (r if step else -r)]
+            c[r] += np.mean(one * two) - np.mean(one) * np.mean(two)
+    np.testing.assert_allclose(Correlation(t).mean, c / c[0], rtol=1e-4)
+
+
+def test_a_resample_is_the_correlation_of_the_realisations_drawn(decaying):
+    (weights,) = bootstrap_weights(60, seed=3, resamples=1)
+    drawn = np.repeat(decaying, np.rint(60 * weights).astype(int), axis=0)
+    resample = Correlation(decaying).weighted(weights[None])[0]
+    np.testing.assert_allclose(resample, Correlation(drawn).mean, rtol=1e-10)
+
+
+@pytest.mark.parametrize("mirrored", [np.s_[..., ::-1], np.s_[:, :, ::-1], np.s_[:, ::-1]])
+def test_mirrored_surfaces_correlate_alike(decaying, mirrored):
+    np.testing.assert_allclose(Correlation(decaying[mirrored]).mean, Correlation(decaying).mean)
+
+
+def test_intervals_hold_the_true_value_about_as_often_as_they_say(rng):
+    hits, lengths, trials = 0, 0, 50
+    for _ in range(trials):
+        found = Correlation(times(rng, 40, 2, 12, 2.0))
+        hits += found.interval.low[2] < np.exp(-1.0) < found.interval.high[2]
+        fitted = found.length().fitted
+        lengths += fitted.low < 2.0 < fitted.high
+    assert hits / trials == pytest.approx(0.94, abs=0.06)
+    assert lengths / trials == pytest.approx(0.94, abs=0.06)
+
+
+def test_the_bias_is_small_and_falls_with_the_realisations(rng):
+    few, many = (times(rng, 2000, 1, 20, 3.0) for _ in range(2))
+    parts = [Correlation(part) for part in np.split(few, 200)]  # ten realisations each
+    true = np.mean([part.mean for part in parts], axis=0) - Correlation(many).mean
+    told = np.mean([part.bias for part in parts], axis=0)
+    assert np.abs(told - true).max() < 0.03
+    assert np.abs(Correlation(many).bias).max() < 1e-3
+
+
+def test_more_references_narrow_the_interval_and_keep_the_estimate(rng, monkeypatch):
+    # Fluctuations grow towards the ends of the side, as on pillars.
+    wide = 1.0 + np.abs(np.linspace(-1.0, 1.0, 60))
+    t = MIDDLE + wide * (times(rng, 240, 1, 60, 3.0) - MIDDLE)
+    fifth = Correlation(t).interval
+    monkeypatch.setattr(correlation, "references", lambda size: np.array([29, 30]))
+    two = Correlation(t).interval
+    r = slice(1, len(fifth.mean))
+    width = [np.mean((c.high - c.low)[r]) for c in (two, fifth)]
+    assert width[0] > 1.5 * width[1]
+    inside = (two.low[r] <= fifth.mean[r]) & (fifth.mean[r] <= two.high[r])
+    assert inside.mean() >= 0.9
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"),
+    [(6, [2, 3]), (7, [3]), (10, [4, 5]), (20, range(8, 12)), (60, range(24, 36))],
+)
+def test_references_are_the_central_fifth(size, expected):
+    assert references(size).tolist() == list(expected)
+
+
+def test_pillars_that_move_together_are_one_sample(rng):
+    apart = times(rng, 100, 6, 12, 2.0)
+    assert design_effect(apart) == pytest.approx(1.0, abs=0.2)
+    together = np.repeat(apart[:, :1], 6, axis=1)
+    assert design_effect(together) == pytest.approx(6.0, rel=0.2)
+
+
+def test_exact_curves_give_exact_lengths():
+    r, error = np.arange(1, 7), np.linspace(0.05, 0.1, 6)
+    curves = np.exp(-r / np.array([0.5, 3.0, 40.0])[:, None])
+    for estimate in (fit_length, fit_tail):
+        np.testing.assert_allclose(estimate(curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
+    np.testing.assert_allclose(integral_length(curves), [0.5, 3.0, 40.0], rtol=2e-3)
+    np.testing.assert_allclose(fit_tail(0.6 * curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
+    np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
+    assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
+    assert np.isnan(fit_tail(curves[:, :2], error[:2])).all()
+
+
+def test_sides_are_the_outer_rows_and_columns_of_the_pillars():
+    pattern = Pattern.pillars(24, 6, 6)
+    y, x = np.mgrid[:24.0, :24.0]
+    run = SimpleNamespace(t_det=100.0 * y + x)
+    along_x, along_y = (side_times([run, run], pattern, side) for side in "xy")
+    assert along_x.shape == along_y.shape == (2, 4, 2, 6)
+    second, last = 1, 1  # the second pillar starts at y = 3, x = 15
+    assert along_x[0, second, last].tolist() == [800.0 + x for x in range(15, 21)]
+    assert along_y[0, second, 0].tolist() == [100.0 * y + 15.0 for y in range(3, 9)]
+
+
+def test_sides_cut_by_grooves_are_refused():
+    pattern = Pattern.pillars(24, 8, 4).grooved(2, 1, along="x")
+    run = SimpleNamespace(t_det=np.ones((24, 24)))
+    assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
+    with pytest.raises(ValueError, match="no whole sides along y"):
+        side_times([run], pattern, "y")
+
+
+def test_edges_of_grooves_are_the_rows_beside_them():
+    pattern = Pattern.pillars(24, 8, 4).grooved(
+        2, 1, along="x"
+    )  # rows 2-3, 5-6 and 8-9 of a pillar
+    y, x = np.mgrid[:24.0, :24.0]
+    run = SimpleNamespace(t_det=100.0 * y + x)
+    edges = groove_times([run, run], pattern)
+    assert edges.shape == (2, 4, 4, 8)
+    assert edges[0, 1, :, 0].tolist() == [314.0, 514.0, 614.0, 814.0]
+    run.t_det[3, 14] = np.nan
+    with pytest.raises(ValueError, match="beside a groove never detached"):
+        groove_times([run], pattern)
+    with pytest.raises(ValueError, match="no grooves along x"):
+        groove_times([run], Pattern.pillars(24, 8, 4))
+
+
+def test_what_cannot_be_correlated_is_refused(decaying):
+    run = SimpleNamespace(t_det=np.full((24, 24), np.nan))
+    with pytest.raises(ValueError, match="never detached"):
+        side_times([run], Pattern.pillars(24, 6, 6), "x")
+    with pytest.raises(ValueError, match="3 realisations or more, not 2"):
+        Correlation(decaying[:2])
+    with pytest.raises(ValueError, match="nothing can correlate"):
+        Correlation(np.full((5, 1, 2, 6), MIDDLE))
+
+
+def test_the_command_takes_one_scene_that_has_sides():
+    pillars, near, small = (
+        SimpleNamespace(scene=Scene(24, *lengths), t_det=np.ones((24, 24)), constants={})
+        for lengths in ((6, 6), (6, 2), (3, 3))
+    )
+    kinds = [columns["side"] for columns, _ in _sides([pillars, pillars])]
+    assert kinds == ["x", "y"]
+    with pytest.raises(ValueError, match=r"one scene is correlated, not .*n_s-6.* and .*n_s-2"):
+        next(_sides([pillars, near]))
+    with pytest.raises(ValueError, match=r"n_p-3.* has no whole sides"):
+        next(_sides([small]))
+
+
+def test_the_bias_of_the_length_is_no_noise_of_the_fit(rng):
+    """The jackknife multiplies differences by k: they must not come from steps of the estimate."""
+    steps = rng.normal(size=(200, 1, 2, 41))
+    field = np.zeros_like(steps)
+    for i in range(41):
+        before = field[..., i - 1] if i else 0.0
+        field[..., i] = np.exp(-1 / 3.0) * before + steps[..., i]
+    assert abs(Correlation(field).length().bias) < 0.05

@@ -1,0 +1,315 @@
+"""Statistics of ensembles against samples and curves whose answer is known."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.stats import t, ttest_ind
+
+from springblock import Pattern
+from springblock.analysis.statistics import (
+    bootstrap_interval,
+    bootstrap_weights,
+    cluster_sizes,
+    common_curve,
+    difference_interval,
+    half_widths,
+    lesser_prominence,
+    load_peaks,
+    mean_interval,
+    mean_of_rest,
+    pillar_map,
+    pillar_ring,
+    repeatability,
+    share_interval,
+    standard_error,
+    students_t,
+    whole_curve,
+)
+
+
+def run(samples=21, normal_force=2.0, **more):
+    """A run of four blocks that let go one after another, a sample apart from the first on."""
+    detachments = np.zeros(samples, int)
+    detachments[1:5] = 1
+    return SimpleNamespace(
+        time=0.5 * np.arange(samples),
+        force=np.arange(samples, dtype=float),
+        normal_force=normal_force,
+        detachments=detachments,
+        t_det=np.array([[0.5, 1.0], [1.5, 2.0]]),
+        **more,
+    )
+
+
+def test_intervals_are_as_wide_as_students_t(rng):
+    sample = rng.normal(3.0, 2.0, 100)
+    mean, low, high = mean_interval(sample)
+    half = t.ppf(0.975, 99) * sample.std(ddof=1) / 10.0
+    assert mean == sample.mean()
+    assert (low, high) == pytest.approx((mean - half, mean + half))
+
+
+def test_intervals_hold_the_true_mean_as_often_as_they_say(rng):
+    _, low, high = mean_interval(rng.normal(1.0, 0.5, (40, 2000)))
+    assert np.mean((low < 1.0) & (high > 1.0)) == pytest.approx(0.95, abs=0.015)  # 3 errors
+
+
+def normal(rng, k, trials):
+    return rng.normal(1.0, 0.5, (k, trials))
+
+
+def skewed(rng, k, trials):
+    """Waiting times, of mean and standard deviation 1."""
+    return rng.exponential(1.0, (k, trials))
+
+
+def covered(low, high, truth):
+    return float(np.mean((low < truth) & (truth < high)))
+
+
+@pytest.mark.parametrize("k", [10, 20])
+@pytest.mark.parametrize("draw", [normal, skewed])
+def test_students_t_covers_the_mean_of_few_better_than_percentiles_do(rng, draw, k):
+    values = draw(rng, k, 2000)
+    percentiles = np.percentile(bootstrap_weights(k) @ values, (2.5, 97.5), axis=0)
+    plain, student = covered(*percentiles, 1.0), covered(*mean_interval(values)[1:], 1.0)
+    assert plain < student < 0.965
+    assert plain < 0.935  # what 95 % are worth
+    if draw is normal:
+        assert student == pytest.approx(0.95, abs=0.015)
+
+
+@pytest.mark.parametrize("k", [10, 20])
+@pytest.mark.parametrize("draw", [normal, skewed])
+def test_bca_covers_other_statistics_of_few_better_than_percentiles_do(rng, draw, k):
+    """The standard deviation: biased, and its scatter grows with it."""
+    truth = {normal: 0.5, skewed: 1.0}[draw]
+    plain, bca = [], []
+    for sample in draw(rng, k, 400).T:
+
+        def deviation(weights, sample=sample):
+            return np.sqrt(np.maximum(weights @ sample**2 - (weights @ sample) ** 2, 0.0))
+
+        bca.append(bootstrap_interval(deviation, k)[1:])
+        plain.append(np.percentile(deviation(bootstrap_weights(k)), (2.5, 97.5)))
+    assert covered(*np.transpose(plain), truth) + 0.02 < covered(*np.transpose(bca), truth) < 0.96
+
+
+def test_surfaces_are_compared_as_independent_samples(rng):
+    first, second = rng.normal(3.0, 1.0, 220), rng.normal(1.0, 0.1, 20)
+    found = difference_interval(first, second)
+    low, high = ttest_ind(first, second, equal_var=False).confidence_interval()
+    assert tuple(found) == pytest.approx((first.mean() - second.mean(), low, high))
+    assert tuple(difference_interval([2.0, 2.0], [1.0, 1.0])) == (1.0, 1.0, 1.0)
+    assert np.isnan(difference_interval([1.0, 2.0], [1.0]).low)
+
+
+def test_the_interval_of_a_share_is_exact():
+    """All of 20: a share of 0.025^(1/20) would still show as many once in forty times."""
+    assert tuple(share_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
+    share, low, high = share_interval(6, 20)
+    assert share == 0.3
+    assert low + high == pytest.approx(0.119 + 0.543, abs=2e-3)  # tables of Clopper and Pearson
+
+
+def test_intervals_keep_the_shape_and_are_always_the_same(rng):
+    values = rng.normal(size=(5, 3, 4))
+    first, second = mean_interval(values), mean_interval(values)
+    assert all(part.shape == (3, 4) for part in first)
+    np.testing.assert_array_equal(first, second)
+    assert (first.low < first.mean).all()
+    assert (first.mean < first.high).all()
+
+
+def test_a_single_realisation_has_no_interval():
+    mean, low, high = mean_interval([[1.0, 2.0]])
+    np.testing.assert_array_equal(mean, [1.0, 2.0])
+    assert np.isnan([low, high]).all()
+    assert np.isinf(standard_error(np.ones((1, 2)))).all()
+
+
+def test_curves_end_with_the_shortest_run():
+    curve = common_curve([run(21), run(12, normal_force=4.0)])
+    np.testing.assert_array_equal(curve.time, 0.5 * np.arange(12))
+    np.testing.assert_allclose(curve.friction, np.arange(12) / np.array([[2.0], [4.0]]))
+    assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+
+
+def test_a_whole_curve_ends_with_the_longest_run():
+    """A run that has ended has no force, and no block is left that could detach."""
+    runs = [run(21), run(12, normal_force=4.0)]
+    curve, common = whole_curve(runs), common_curve(runs)
+    np.testing.assert_array_equal(curve.time, runs[0].time)
+    np.testing.assert_array_equal(curve.friction[:, :12], common.friction)
+    assert np.isfinite(curve.friction[0]).all()
+    assert np.isnan(curve.friction[1, 12:]).all()
+    assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+    assert not curve.detachments[1, 12:].any()
+
+
+def test_a_mean_goes_on_over_the_runs_that_are_left(rng):
+    """As long as half of them are."""
+    values = rng.normal(size=(4, 5))
+    values[0, 2:] = values[1, 3:] = values[2, 4:] = np.nan
+    mean, low, high = mean_of_rest(values)
+    for part, whole in zip((mean, low, high), mean_interval(values[:, :2]), strict=True):
+        np.testing.assert_array_equal(part[:2], whole)
+    np.testing.assert_allclose(mean[2:4], [values[1:, 2].mean(), values[2:, 3].mean()])
+    assert ((low < mean) & (mean < high))[:4].all()
+    assert np.isnan([mean[4], low[4], high[4]]).all()
+
+
+def test_the_lesser_peak_is_measured_from_the_valley():
+    assert lesser_prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
+    assert lesser_prominence(np.array([0.0, 10.0, 0.0])) == 0.0
+    assert lesser_prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+
+
+def test_bins_hold_whole_samples_and_every_detachment_once():
+    edges, shares = common_curve([run(12)]).binned(1.5)
+    np.testing.assert_allclose(edges, [0.0, 1.5, 3.0, 4.5])  # two samples are left out
+    np.testing.assert_allclose(shares, [[75.0, 25.0, 0.0]])
+    edges, shares = common_curve([run(12)]).binned(0.1)  # finer than the samples
+    np.testing.assert_allclose(edges, 0.5 * np.arange(12))
+    assert shares.sum() == 100.0
+
+
+def test_a_pillar_is_the_mean_over_all_pillars(rng):
+    pattern, place = Pattern.pillars(12, 4, 2), rng.random((4, 4))
+    field = np.full((12, 12), np.nan)
+    for i, (y, x) in enumerate(pattern.origins):
+        field[y : y + 4, x : x + 4] = place + i - 1.5  # pillars differ, but for their mean
+    runs = [SimpleNamespace(t_det=field, t_max=t_max) for t_max in (1.0, 2.0, 4.0)]
+    times = pillar_map(runs, pattern)
+    np.testing.assert_allclose(times, place / np.array([1.0, 2.0, 4.0])[:, None, None])
+
+
+def test_a_block_that_never_detaches_is_not_left_out_of_the_mean():
+    pattern, field = Pattern.pillars(4, 1, 1), np.ones((4, 4))
+    field[pattern.origins[0][0], pattern.origins[0][1]] = np.nan
+    assert np.isnan(pillar_map([SimpleNamespace(t_det=field, t_max=1.0)], pattern)).all()
+
+
+def test_a_flat_surface_has_no_pillar():
+    with pytest.raises(ValueError, match="no pillar"):
+        pillar_map([], Pattern.flat(4))
+
+
+@pytest.mark.parametrize("size", [1, 2, 5, 6])
+def test_rings_hold_each_block_once(size):
+    rings = [pillar_ring(size, depth) for depth in range((size + 1) // 2)]
+    assert (sum(mask.astype(int) for ring in rings for mask in ring.values()) == 1).all()
+
+
+def test_sides_are_named_after_the_axis_they_run_along():
+    ring = pillar_ring(4, 0)
+    assert np.argwhere(ring["y"]).tolist() == [[1, 0], [1, 3], [2, 0], [2, 3]]  # y, x
+    assert np.argwhere(ring["x"]).tolist() == [[0, 1], [0, 2], [3, 1], [3, 2]]
+    assert ring["corners"].sum() == 4
+
+
+def hill(x, place, height, width=4.0):
+    return height * np.exp(-(((x - place) / width) ** 2))
+
+
+@pytest.mark.parametrize("places", [(50,), (40, 60)])
+def test_load_peaks_are_where_the_force_has_them(places):
+    x = np.arange(100.0)
+    curve = sum(hill(x, place, 1.0) for place in places)
+    assert load_peaks(curve, 0.01).tolist() == list(places)
+
+
+def test_a_shoulder_is_no_load_peak():
+    x = np.arange(100.0)
+    (peak,) = load_peaks(hill(x, 50, 1.0, 20.0) + hill(x, 30, 0.3, 6.0), 0.001)
+    assert peak == pytest.approx(50, abs=2)
+
+
+def test_small_waves_and_noise_are_no_load_peaks(rng):
+    ramp = np.linspace(0.0, 1.0, 500)
+    assert load_peaks(ramp + 0.004 * np.sin(np.arange(500)), 0.0).size == 0
+    noisy = ramp + 1e-3 * rng.standard_normal((20, 500))
+    assert load_peaks(noisy.mean(axis=0), standard_error(noisy)).size == 0
+
+
+def test_a_second_peak_within_the_scatter_does_not_count():
+    x = np.arange(100.0)
+    curve = 1.0 + hill(x, 40, 0.3) + hill(x, 60, 0.2)
+    assert load_peaks(curve, 0.05).tolist() == [40, 60]
+    assert load_peaks(curve, 0.12).tolist() == [40]
+    assert load_peaks(curve, np.inf).size == 0
+
+
+def test_a_wave_of_sliding_is_no_load_peak():
+    x = np.arange(100.0)
+    assert load_peaks(hill(x, 40, 1.0) + hill(x, 70, 0.8), 0.01).tolist() == [40]
+
+
+def test_the_bootstrap_takes_any_statistic_of_weights(rng):
+    numerator, twice = rng.normal(3.0, 1.0, 50), np.full(50, 2.0)
+
+    def ratio_to(denominator):
+        return bootstrap_interval(lambda w: (w @ numerator) / (w @ denominator), 50)
+
+    mean = bootstrap_interval(lambda w: w @ numerator, 50)
+    assert tuple(ratio_to(twice)) == pytest.approx(tuple(part / 2.0 for part in mean))
+    assert tuple(mean) == pytest.approx(tuple(mean_interval(numerator)), rel=0.02)
+    assert tuple(ratio_to(4.0 * numerator)) == pytest.approx((0.25,) * 3)
+    both = bootstrap_interval(lambda w: np.stack([w @ numerator, w @ twice], axis=1), 50)
+    np.testing.assert_allclose(np.transpose(both)[0], mean)
+    assert np.isnan(bootstrap_interval(lambda w: w @ [2.0, 3.0], 2).low)
+
+
+def test_where_no_single_realisation_matters_limits_are_percentiles():
+    """The median of equal numbers, but for a few: leaving out one changes nothing."""
+    values = np.repeat([1.0, 5.0], [14, 6])
+
+    def median(weights):
+        ranked = np.cumsum(weights, axis=1)
+        return values[np.argmax(ranked >= 0.5, axis=1)]
+
+    resampled = median(bootstrap_weights(20))
+    assert resampled.max() == 5.0
+    expected = np.percentile(resampled, (2.5, 97.5))
+    assert tuple(bootstrap_interval(median, 20)) == (1.0, *expected)
+
+
+def test_repeatability_is_the_share_of_variance_that_fields_have_in_common(rng):
+    common, noise = rng.normal(0.0, 1.0, 2000), rng.normal(0.0, 2.0, (12, 2000))
+    share, low, high = repeatability(common + noise + rng.normal(size=(12, 1)))
+    assert low < 0.2 < high
+    assert share == pytest.approx(0.2, abs=0.02)
+    assert tuple(repeatability(np.tile(common, (4, 1)))) == pytest.approx((1.0, 1.0, 1.0))
+    assert np.isnan(repeatability(noise[:2])).all()
+
+
+def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
+    intervals = [repeatability(rng.normal(size=(10, 50))) for _ in range(200)]
+    assert np.mean([low < 0.0 < high for _, low, high in intervals]) >= 0.95  # it is conservative
+    assert abs(np.mean([share for share, _, _ in intervals])) < 0.005
+
+
+def test_the_lesser_of_two_load_peaks_stands_out_by_what_lies_between():
+    x = np.arange(100.0)
+    curve = 0.5 + hill(x, 30, 0.50) + hill(x, 60, 0.45) + hill(x, 85, 0.3)
+    assert lesser_prominence(curve) == pytest.approx(0.45, abs=0.01)
+    filled = np.maximum(curve, np.where((x > 30) & (x < 60), 0.9, 0.0))
+    assert lesser_prominence(filled) == pytest.approx(0.05, abs=0.01)
+    assert lesser_prominence(0.5 + hill(x, 30, 0.5) + hill(x, 85, 0.3)) == 0.0  # of sliding
+    assert lesser_prominence(x) == 0.0
+
+
+def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
+    widths = half_widths(rng.normal(0.0, 1.0, 200), (10, 40, 160, 640))
+    assert list(widths) == [10, 40, 160]
+    wider = students_t(9) / students_t(39)
+    assert widths[10] / widths[40] == pytest.approx(2.0 * wider, rel=0.1)
+    assert widths[40] == pytest.approx(students_t(39) / 40**0.5, rel=0.1)
+
+
+def test_clusters_hold_neighbours_and_corners_if_asked():
+    blocks = np.array([[1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0], [1, 0, 0, 0]], bool)
+    assert sorted(cluster_sizes(blocks)) == [1, 1, 2]
+    assert sorted(cluster_sizes(blocks, by_corners=True)) == [1, 3]
+    assert not cluster_sizes(np.zeros((3, 3), bool)).size

@@ -1,0 +1,42 @@
+"""springblock correlation and collect."""
+
+import pyarrow.parquet as pq
+import pytest
+
+from springblock.io.tables import CORRELATION, CORRELATION_LENGTH
+
+
+@pytest.fixture
+def outputs(tmp_path):
+    return ("--output-correlation", tmp_path / "c", "--output-length", tmp_path / "l")
+
+
+def test_sides_along_both_axes_are_correlated_and_collected(
+    springblock, pillars, outputs, tmp_path
+):
+    springblock("correlation", *pillars, *outputs)
+    for name, schema in (("c", CORRELATION), ("l", CORRELATION_LENGTH)):
+        part, whole = tmp_path / name, tmp_path / f"{name}2"
+        springblock("collect", part, part, "--configuration", "0123", "--output", whole)
+        table = pq.read_table(whole)
+        assert table.schema.names == schema.names
+        assert table.num_rows == 2 * pq.read_metadata(part).num_rows
+        assert set(table["side"].to_pylist()) == {"x", "y"}
+        assert set(table["realisations"].to_pylist()) == {3}
+
+
+def test_surfaces_without_sides_are_refused(springblock, batch, outputs):
+    refusal = springblock("correlation", batch(0, 0), *outputs, refused=True)
+    assert "n_blocks-12/level-0/direction-x has no whole sides of 6 blocks or more" in refusal
+
+
+def test_two_scenes_are_refused(springblock, batch, pillars, outputs, tmp_path):
+    refusal = springblock("correlation", *pillars, batch(0, 0), *outputs, refused=True)
+    assert "one scene is correlated, not " in refusal
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_tables_of_other_columns_are_not_collected(springblock, pillars, outputs, tmp_path):
+    springblock("correlation", *pillars, *outputs)
+    words = (tmp_path / "l", tmp_path / "c", "--configuration", "0", "--output", tmp_path / "a")
+    assert "c lacks the column 'l_c'" in springblock("collect", *words, refused=True)

@@ -1,0 +1,86 @@
+"""springblock info, compare and dictionary."""
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from springblock.analysis.comparison import compare
+from springblock.io.dictionary import tables
+from springblock.io.tables import write
+
+
+def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
+    said = springblock("info", batch(0, 2))
+    assert "3 rows" in said
+    assert "code_version: " in said
+    assert "n_blocks-12/level-0/direction-x: 3" in said
+    assert any(line.split()[:3] == ["t_max", "double", "s"] for line in said.splitlines())
+
+
+def test_info_says_what_a_prelude_holds(springblock, tmp_path):
+    springblock("prelude", "--n-blocks", 12, "--output", tmp_path / "prelude")
+    said = springblock("info", tmp_path / "prelude")
+    assert "before its first detachment" in said
+    assert "slider_velocity=0.0005" in said
+
+
+def test_info_refuses_what_is_neither(springblock, tmp_path):
+    (text := tmp_path / "text").write_text("text")
+    assert "Parquet" in springblock("info", text, refused=True)
+
+
+def changed(file, to, **columns):
+    """Write a table with some cells changed, its rows in the other order."""
+    table = pq.read_table(file, partitioning=None)
+    for name, values in columns.items():
+        at = table.column_names.index(name)
+        table = table.set_column(
+            at, table.schema.field(at), pa.array(values, table.schema.types[at])
+        )
+    write(table.take(list(range(table.num_rows))[::-1]), to, {})
+    return to
+
+
+def test_equal_tables_are_the_same_in_any_order(springblock, batch, tmp_path):
+    said = springblock("compare", batch(0, 2), changed(batch(0, 2), tmp_path / "b"))
+    assert "the same 3 rows, to the bit" in said
+
+
+def test_a_difference_is_named_with_its_size(springblock, batch, tmp_path):
+    t_max = pq.read_table(batch(0, 2), partitioning=None)["t_max"].to_pylist()
+    other = changed(batch(0, 2), tmp_path / "b", t_max=[t_max[0], 1.5 * t_max[1], t_max[2]])
+    said = springblock("compare", batch(0, 2), other, refused=True)
+    assert f"t_max: 1 row differs, by {0.5 * t_max[1]:.3g} at most, or 0.5 of the first" in said
+
+
+def test_curves_of_other_lengths_and_missing_rows_are_differences(batch, tmp_path):
+    table = pq.read_table(batch(0, 2), partitioning=None)
+    short = [force[:5] for force in table["force"].to_pylist()]
+    other = pq.read_table(changed(batch(0, 2), tmp_path / "b", force=short))
+    found = compare(table, other.slice(0, 2))
+    assert (found.both, found.first, found.second) == (2, 1, 0)
+    assert [(each.column, each.rows) for each in found.differences] == [("force", 2)]
+
+
+def test_tables_of_other_columns_are_not_compared(springblock, batch, tmp_path):
+    table = pq.read_table(batch(0, 2), partitioning=None)
+    write(table.drop_columns(["t_avg"]), tmp_path / "b", {})
+    assert "t_avg" in springblock("compare", batch(0, 2), tmp_path / "b", refused=True)
+
+
+def test_folders_are_compared_table_by_table(springblock, batch, tmp_path):
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        changed(batch(0, 2), tmp_path / folder / "some.parquet")
+    assert "some.parquet: the same 3 rows" in springblock("compare", tmp_path / "a", tmp_path / "b")
+    (tmp_path / "a/some.parquet").rename(tmp_path / "a/other.parquet")
+    refusal = springblock("compare", tmp_path / "a", tmp_path / "b", refused=True)
+    assert "do not hold the same tables: other.parquet, some.parquet" in refusal
+
+
+@pytest.mark.parametrize("table", tables(), ids=lambda table: table.name)
+def test_every_column_says_its_unit_and_its_meaning(table):
+    for field in table.schema:
+        said = field.metadata or {}
+        assert said.get(b"unit"), field.name
+        assert said.get(b"meaning"), field.name

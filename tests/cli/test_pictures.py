@@ -1,0 +1,80 @@
+"""springblock plot, animate and show."""
+
+import pyarrow.parquet as pq
+import pytest
+from PIL import Image
+
+from springblock.io.tables import write
+from springblock.plotting import style
+from springblock.plotting.runs import film
+
+
+@pytest.fixture(autouse=True)
+def quicker(monkeypatch):
+    monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)
+    monkeypatch.setattr(film, "FRAMES", 20)
+
+
+@pytest.mark.parametrize("suffix", [".pdf", ".png", ".svg"])
+def test_a_run_is_plotted_with_its_caption(springblock, batch, tmp_path, suffix):
+    picture = tmp_path / f"run{suffix}"
+    springblock("plot", batch(0, 1), "--output", picture)
+    assert b"One run. Friction force over the normal force" in picture.read_bytes()
+
+
+def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
+    pictures = [tmp_path / f"{name}.svg" for name in ("first", "0", "1")]
+    for picture, seed in zip(pictures, ([], ["--seed", 0], ["--seed", 1]), strict=True):
+        springblock("plot", batch(0, 1), *seed, "--output", picture)
+    first, zero, one = (picture.read_text() for picture in pictures)
+    assert first == zero != one
+    refusal = springblock("plot", batch(0, 1), "--seed", 2, "--output", "a.png", refused=True)
+    assert refusal.endswith("0-1.parquet holds no run of seed 2; there are 0, 1")
+
+
+@pytest.mark.parametrize("suffix", [".gif", ".mp4"])
+def test_a_run_is_animated(springblock, batch, tmp_path, suffix):
+    springblock("animate", batch(0, 1), "--seed", 1, "--output", tmp_path / f"run{suffix}")
+    assert [file.name for file in tmp_path.iterdir()] == [f"run{suffix}"]
+    if suffix == ".gif":
+        with Image.open(tmp_path / "run.gif") as image:
+            assert image.n_frames > 2
+
+
+def test_a_surface_is_shown(springblock, tmp_path):
+    surface = ("--n-blocks", 12, "--n-p", 4, "--n-s", 2, "--direction", 30)
+    springblock("show", *surface, "--output", tmp_path / "surface.svg")
+    text = (tmp_path / "surface.svg").read_text(encoding="utf-8")
+    assert "64 of 144 blocks in contact, 44.4 %" in text
+    assert "n_blocks = 12, level = 1, n_p = 4, n_s = 2, direction = 30" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["plot"], "figures are saved as .pdf, .png, .svg, not as '.avi'"),
+        (["animate"], "films are written as .gif or .mp4, not as '.avi'"),
+    ],
+)
+def test_other_formats_are_refused(springblock, batch, tmp_path, words, sentence):
+    assert sentence in springblock(
+        *words, batch(0, 1), "--output", tmp_path / "run.avi", refused=True
+    )
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_holds_no_runs_is_refused(springblock, batch, tmp_path):
+    (text := tmp_path / "text").write_text("text")
+    assert "Parquet" in springblock("plot", text, "--output", tmp_path / "a.png", refused=True)
+    narrow = tmp_path / "narrow"
+    write(pq.read_table(batch(0, 1), columns=["level"]), narrow, {})
+    refusal = springblock("animate", narrow, "--output", tmp_path / "a.gif", refused=True)
+    assert f"{narrow} lacks the column 'n_p'" in refusal
+
+
+def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path):
+    slow, fast = batch(0, 1), batch(0, 1, "--vary", "slider_velocity=1e-3")
+    words = ("--over", "slider_velocity", "--output", tmp_path / "a.svg")
+    assert springblock("plot", slow, fast, *words) == ""
+    told = springblock("plot", slow, fast, batch(0, 2, "--n-p", 6, "--n-s", 6), *words)
+    assert told == "Left out: 3 realisations of surfaces with one slider_velocity alone\n"

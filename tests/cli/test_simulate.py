@@ -1,0 +1,293 @@
+"""springblock compile, prelude and simulate."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from springblock import Prelude, draw_friction, simulate
+from springblock.solver import INTEGRATORS
+
+FLAT = ("--n-blocks", 6)
+ONE = ("--first-seed", 3, "--last-seed", 3)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_an_integrator_is_compiled(springblock, integrator):
+    assert springblock("compile", "--integrator", integrator) == f"{integrator} is compiled\n"
+
+
+def test_a_prelude_changes_nothing(springblock, tmp_path):
+    prelude, with_it, without = (tmp_path / name for name in ("p.npz", "with", "without"))
+    springblock("prelude", *FLAT, "--output", prelude)
+    springblock("simulate", *FLAT, *ONE, "--prelude", prelude, "--output", with_it)
+    springblock("simulate", *FLAT, *ONE, "--output", without)
+    assert pq.read_table(with_it).equals(pq.read_table(without), check_metadata=True)
+
+
+def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_path):
+    how = ("--material", "gamma=4e3", "--step", 1e-8, "--integrator", "rk4", "--duration", 4e-6)
+    seeds = ("--first-seed", 3, "--last-seed", 5)
+    springblock("simulate", *FLAT, *seeds, *how, "--direction", 30, "--output", tmp_path / "a")
+    table = pq.read_table(tmp_path / "a")
+    assert table["seed"].to_pylist() == [3, 4, 5]
+    assert set(table["direction"].to_pylist()) == {"30"}
+    assert set(table["steps"].to_pylist()) == {400}
+    configuration = json.loads(table.schema.metadata[b"configuration"])
+    assert (configuration["material"]["gamma"], configuration["step"]) == (4e3, 1e-8)
+    assert (configuration["integrator"], configuration["duration"]) == ("rk4", 4e-6)
+
+
+def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
+    """From the prelude to the table, and weaker friction is another one."""
+    scene = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
+    law = ("--vary", "law=slip_weakening", "--vary", "slip_distance=1e-7")
+    files = prelude, weak, plain, whole = [tmp_path / name for name in ("p", "w", "c", "t")]
+    springblock("prelude", *scene, *law, "--output", prelude)
+    springblock("simulate", *scene, *law, *ONE, "--prelude", prelude, "--output", weak)
+    springblock("simulate", *scene, *ONE, "--output", plain)
+    springblock("aggregate", weak, plain, "--configuration", "none", "--output", whole)
+    assert all(file.exists() for file in files)
+    table = pq.read_table(whole)
+    rows = {row["law"]: row for row in table.to_pylist()}
+    assert rows["slip_weakening"]["varied"] == "law=slip_weakening, slip_distance=1e-07"
+    assert rows["slip_weakening"]["slip_distance"] == 1e-7
+    assert (rows["coulomb"]["slip_distance"], rows["coulomb"]["speed_scale"]) == (0.0, 0.0)
+    assert rows["slip_weakening"]["static_friction"] > rows["coulomb"]["static_friction"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--n-blocks", 0], "N must be at least 1 block, not 0"),
+        (["--n-p", 2], "n_p = 2 needs n_s"),
+        (["--n-p", 4, "--n-s", 1], "4 + 1 = 5 must divide N = 6"),
+        (["--first-seed", -1], "a seed must be zero or positive, not -1"),
+        (["--last-seed", 2], "2 comes before --first-seed 3"),
+        (["--step", 1e-6], "step = 1e-06 s is unstable: leapfrog needs less than 9.561e-08 s"),
+        (["--sample-interval", 2.5e-8], "sample_interval must be a multiple of step = 2e-08 s"),
+        (["--duration", "nan"], "duration must be finite and positive, not nan"),
+        (["--integrator", "euler"], "'--integrator': 'euler' is not one of 'leapfrog', 'rk4'"),
+        (["--material", "gama=3"], "'--material': 'gama' is no constant; there are youngs_modulus"),
+        (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
+        (["--material", "density=-1"], "Material.density must be finite and positive, not -1.0"),
+        (["--vary", "law=slip_weakening"], "Material.slip_distance must be positive with slip_"),
+        (["--material", "law=stribeck"], "'--material': Material.law must be one of coulomb, "),
+        (["--prelude", "absent.npz"], "'--prelude': File 'absent.npz' does not exist"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path, words, sentence):
+    output = ("--output", tmp_path / "a")
+    assert sentence in springblock("simulate", *FLAT, *ONE, *output, *words, refused=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["compile", "--integrator", "euler"], "'euler' is not one of 'leapfrog', 'rk4'"),
+        (["prelude", *FLAT, "--step", 1e-6, "--output", "absent"], "step = 1e-06 s is unstable"),
+    ],
+)
+def test_so_it_is_before_a_simulation(springblock, words, sentence):
+    assert sentence in springblock(*words, refused=True)
+
+
+@pytest.fixture
+def own(tmp_path):
+    """Options of a surface of one's own, whose coefficients are known."""
+    files = {"--mask": np.eye(6) > 0.0, "--mu-static": np.full((6, 6), 0.9)}
+    files |= {"--mu-dynamic": np.full((6, 6), 0.5)}
+    for option, values in files.items():
+        np.save(tmp_path / f"{option}.npy", values)
+    return [word for option in files for word in (option, tmp_path / f"{option}.npy")]
+
+
+def test_a_surface_of_ones_own_is_simulated_from_its_files(springblock, tmp_path, own):
+    springblock("simulate", *own, *ONE, "--output", tmp_path / "a")
+    (row,) = pq.read_table(tmp_path / "a").to_pylist()
+    assert (row["n_blocks"], row["n_rows"], row["level"]) == (6, 6, -1)
+    assert row["contact"] == np.eye(6, dtype=bool).ravel().tolist()
+    alone = simulate(np.eye(6) > 0.0, np.full((6, 6), 0.9), np.full((6, 6), 0.5))
+    assert row["static_friction"] == alone.static_friction
+
+
+def test_the_prelude_of_known_coefficients_ends_where_the_first_block_lets_go(
+    springblock, tmp_path, own
+):
+    """Whatever the means are that nothing is drawn with, and without changing a bit."""
+    prelude, with_it, without = (tmp_path / name for name in ("p.npz", "with", "without"))
+    how = ("--material", "mu_static=0.1")
+    springblock("prelude", *own, *how, "--output", prelude)
+    springblock("simulate", *own, *how, *ONE, "--prelude", prelude, "--output", with_it)
+    springblock("simulate", *own, *how, *ONE, "--output", without)
+    skipping, plain = (repr(pq.read_table(file).to_pylist()) for file in (with_it, without))
+    assert skipping == plain  # to the last digit, NaN outside the contact included
+    (state,) = Prelude.read(prelude).samples
+    (row,) = pq.read_table(without).to_pylist()
+    assert row["t_first"] / 2e-7 - 20 < state < row["t_first"] / 2e-7
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--mask", "absent.npy"], "'--mask': File 'absent.npy' does not exist"),
+        (["--mask", __file__], "'--mask': .* is neither an image nor an array of NumPy"),
+        (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers that NumPy"),
+        (["--n-p", 2, "--n-s", 1], "a mask cannot be given together with n_p, n_s"),
+        (["--n-blocks", 7], "n_blocks and n_rows are those of the mask, 6 and 6, not 7 and 7"),
+        (["--edges", "closed"], "'--edges': 'closed' is not one of 'free', 'periodic'"),
+        (["--vary", "mu_static=2"], "mu_static cannot be varied where --mu-static-"),
+        (
+            ["--material", "distribution=gauss"],
+            "distribution must be one of normal, .*, not 'gauss",
+        ),
+    ],
+)
+def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own, words, sentence):
+    refusal = springblock("simulate", *own, *ONE, "--output", tmp_path / "a", *words, refused=True)
+    assert re.search(sentence, refusal)
+
+
+def test_the_prelude_of_another_scene_is_refused(springblock, tmp_path):
+    prelude = tmp_path / "p.npz"
+    springblock("prelude", *FLAT, "--output", prelude)
+    other = ("--direction", "y", "--prelude", prelude, "--output", tmp_path / "a")
+    refusal = springblock("simulate", *FLAT, *ONE, *other, refused=True)
+    assert "this prelude belongs to another scene" in refusal
+
+
+def test_one_run_needs_no_seeds(springblock, tmp_path):
+    springblock("simulate", *FLAT, "--output", tmp_path / "a")
+    springblock("simulate", *FLAT, "--first-seed", 3, "--output", tmp_path / "b")
+    assert [pq.read_table(tmp_path / name)["seed"].to_pylist() for name in "ab"] == [[0], [3]]
+
+
+def test_a_single_run_counts_samples_and_a_batch_its_runs(springblock, tmp_path):
+    short = ("--duration", 4e-6, "--output", tmp_path / "a")
+    assert "20/20" in springblock("simulate", *FLAT, *short)
+    said = springblock("simulate", *FLAT, *short, "--last-seed", 2)
+    assert "3/3" in said
+    assert "20/20" not in said
+
+
+def test_snapshots_are_stored_where_they_are_asked_for(springblock, tmp_path):
+    times = ("--snapshot", 1e-5, "--snapshot", 2e-5)
+    springblock("simulate", *FLAT, *ONE, *times, "--output", tmp_path / "a")
+    springblock("simulate", *FLAT, *ONE, "--output", tmp_path / "b")
+    with_them, without = (pq.read_table(tmp_path / name) for name in "ab")
+    assert with_them.schema.names == [*without.schema.names, "snapshot_times", "snapshots"]
+    assert with_them["snapshot_times"].to_pylist() == [[pytest.approx(1e-5), pytest.approx(2e-5)]]
+    assert len(with_them["snapshots"][0]) == 2 * 2 * 6 * 6
+    configuration = json.loads(with_them.schema.metadata[b"configuration"])
+    assert configuration["snapshot_times"] == [1e-5, 2e-5]
+
+
+BATCH = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6, "--last-seed", 2)
+OFTEN = ("--checkpoint", 1e-9)  # minutes
+
+
+def test_a_batch_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
+    """Killed in its second run: the first is kept, the second is taken up, the third is new."""
+    output, whole = tmp_path / "a.parquet", tmp_path / "whole.parquet"
+    folder = tmp_path / "a.parquet.checkpoint"
+    words = [str(word) for word in (*BATCH, *OFTEN, "--output", output)]
+    with subprocess.Popen([sys.executable, "-m", "springblock", *words]) as batch:
+        while not (folder / "seed=1.npz").exists():
+            assert batch.poll() is None
+            time.sleep(0.002)
+        batch.send_signal(signal.SIGKILL)
+    assert batch.returncode == -signal.SIGKILL
+    assert not output.exists()
+    assert (folder / "seed=0.parquet").exists()
+    springblock(*BATCH, *OFTEN, "--output", output)
+    springblock(*BATCH, "--output", whole)
+    assert output.read_bytes() == whole.read_bytes()
+    assert {file.name for file in tmp_path.iterdir()} == {output.name, whole.name}
+
+
+@pytest.fixture
+def interrupted(springblock, tmp_path, monkeypatch):
+    """Words of a batch whose second run fails; and the folder that it has left behind."""
+    words = (*BATCH, *OFTEN, "--output", tmp_path / "a")
+
+    def failing(surface, seed, *how):
+        if seed == 1:
+            raise ValueError("enough")
+        return draw_friction(surface, seed, *how)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("springblock.cli.simulate.draw_friction", failing)
+        assert "enough" in springblock(*words, refused=True)
+    return words, tmp_path / "a.checkpoint"
+
+
+def test_finished_runs_are_not_computed_again(springblock, interrupted, tmp_path, monkeypatch):
+    words, folder = interrupted
+    assert [file.name for file in folder.iterdir()] == ["seed=0.parquet"]
+    drawn = []
+
+    def noted(surface, seed, *how):
+        drawn.append(seed)
+        return draw_friction(surface, seed, *how)
+
+    monkeypatch.setattr("springblock.cli.simulate.draw_friction", noted)
+    springblock(*words)
+    assert drawn == [1, 2]
+    assert pq.read_table(tmp_path / "a")["seed"].to_pylist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        (("--direction", "y"), "direction"),
+        (("--n-p", 4, "--n-s", 4), "n_p, n_s"),
+        (("--step", 1e-8, "--material", "gamma=4e3"), "gamma, step"),
+        (("--duration", 1e-4), "duration"),
+        (("--snapshot", 1e-4), "snapshot_times"),
+    ],
+)
+def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted, change, named):
+    words, folder = interrupted
+    sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run of other {named}; remove it"
+    assert springblock(*words, *change, refused=True).startswith(sentence)
+    assert folder.exists()
+
+
+def test_a_run_that_fails_is_named(springblock, tmp_path):
+    soft = ("--material", "youngs_modulus=1e4", "--step", 1e-6, "--sample-interval", 1e-5)
+    refusal = springblock("simulate", *FLAT, *ONE, *soft, "--output", tmp_path / "a", refused=True)
+    assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
+
+
+def test_a_job_loads_neither_pandas_nor_a_compiler_without_work(springblock, tmp_path):
+    """Nor does it let linear algebra start threads, unless it is told to."""
+    job = ["simulate", "--n-blocks", "6", "--output", str(tmp_path / "run.parquet")]
+    springblock(*job)  # machine code is kept now
+    script = f"""if True:
+        import os, sys
+        from springblock.cli import main
+        main({job}, standalone_mode=False)
+        print(*sys.modules)
+        print(os.environ["OPENBLAS_NUM_THREADS"])
+    """
+    for told, threads in ((None, "1"), ("3", "3")):
+        ours = {name: value for name, value in os.environ.items() if "OPENBLAS" not in name}
+        ours |= {"OPENBLAS_NUM_THREADS": told} if told else {}
+        command = [sys.executable, "-c", script]
+        outcome = subprocess.run(command, env=ours, capture_output=True, text=True)
+        assert outcome.returncode == 0, outcome.stderr
+        *_, modules, of_blas = outcome.stdout.splitlines()
+        loaded = set(modules.split())
+        assert {"numba", "pyarrow.parquet"} <= loaded
+        assert (
+            not {"pandas", "scipy.linalg", "matplotlib", "snakemake", "numba.np.arraymath"} & loaded
+        )
+        assert of_blas == threads

@@ -1,0 +1,207 @@
+"""The random surface: a draw that belongs to its seed, and to nothing else."""
+
+from dataclasses import replace
+from math import gamma
+
+import numpy as np
+import pytest
+import scipy.stats
+
+from springblock import Material, draw_friction
+from springblock.model.asperities import check_draws, distribution, log_share_above
+
+PAPER = Material()
+N = 120
+BLOCKS = N * N
+
+
+def correlation(a, b):
+    return np.corrcoef(a.ravel(), b.ravel())[0, 1]
+
+
+def test_a_seed_stands_for_the_same_surface_everywhere():
+    """Values of seed 0 and N = 2, printed once."""
+    mu_static, mu_dynamic = draw_friction(2, 0)
+    assert mu_static.tolist() == [
+        [1.0743586844777047, 1.141798828331121],
+        [0.876966684077843, 1.2806813447333592],
+    ]
+    assert mu_dynamic.tolist() == [
+        [0.5475586892041802, 0.6199535567828082],
+        [0.6629553553521763, 0.6227272135763453],
+    ]
+
+
+def test_a_draw_knows_nothing_of_other_draws():
+    before = draw_friction(8, 5)
+    draw_friction(8, 6)
+    np.random.default_rng(5).normal(size=99)
+    np.testing.assert_array_equal(draw_friction(8, np.int64(5)), before)
+
+
+def test_neither_coefficient_depends_on_the_statistics_of_the_other():
+    rough = replace(PAPER, mu_dynamic=0.3, mu_dynamic_std=0.2)
+    np.testing.assert_array_equal(draw_friction(8, 5, rough)[0], draw_friction(8, 5)[0])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_draws_have_the_papers_mean_and_scatter(seed):
+    """Within four standard errors: std/√n of the mean, std/√(2n) of the standard deviation."""
+    means = PAPER.mu_static, PAPER.mu_dynamic
+    stds = PAPER.mu_static_std, PAPER.mu_dynamic_std
+    for mu, mean, std in zip(draw_friction(N, seed), means, stds, strict=True):
+        error = std / np.sqrt(BLOCKS)
+        assert mu.mean() == pytest.approx(mean, abs=4 * error)
+        assert mu.std() == pytest.approx(std, abs=4 * error / np.sqrt(2))
+
+
+def test_blocks_coefficients_and_seeds_are_independent():
+    """Correlations vanish within four standard errors, 4/√n."""
+    mu_static, mu_dynamic = draw_friction(N, 0)
+    others = draw_friction(N, 1)
+    pairs = [
+        (mu_static, mu_dynamic),
+        (mu_static, others[0]),
+        (mu_static, others[1]),
+        (mu_static[1:], mu_static[:-1]),
+        (mu_static[:, 1:], mu_static[:, :-1]),
+        (mu_static, mu_static.T),
+    ]
+    assert max(abs(correlation(*pair)) for pair in pairs) < 4 / np.sqrt(BLOCKS)
+
+
+def test_friction_never_pushes():
+    """A standard deviation of half the mean sends 2.3 % of the draws below zero, and to it."""
+    mu_static, _ = draw_friction(N, 0, replace(PAPER, mu_static_std=0.5))
+    share = 0.02275  # of a normal distribution, beyond two standard deviations
+    assert mu_static.min() == 0.0
+    assert np.mean(mu_static == 0.0) == pytest.approx(
+        share, abs=4 * np.sqrt(share * (1 - share) / BLOCKS)
+    )
+
+
+def test_a_static_coefficient_below_the_dynamic_one_is_kept():
+    """With equal means and independent draws it is so for half the blocks."""
+    mu_static, mu_dynamic = draw_friction(N, 0, replace(PAPER, mu_static=0.6))
+    assert np.mean(mu_static < mu_dynamic) == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(BLOCKS))
+
+
+@pytest.mark.parametrize("length", [0.0, 1e-5, 5e-5])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_correlated_draws_have_the_same_mean_and_scatter(length, periodic):
+    """Over 40 surfaces, each good for as many draws as areas of π ℓ² fit into it.
+
+    That is the integral of exp(-r²/ℓ²), one block at least. Bounds of four standard errors.
+    """
+    material = replace(PAPER, mu_static_std=0.25, correlation_length=length)
+    draws = np.array([draw_friction(60, seed, material, periodic)[0] for seed in range(40)])
+    width = length / material.spacing
+    number = 40 * 60**2 / max(1.0, np.pi * width**2)
+    assert draws.mean() == pytest.approx(1.0, abs=4 * 0.25 / np.sqrt(number))
+    assert draws.std() == pytest.approx(0.25, abs=4 * 0.25 / np.sqrt(number))
+
+
+@pytest.mark.parametrize("kind", ["normal", "lognormal", "weibull", "uniform"])
+@pytest.mark.parametrize("length", [0.0, 3e-5])
+def test_a_distribution_is_what_it_is_called_correlated_or_not(kind, length):
+    """Quartiles of 40 surfaces against those of scipy; the mean and scatter are the material's.
+
+    Bounds of four standard errors: √(1/4)/√n of the share below a quartile is an upper limit, with
+    as many independent draws n as areas of correlation, π ℓ².
+    """
+    material = replace(PAPER, mu_static_std=0.3, distribution=kind, correlation_length=length)
+    laws = {
+        "normal": scipy.stats.norm(1.0, 0.3),
+        "lognormal": scipy.stats.lognorm(np.sqrt(np.log(1.09)), scale=1 / np.sqrt(1.09)),
+        "weibull": scipy.stats.weibull_min(3.7138, scale=1 / gamma(1 + 1 / 3.7138)),
+        "uniform": scipy.stats.uniform(1 - 0.3 * np.sqrt(3), 0.6 * np.sqrt(3)),
+    }
+    law = laws[kind]
+    assert (law.mean(), law.std()) == pytest.approx((1.0, 0.3), rel=1e-4)
+    draws = np.array([draw_friction(60, seed, material)[0] for seed in range(40)])
+    bound = 4 * 0.5 / np.sqrt(40 * 60**2 / max(1.0, np.pi * 3.0**2 * (length > 0.0)))
+    for share in (0.05, 0.25, 0.5, 0.75, 0.95):
+        assert np.mean(draws < law.ppf(share)) == pytest.approx(share, abs=bound)
+
+
+@pytest.mark.parametrize("kind", ["lognormal", "weibull", "uniform"])
+@pytest.mark.parametrize("scatter", [1e-4, 0.05, 0.5])
+def test_a_distribution_has_the_mean_and_scatter_that_are_asked_for(kind, scatter):
+    material = replace(PAPER, mu_dynamic_std=0.6 * scatter, distribution=kind)
+    law = distribution("mu_dynamic", material)
+    assert (law.mean(), law.std()) == pytest.approx((0.6, 0.6 * scatter), rel=1e-6)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_correlation_falls_as_a_gaussian_and_goes_around_periodic_edges_alone(periodic):
+    """exp(-r²/ℓ²), within four standard errors of 200 surfaces of about (30/ℓ)²/π areas each."""
+    material = replace(PAPER, correlation_length=4e-5)
+    draws = np.array([draw_friction(30, seed, material, periodic)[0] for seed in range(200)])
+    z = (draws - 1.0) / 0.1
+    bound = 4 / np.sqrt(200 * 30**2 / (np.pi * 4.0**2))
+    for r in (1, 2, 4, 6, 12):
+        for found in (z[:, :, r:] * z[:, :, :-r], z[:, r:] * z[:, :-r]):
+            assert found.mean() == pytest.approx(np.exp(-((r / 4.0) ** 2)), abs=bound)
+    across = np.mean(z[:, :, 0] * z[:, :, -1])  # neighbours, or as far apart as can be
+    edge = 4 / np.sqrt(200 * 30 / (np.sqrt(np.pi) * 4.0))
+    assert across == pytest.approx(np.exp(-1 / 16) if periodic else 0.0, abs=edge)
+
+
+def test_both_coefficients_stay_independent():
+    material = replace(PAPER, correlation_length=2e-5, distribution="weibull")
+    pairs = [draw_friction(N, seed, material) for seed in range(10)]
+    bound = 4 / np.sqrt(10 * BLOCKS / (np.pi * 2.0**2))
+    assert abs(np.mean([correlation(*pair) for pair in pairs])) < bound
+
+
+def test_a_rectangle_has_a_draw_for_each_block():
+    mu_static, mu_dynamic = draw_friction((3, 5), 0)
+    assert mu_static.shape == mu_dynamic.shape == (3, 5)
+    np.testing.assert_array_equal(draw_friction((4, 4), 7), draw_friction(4, 7))
+
+
+@pytest.mark.parametrize(
+    ("constants", "sentence"),
+    [
+        (
+            {"distribution": "uniform", "mu_static_std": 0.6},
+            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without going below zero; "
+            "mu_static_std may be up to 0.5774",
+        ),
+        (
+            {"distribution": "weibull", "mu_dynamic": 0.0},
+            "no weibull .*; its mean must be positive",
+        ),
+        ({"distribution": "weibull", "mu_static_std": 20.0}, "must scatter by 1e-5 to 15 times"),
+        ({"distribution": "lognormal", "mu_static": 0.0}, "its mean must be positive"),
+        ({"correlation_length": 9e-5}, "9e-05 m must not exceed the surface, 8e-05 m"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_before_it_is(constants, sentence):
+    material = replace(PAPER, **constants)
+    for refused in (lambda: draw_friction(8, 0, material), lambda: check_draws((8, 8), material)):
+        with pytest.raises(ValueError, match=sentence):
+            refused()
+
+
+@pytest.mark.parametrize("kind", ["normal", "lognormal", "weibull", "uniform"])
+def test_the_share_that_holds_is_the_share_of_draws(kind):
+    """Within four standard errors; where nothing holds its logarithm is minus infinity."""
+    material = replace(PAPER, mu_static_std=0.2, distribution=kind)
+    draws, _ = draw_friction(N, 0, material)
+    needed = np.array([0.0, 0.7, 0.9, 1.0, 1.2])
+    shares = np.exp(log_share_above(needed, material))
+    measured = [np.mean(draws > each) for each in needed]
+    assert measured == pytest.approx(shares, abs=4 * 0.5 / np.sqrt(BLOCKS))
+    assert log_share_above(np.array([9.0]), material)[0] < -30
+
+
+@pytest.mark.parametrize("seed", [1.0, "1", None, True])
+def test_a_seed_is_a_whole_number(seed):
+    with pytest.raises(TypeError, match="seed must be a whole number"):
+        draw_friction(2, seed)
+
+
+def test_a_seed_is_not_negative():
+    with pytest.raises(ValueError, match="seed must be zero or positive, not -1"):
+        draw_friction(2, -1)

@@ -1,0 +1,155 @@
+"""Surfaces of one's own: what files may hold, and what is read from them."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from springblock.model.blockmap import BlockMap, Cut
+
+CORNER = np.array([[1, 1, 0], [0, 0, 0]], bool)  # in contact at the lower left
+
+
+@pytest.fixture
+def saved(tmp_path):
+    """Save an array as .npy, or as the image that looks like it, and return the file."""
+
+    def save(values, name="corner.npy", mode=None):
+        file = tmp_path / name
+        if file.suffix == ".npy":
+            np.save(file, values, allow_pickle=True)
+        else:
+            image = Image.fromarray(values)
+            (image.convert(mode) if mode else image).save(file)
+        return file
+
+    return save
+
+
+def test_an_image_is_seen_upright(saved):
+    """Its lowest row of pixels is the first row of blocks, y = 0."""
+    mask = BlockMap.mask(saved(CORNER[::-1], "corner.png"))
+    np.testing.assert_array_equal(mask.values, CORNER)
+    assert mask.values.dtype == bool
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "P", "RGB", "RGBA"])
+def test_black_and_white_is_read_however_it_is_stored(saved, mode):
+    mask = BlockMap.mask(saved(CORNER[::-1], f"{mode}.png", mode))
+    np.testing.assert_array_equal(mask.values, CORNER)
+
+
+@pytest.mark.parametrize("kind", [bool, int, np.uint8, float])
+def test_what_is_not_zero_is_in_contact(saved, kind):
+    mask = BlockMap.mask(saved(3 * CORNER.astype(int).astype(kind)))
+    np.testing.assert_array_equal(mask.values, CORNER)
+
+
+def test_a_name_tells_contents_apart_and_nothing_else(saved):
+    """Eight digits of content: neither how a mask is stored nor its own digits change them."""
+    first = BlockMap.mask(saved(CORNER, "a corner (1).npy"))
+    assert first.name.startswith("a_corner__1_-")
+    digits = first.name[-8:]
+    assert BlockMap.mask(saved(CORNER[::-1], "corner.png")).name == f"corner-{digits}"
+    assert BlockMap.mask(saved(CORNER, f"corner-{digits}.npy")).name == f"corner-{digits}"
+    assert BlockMap.mask(saved(~CORNER)).name != f"corner-{digits}"
+    assert BlockMap.mask(saved(CORNER.reshape(3, 2))).name != f"corner-{digits}"
+    assert BlockMap.mask(saved(CORNER)) == BlockMap(f"corner-{digits}")  # what tables know of it
+
+
+def test_coefficients_are_read_as_they_are(saved):
+    mu = BlockMap.coefficients(saved(np.array([[1, 2], [0, np.nan]])))
+    np.testing.assert_array_equal(mu.values, [[1.0, 2.0], [0.0, np.nan]])
+
+
+GREY = np.array([[0, 7, 128], [200, 201, 255]], np.uint8)
+PINK = np.stack([GREY, GREY, 255 - GREY], axis=-1)
+CLEAR = np.zeros((2, 2, 4), np.uint8)
+
+
+@pytest.mark.parametrize(
+    ("values", "name", "sentence"),
+    [
+        (GREY, "a.png", "must be black and white, .* alone; it also holds 7, 128, 200, 201"),
+        (np.arange(64, dtype=np.uint8).reshape(8, 8), "a.png", "1, 2, 3, 4, 5 and 58 more"),
+        (PINK, "a.png", "must be black and white, .* alone, not coloured"),
+        (CLEAR, "a.png", "must be black and white, .* alone, not transparent"),
+        (GREY.astype(np.uint16) * 257, "a.png", "not of Pillow's mode I;16"),
+        (~CORNER & CORNER, "a.png", "must have a block in contact"),
+        (~CORNER & CORNER, "a.npy", "must have a block in contact"),
+        (np.eye(2) * np.nan, "a.npy", "must hold zeros and one other value, .* not 0.0, nan|nan"),
+        (np.arange(9).reshape(3, 3), "a.npy", "must hold zeros and one other value, .* not 0, 1"),
+        (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, .* not , a"),
+        (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers that NumPy has saved"),
+        (np.ones(3, bool), "a.npy", r"must have the shape \(N_y, N_x\), not \(3,\)"),
+        (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
+    ],
+)
+def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentence):
+    file = saved(values, name)
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        BlockMap.mask(file)
+    assert str(refusal.value).startswith(str(file))
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
+def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
+    """A pickle could run anything; this one would leave a file."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "trap.npy").write_bytes(b"cos\nsystem\n(S'touch trapped'\ntR.")
+    with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers that NumPy"):
+        read(tmp_path / "trap.npy")
+    assert [file.name for file in tmp_path.iterdir()] == ["trap.npy"]
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [(b"no image", "is neither an image nor an array"), (None, "does not exist")],
+)
+def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
+    file = tmp_path / "islands.png"
+    if content:
+        file.write_bytes(content)
+    with pytest.raises(ValueError, match=f"islands.png {sentence}"):
+        BlockMap.mask(file)
+
+
+def test_a_torn_image_is_refused(saved, rng):
+    file = saved(np.where(rng.random((64, 64)) < 0.5, 255, 0).astype(np.uint8), "torn.png")
+    file.write_bytes(file.read_bytes()[:200])
+    with pytest.raises(ValueError, match=r"torn.png cannot be read"):
+        BlockMap.mask(file)
+
+
+@pytest.mark.parametrize("limit", [4, 2])
+def test_an_image_of_too_many_pixels_is_refused(saved, monkeypatch, limit):
+    """Pillow warns of those beyond its limit, and refuses those of twice as many."""
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", limit)
+    with pytest.raises(ValueError, match=f"has more than {limit} pixels, the most that are read"):
+        BlockMap.mask(saved(CORNER, "large.png"))
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        (CORNER, "must hold real numbers, not bool"),
+        (np.ones((2, 2), complex), "must hold real numbers, not complex128"),
+        (np.array([["1"]]), "must hold real numbers"),
+        (np.ones((2, 2, 2)), r"must have the shape \(N_y, N_x\), not \(2, 2, 2\)"),
+    ],
+)
+def test_what_are_no_coefficients_is_refused(saved, values, sentence):
+    with pytest.raises(ValueError, match=f"corner.npy {sentence}"):
+        BlockMap.coefficients(saved(values))
+
+
+def test_without_the_reader_a_topography_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    (tmp_path / "rough.opd").touch()
+    with pytest.raises(ValueError, match=r"pip install 'springblock\[topography\]'"):
+        Cut(tmp_path / "rough.opd", 1e-5, bearing_area=0.5).mask()
+    with pytest.raises(ValueError, match="absent does not exist"):
+        Cut(Path("absent"), 1e-5, bearing_area=0.5).mask()

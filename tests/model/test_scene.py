@@ -1,0 +1,195 @@
+"""Scenes: which lengths belong together, and what follows from them."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from springblock.io.tables import SCENE
+from springblock.model.blockmap import BlockMap
+from springblock.model.scene import COLUMNS, Scene
+
+STRIPS = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
+CUT = Scene(120, **STRIPS, n_p3=8, n_s3=2)
+#: A surface of 2 x 3 blocks.
+CORNER = BlockMap("corner-1a2b3c4d", np.array([[1, 1, 0], [0, 0, 0]], bool), Path("a corner.npy"))
+OWN = Scene(mask=CORNER, edges="periodic")
+
+
+def field(values):
+    return BlockMap("strong-00000000", np.array(values, float), Path("strong.npy"))
+
+
+def test_a_third_level_cuts_the_strips_across():
+    assert CUT.level == 3
+    strips, cut = Scene(120, **STRIPS).pattern.contact, CUT.pattern.contact
+    (rows, columns) = (np.flatnonzero(cut.any(axis=axis)) for axis in (1, 0))
+    np.testing.assert_array_equal(rows, columns)  # as deep along x as along y
+    np.testing.assert_array_equal(rows[:10], [31, 32, 33, 34, 35, 36, 37, 38, 41, 42])
+    assert cut.sum() == 48**2
+    assert not cut[~strips].any()
+
+
+def test_a_third_level_may_follow_the_grooves():
+    """Pawls of 18 blocks are divided once more, into 8 and 8."""
+    wide = Scene(120, 58, 62, 18, 2, 8, 2, along_3="x")
+    assert wide.sides == ("x",)
+    narrow = Scene(120, **STRIPS)  # 8 and 2 all through, as these levels come to
+    np.testing.assert_array_equal(wide.pattern.contact, narrow.pattern.contact)
+
+
+def test_grooves_may_cross_the_whole_surface():
+    """With margins of half a groove, as pillars have them."""
+    bare = Scene(20, n_p2=8, n_s2=2)
+    assert (bare.level, bare.sides) == (1, ())
+    contact = bare.pattern.contact
+    np.testing.assert_array_equal(np.flatnonzero(~contact.any(axis=1)), [0, 9, 10, 19])
+    assert contact[1:9].all()
+
+
+def test_constants_of_its_own_belong_to_a_scene():
+    fast = Scene(9, varied={"step": "1e-8", "gamma": 0})
+    assert fast.varied == (("gamma", 0.0), ("step", 1e-8))
+    assert fast == Scene.from_row(fast.row) == Scene(9, varied=(("step", 1e-8), ("gamma", 0.0)))
+    assert fast.folder == "n_blocks-9/level-0/gamma-0.0/step-1e-08/direction-x"
+    assert fast.arguments.endswith("--vary gamma=0.0 --vary step=1e-08")
+    assert fast != Scene(9)
+
+
+def test_a_law_is_text_among_the_constants():
+    weak = Scene(9, varied={"slip_distance": "1e-7", "law": "slip_weakening"})
+    assert weak == Scene.from_row(weak.row)
+    assert weak.folder == ("n_blocks-9/level-0/law-slip_weakening/slip_distance-1e-07/direction-x")
+    assert weak.arguments.endswith("--vary law=slip_weakening --vary slip_distance=1e-07")
+
+
+def test_folders_and_options_name_every_level():
+    assert CUT.folder == (
+        "n_blocks-120/level-3/n_p-58/n_s-62/n_p2-8/n_s2-2/n_p3-8/n_s3-2/along_3-y/direction-x"
+    )
+    assert CUT.arguments.endswith("--n-p2 8 --n-s2 2 --n-p3 8 --n-s3 2 --along-3 y --direction x")
+    assert Scene(9, direction="30").folder == "n_blocks-9/level-0/direction-30"
+
+
+def test_a_row_of_a_table_names_its_scene():
+    assert set(COLUMNS) == set(SCENE.names)
+    assert Scene.from_row(CUT.row | {"seed": 3}) == CUT
+
+
+def test_a_mask_takes_the_place_of_the_pattern():
+    assert (OWN.shape, OWN.level, OWN.sides, OWN.lengths) == ((2, 3), -1, (), {})
+    assert OWN.contact is CORNER.values
+    assert Scene(3, n_rows=2, edges="periodic") != OWN
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d is no pattern of pillars"):
+        _ = OWN.pattern
+
+
+def test_a_surface_of_ones_own_is_named_by_its_contents_and_read_from_its_file():
+    assert OWN.folder == ("n_blocks-3/n_rows-2/mask-corner-1a2b3c4d/edges-periodic/direction-x")
+    assert OWN.arguments == "--edges periodic --direction x --mask 'a corner.npy'"
+    strong = Scene(2, mu_static_field=field(np.ones((2, 2))), varied={"distribution": "weibull"})
+    assert strong.folder == (
+        "n_blocks-2/level-0/mu_static_field-strong-00000000/distribution-weibull/direction-x"
+    )
+    assert "--n-blocks 2 --direction x --mu-static strong.npy --vary dis" in strong.arguments
+    assert strong.files == {"mu_static_field": Path("strong.npy")}
+
+
+def test_a_table_knows_a_mask_by_its_name():
+    known = Scene.from_row(OWN.row)
+    assert known == OWN
+    assert (known.shape, known.mask.values) == ((2, 3), None)
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d nothing is known here but its name"):
+        _ = known.contact
+    assert OWN.row["n_rows"] == 2
+    assert Scene(9).row["n_rows"] == 9
+
+
+def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
+    field_of_ones = field(np.ones((4, 4)))
+    assert all(s.is_papers for s in (Scene(4), CUT, Scene(4, n_rows=4), Scene(4, direction="30")))
+    others = [OWN, Scene(4, n_rows=2), Scene(4, edges="periodic")]
+    others += [Scene(4, mu_static_field=field_of_ones), Scene(4, mu_dynamic_field=field_of_ones)]
+    assert not any(scene.is_papers for scene in others)
+
+
+def test_rectangles_hold_the_same_patterns():
+    wide = Scene(24, 4, 2, n_rows=12)
+    assert wide.contact.shape == wide.shape == (12, 24)
+    assert wide == Scene.from_row(wide.row)
+    assert wide.folder == "n_blocks-24/n_rows-12/level-1/n_p-4/n_s-2/direction-x"
+    assert wide.arguments == "--n-blocks 24 --n-rows 12 --n-p 4 --n-s 2 --direction x"
+
+
+def test_coefficients_matter_in_contact_alone():
+    mask = replace(CORNER, values=np.array([[True, False]]))
+    Scene(mask=mask, mu_static_field=field([[1.0, np.nan]]))
+    with pytest.raises(ValueError, match="strong-00000000 must be finite and not negative"):
+        Scene(mask=mask, mu_dynamic_field=field([[-1.0, 0.0]]))
+
+
+ONES = {"mu_static_field": field(np.ones((120, 120)))}
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"mask": CORNER}, "n_blocks and n_rows are those of the mask, 3 and 2, not 120 and 120"),
+        (
+            {"mask": replace(CORNER, values=None), **STRIPS},
+            "a mask cannot be given together with n_p, n_s, n_p2, n_s2",
+        ),
+        ({"edges": "closed"}, "edges must be free or periodic, not 'closed'"),
+        (
+            {"mu_static_field": field(np.ones((2, 3)))},
+            r"strong-00000000 must have the shape \(N_y, N_x\) = \(120, 120\) of the surface, "
+            r"not \(2, 3\)",
+        ),
+        (
+            ONES | {"varied": {"mu_static_std": 0.3}},
+            "mu_static_std cannot be varied where strong-00000000 says mu_static",
+        ),
+        (
+            ONES
+            | {"mu_dynamic_field": ONES["mu_static_field"], "varied": {"distribution": "weibull"}},
+            "distribution cannot be varied where all coefficients are from files",
+        ),
+    ],
+)
+def test_what_does_not_fit_a_surface_is_refused(given, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        Scene(120, **given)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "sentence"),
+    [
+        ({"n_p": 20}, "n_p = 20 needs n_s"),
+        ({"n_s": 10}, "n_s = 10 needs n_p"),
+        ({"n_p2": 8}, "n_p2 = 8 needs n_s2"),
+        ({"n_p": 58, "n_s": 62, "n_p3": 8, "n_s3": 2}, "n_p3 = 8 needs n_p2"),
+        (STRIPS | {"n_s3": 2}, "n_s3 = 2 needs n_p3"),
+        (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
+        (STRIPS | {"n_p3": 8, "n_s3": 2, "along_3": "z"}, "along_3 must be 'x' or 'y', not 'z'"),
+        ({"varied": {"speed": 1}}, "'speed' is no constant; there are youngs_modulus, .*, step"),
+        ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
+    ],
+)
+def test_what_does_not_make_a_scene_is_refused(lengths, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}$"):
+        Scene(120, **lengths)
+
+
+@pytest.mark.parametrize(
+    ("scene", "sides"),
+    [
+        (Scene(120), ()),
+        (Scene(120, 5, 5), ()),
+        (Scene(120, 6, 6), ("x", "y")),
+        (Scene(120, **STRIPS), ("x",)),
+        (CUT, ()),
+    ],
+)
+def test_sides_are_whole_and_long_enough(scene, sides):
+    assert scene.sides == sides

@@ -1,0 +1,116 @@
+"""Contact masks from measured topographies, where SurfaceTopography is installed to read them."""
+
+import warnings
+from contextlib import nullcontext
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from springblock.model.blockmap import BlockMap, Cut
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")  # of what it imports
+    SurfaceTopography = pytest.importorskip("SurfaceTopography")
+
+
+def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value units: nm\n"):
+    """A height map as Gwyddion writes it, a line for each y."""
+    rows = "\n".join("\t".join(map(str, row)) for row in heights)
+    file = folder / "rough.txt"
+    file.write_text(f"# Channel: Main\n{header}{rows}\n", encoding="utf-8")
+    return file
+
+
+def opened(measured):
+    """Open any file as this measurement."""
+    channel = SimpleNamespace(nb_grid_pts=measured.nb_grid_pts)
+    reader = SimpleNamespace(default_channel=channel, topography=lambda: measured)
+    return lambda file: nullcontext(reader)
+
+
+HEIGHTS = np.arange(12.0).reshape(3, 4)  # nm, points 10 µm apart; [y, x]
+
+
+def test_its_highest_blocks_are_in_contact(tmp_path):
+    file = written(tmp_path, HEIGHTS)
+    for count in (1, 3, 6, 12):
+        contact = Cut(file, 1e-5, bearing_area=count / 12).mask()
+        np.testing.assert_array_equal(np.flatnonzero(contact), range(12 - count, 12))
+
+
+def test_so_are_those_that_reach_a_height_in_metres(tmp_path):
+    contact = Cut(written(tmp_path, HEIGHTS), 1e-5, height=6.5e-9).mask()
+    np.testing.assert_array_equal(contact, HEIGHTS >= 7)
+
+
+@pytest.mark.parametrize(
+    ("spacing", "x", "y"),
+    [
+        (2e-5, [1, 3], [1]),  # centres at 10 and 30 µm: where the second and fourth point begin
+        (5e-6, np.repeat(range(4), 2), np.repeat(range(3), 2)),
+        (1.5e-5, [0, 2], [0, 2]),  # and half a block left over along x
+    ],
+)
+def test_a_block_has_the_height_at_its_centre(tmp_path, spacing, x, y):
+    contact = Cut(written(tmp_path, HEIGHTS), spacing, height=6e-9).mask()
+    np.testing.assert_array_equal(contact, HEIGHTS[np.ix_(y, x)] >= 6)
+
+
+def test_jobs_read_what_was_cut(tmp_path):
+    cut = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5)
+    mask = BlockMap.of_topography(cut, tmp_path)
+    assert mask.name.startswith("rough-")
+    np.save(mask.file, mask.values)
+    assert BlockMap.mask(mask.file) == mask
+
+
+@pytest.mark.parametrize(
+    ("header", "how", "sentence"),
+    [
+        ("", {"height": 1e-9}, "must say its size and its unit"),
+        ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "must say its size and its"),
+        (None, {"height": 1.0}, "must reach the height it is cut at, 1.0 m; .* at 1.1e-08 m"),
+        (
+            None,
+            {"height": 1e-9, "spacing": 1.0},
+            r"must hold 1 to \d+ blocks of 1.0 m; it is 4e-05",
+        ),
+        (None, {"height": 1e-9, "spacing": 1e-12}, r"must hold 1 to \d+ blocks of 1e-12 m"),
+        (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive, not 0.0"),
+        (None, {}, "is cut at either a bearing_area or a height"),
+        (None, {"height": 1e-9, "bearing_area": 0.5}, "is cut at either"),
+        (None, {"bearing_area": 0.0}, "bearing_area must be above 0 and up to 1, not 0.0"),
+        (None, {"bearing_area": 30}, "bearing_area must be above 0 and up to 1, not 30"),
+    ],
+)
+def test_what_cannot_be_cut_is_refused(tmp_path, header, how, sentence):
+    file = written(tmp_path, HEIGHTS, **({} if header is None else {"header": header}))
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        Cut(file, **{"spacing": 1e-5, **how}).mask()
+    assert "\n" not in str(refusal.value)
+
+
+def test_heights_in_volts_are_refused(tmp_path, monkeypatch):
+    """As an atomic force microscope may leave them."""
+    volts = SurfaceTopography.Topography(HEIGHTS.T, (4e-5, 3e-5), unit="V")
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(volts))
+    with pytest.raises(ValueError, match=r"rough.txt must have a unit of length, not 'V'"):
+        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+
+
+def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
+    """And the bearing area counts all blocks: half of them are the six highest."""
+    measured = np.ma.masked_where(HEIGHTS.T > 9, HEIGHTS.T)
+    holes = SurfaceTopography.Topography(measured, (40.0, 30.0), unit="µm")
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(holes))
+    contact = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+    np.testing.assert_array_equal(np.flatnonzero(contact), range(4, 10))
+
+
+@pytest.mark.parametrize("content", ["", "no heights at all", "1 2 3\n4 5\n"])
+def test_what_is_no_topography_is_refused(tmp_path, content):
+    (tmp_path / "rough.txt").write_text(content)
+    with pytest.raises(ValueError, match=r"rough.txt") as refusal:
+        Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()
+    assert "\n" not in str(refusal.value)

@@ -1,0 +1,110 @@
+"""A film of one run: what is to be seen when, and files that others can read."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from imageio_ffmpeg import count_frames_and_secs
+from matplotlib.colors import to_rgb
+from PIL import Image
+
+from springblock import Pattern, Realisation, draw_friction, simulate
+from springblock.plotting.runs import film
+from springblock.plotting.runs.maps import painted
+from springblock.plotting.style import VERMILION
+
+PILLARS = Pattern.pillars(12, 4, 2)
+KEPT = 1.5e-4  #: s, of the snapshot
+
+
+@pytest.fixture(scope="module")
+def run() -> Realisation:
+    return simulate(PILLARS.contact, *draw_friction(12, 1), duration=2e-4, snapshot_times=[KEPT])
+
+
+@pytest.fixture
+def brief(monkeypatch):
+    """Films of fewer frames, which take less time to draw."""
+    monkeypatch.setattr(film, "FRAMES", 24)
+
+
+def test_a_film_begins_before_the_first_detachment_and_ends_after_the_last(run):
+    times = film.moments(run)
+    assert len(times) == film.FRAMES
+    assert 0.0 < times[0] < run.t_first
+    assert np.nanmax(run.t_det) < times[-1] <= run.time[-1]
+    assert run.t_first - times[0] < 0.2 * (times[-1] - times[0])  # not half of it loading
+    steps = np.diff(times)
+    assert steps[0] > 0.0
+    np.testing.assert_allclose(steps[: np.argmin(steps)], steps[0], rtol=1e-9)
+    assert not steps[np.argmin(steps) :].any()  # and the end stays for a while
+
+
+def test_where_nothing_detaches_the_whole_run_is_shown():
+    times = film.moments(simulate(PILLARS.contact, 1.0, 0.6, duration=1e-5))
+    assert (times[0], times[-1]) == (0.0, pytest.approx(1e-5))
+
+
+@pytest.mark.parametrize("columns", [12, 9])
+def test_each_frame_shows_its_time(run, columns):
+    """On a rectangle, too."""
+    cut = {name: getattr(run, name)[..., :columns] for name in ("t_det", "contact", "snapshots")}
+    first = np.isfinite(cut["t_det"]) & (cut["t_det"] <= run.time[-1])
+    edges = np.append(-1.0, run.time)
+    run = replace(run, **cut, detachments=np.histogram(cut["t_det"][first], edges)[0])
+    picture, update = film.scenery(run)
+    blocks, _, snapshot, _, force, share = picture.axes
+    now, before = np.nanpercentile(run.t_det, [50, 40])
+    update(now, before)
+    np.testing.assert_array_equal(blocks.images[0].get_array(), painted(run, now, before))
+    for ax, values in ((force, run.force / run.normal_force), (share, None)):
+        _, so_far, cursor, *_ = ax.get_lines()
+        assert (so_far.get_xdata() <= 1e6 * now).all()
+        assert so_far.get_xdata()[-1] > 1e6 * (now - 2.1e-7)
+        assert cursor.get_xdata() == [1e6 * now] * 2
+        if values is not None:
+            np.testing.assert_array_equal(so_far.get_ydata(), values[: len(so_far.get_ydata())])
+    half = share.get_lines()[1].get_ydata()[-1]
+    assert half == pytest.approx(50.0, abs=100.0 * 2.0 / run.contact.sum())
+    update(0.99 * KEPT, 0.0)
+    assert np.isnan(snapshot.images[0].get_array().filled(np.nan)).all()
+    update(1.01 * KEPT, 0.99 * KEPT)
+    np.testing.assert_allclose(snapshot.images[0].get_array(), 1e9 * np.hypot(*run.snapshots[0]))
+
+
+def test_what_stands_still_is_drawn_once_and_what_moves_on_it(run, brief):
+    frames = film.frames(run)
+    assert len(frames) == film.FRAMES
+    assert all(side % 2 == 0 for side in frames[0].shape[:2])  # as players of MP4 need
+    changed = (frames[0] != frames[-1]).any(axis=2)
+    assert 0.05 < changed.mean() < 0.5
+    assert (frames[-1] == frames[-2]).all()
+    cursors = [(frame == 255.0 * np.array(to_rgb(VERMILION))).all(axis=2) for frame in frames]
+    assert 0 < cursors[-1].sum() <= 1.1 * cursors[0].sum()  # nothing is left of those before
+
+
+def test_a_gif_goes_round_at_its_pace_and_is_small(run, brief, tmp_path):
+    run.animate(tmp_path / "run.gif")
+    with Image.open(tmp_path / "run.gif") as image:
+        assert image.info["loop"] == 0
+        pauses = []
+        for frame in range(image.n_frames):
+            image.seek(frame)
+            pauses.append(image.info["duration"])
+    assert sum(pauses) == pytest.approx(1000 * film.FRAMES / film.PER_SECOND)  # ms
+    assert (tmp_path / "run.gif").stat().st_size < 2e5
+    assert [file.name for file in tmp_path.iterdir()] == ["run.gif"]
+
+
+def test_an_mp4_holds_every_frame(run, brief, tmp_path):
+    run.animate(str(tmp_path / "run.mp4"))
+    count, seconds = count_frames_and_secs(str(tmp_path / "run.mp4"))
+    assert (count, seconds) == (film.FRAMES, film.FRAMES / film.PER_SECOND)
+    assert (tmp_path / "run.mp4").read_bytes()[4:8] == b"ftyp"
+    assert [file.name for file in tmp_path.iterdir()] == ["run.mp4"]
+
+
+def test_other_formats_are_refused(run, tmp_path):
+    with pytest.raises(ValueError, match=r"films are written as .gif or .mp4, not as '.avi'"):
+        run.animate(tmp_path / "run.avi")
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,110 @@
+"""Any observable over anything that tells ensembles apart."""
+
+import numpy as np
+import pytest
+
+from springblock.analysis.statistics import mean_interval
+from springblock.model.material import Material
+from springblock.model.scene import Scene
+from springblock.plotting.runs import sweep
+
+SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
+
+
+def rows(scene, friction, seeds=5):
+    """Rows of the table of realisations, whose friction scatters about a mean."""
+    constants = dict(Material().items()) | dict(scene.varied)
+    rng = np.random.default_rng(7)
+    numbers = {"dynamic_friction": 0.6, "t_max": 3e-4, "t_avg": 2.9e-4, "t_first": 1e-4}
+    return [
+        {**scene.row, **constants, **numbers, "static_friction": friction + 0.01 * noise, "seed": i}
+        for i, noise in enumerate(rng.standard_normal(seeds))
+    ]
+
+
+def at(speed, **scene):
+    own = () if speed == Material().slider_velocity else (("slider_velocity", speed),)
+    return Scene(120, **scene, varied=own)
+
+
+@pytest.fixture
+def two_lines():
+    made = []
+    for speed in SPEEDS:
+        made += rows(at(speed), 0.8 + 10.0 * speed)
+        made += rows(at(speed, n_p=20, n_s=20), 0.7 + 10.0 * speed)
+    return made
+
+
+def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
+    found = sweep.lines(two_lines, "slider_velocity")
+    assert [list(line) for line in found.values()] == [list(SPEEDS)] * 2
+    assert len(found) == 2
+    assert any("$n_{p}$ = 20" in name for name in found)
+
+
+def test_coulombs_law_is_where_weakening_takes_no_way():
+    weakening = ("law", "slip_weakening")
+    laws = [(weakening, ("slip_distance", distance)) for distance in (1e-8, 1e-7)]
+    table = [row for varied in ((), *laws) for row in rows(Scene(12, varied=varied), 0.7)]
+    (line,) = sweep.lines(table, "slip_distance").values()
+    assert list(line) == [0.0, 1e-8, 1e-7]
+
+
+def test_the_caption_names_surfaces_and_seeds():
+    runs = [row for speed in SPEEDS[:2] for row in rows(at(speed), 0.8, seeds=3)]
+    said = sweep.caption(runs, "slider_velocity")
+    assert said.startswith("Means over realisations with their 95 % t intervals")
+    assert "N = 120, sliding direction x. Flat" in said
+    assert "slider_velocity=0.00025 (seeds 0 to 2)" in said
+
+
+def test_a_surface_with_one_place_is_neither_drawn_nor_named(two_lines):
+    alone = rows(at(SPEEDS[0], n_p=60, n_s=60), 0.7)
+    everything = two_lines + alone
+    assert all(row["n_p"] < 60 for row in sweep.drawn(everything, "slider_velocity"))
+    assert len(sweep.drawn(everything, "slider_velocity")) == len(two_lines)
+    assert "60" not in sweep.caption(everything, "slider_velocity")
+
+
+def test_points_are_means_and_bars_t_intervals(two_lines):
+    ax = sweep.draw(two_lines, "slider_velocity", ["static_friction"]).axes[0]
+    (flat, *_) = (c for c in ax.containers if "level = 0" in str(c.get_label()))
+    runs = sweep.lines(two_lines, "slider_velocity")[str(flat.get_label())]
+    means = [mean_interval([row["static_friction"] for row in line]) for line in runs.values()]
+    np.testing.assert_allclose(np.asarray(flat.lines[0].get_xdata(), float), SPEEDS)
+    heights = np.asarray(flat.lines[0].get_ydata(), float)
+    np.testing.assert_allclose(heights, [each.mean for each in means])
+    tops = [segment[1, 1] for segment in flat.lines[2][0].get_segments()]
+    np.testing.assert_allclose(tops, [each.high for each in means])
+    assert ax.get_xscale() == "log"
+    assert ax.get_xlabel() == "slider velocity (m/s)"
+
+
+def test_distances_grow_with_pillars():
+    made = [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, n_p), 0.7)]
+    made += [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, 2 * n_p), 0.7)]
+    assert list(sweep.lines(made, "n_p")) == ["$n_{s}$/$n_{p}$ = 1", "$n_{s}$/$n_{p}$ = 2"]
+
+
+def test_a_panel_for_each_observable(two_lines):
+    picture = sweep.draw(two_lines, "slider_velocity", ["t_max", "t_max-t_avg"])
+    assert [ax.get_ylabel() for ax in picture.axes] == [
+        r"$t_\mathrm{max}$ (µs)",
+        r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)",
+    ]
+    assert picture.axes[1].containers[0].lines[0].get_ydata() == pytest.approx([10.0] * 4)
+
+
+def test_a_direction_is_an_angle():
+    made = [row for way in ("x", "30", "y") for row in rows(Scene(120, direction=way), 0.8)]
+    (line,) = sweep.lines(made, "direction").values()
+    assert list(line) == [0.0, 30.0, 90.0]
+
+
+@pytest.mark.parametrize(
+    ("over", "sentence"), [("speed", "'speed' is no axis; there are"), ("pressure", "is the same")]
+)
+def test_what_cannot_be_drawn_is_refused(two_lines, over, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        sweep.draw(two_lines, over, ["t_max"])

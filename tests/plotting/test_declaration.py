@@ -1,0 +1,278 @@
+"""What figures declare, what follows for a study, and the command that draws by it."""
+
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from importlib import import_module
+from inspect import signature
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import get_args
+
+import pytest
+import yaml
+from click.testing import CliRunner
+from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
+from snakemake.utils import update_config
+
+import springblock
+from springblock import Material
+from springblock import plotting as figures
+from springblock.cli import main
+from springblock.cli.figure import ensembles
+from springblock.io.tables import BATCH, Record, rows_to_table, write
+from springblock.model.scene import Scene
+from springblock.plotting.declaration import Category, Need
+from springblock.study import configuration as study
+
+CONFIG = Path(__file__).parents[2] / "config"
+FIGURES = figures.declarations()
+MODULES = {
+    name: import_module(f"springblock.plotting.{name}")
+    for _, name, _ in iter_modules(figures.__path__)
+}
+
+
+def configuration(*files: str):
+    """A configuration, and its scenes by group."""
+    merged: dict = {}
+    for file in files:
+        update_config(merged, yaml.safe_load((CONFIG / file).read_text()))
+    groups = {group: [e.scene for e in some] for group, some in study.ensembles(merged).items()}
+    return merged, groups
+
+
+PAPER = configuration("config.yaml")
+QUICK = configuration("config.yaml", "quick.yaml")
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if hasattr(MODULES[name], "draw")])
+def test_each_figure_declares_all_that_the_study_needs(name):
+    declared = FIGURES[name]
+    assert declared.title
+    assert declared.category in get_args(Category)
+    assert declared.caption.endswith(".")
+    assert not set("{}") & set(declared.title + declared.caption)  # wildcards for the workflow
+    for config, groups in (PAPER, QUICK):
+        if declared.is_part_of(groups):
+            source, lengths = declared.source, config["figures"].get(name, {})
+            given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
+            assert given or not signature(MODULES[name].draw).parameters
+
+
+def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
+    present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
+    assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
+    assert not {f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")} & present
+    alone = {name for name, figure in FIGURES.items() if not figure.is_part_of(PAPER[1])}
+    assert alone == {"surfaces"}  # whose files a user brings
+
+
+FLAT, UPWARDS = Scene(120), Scene(120, direction="y")
+SMALL, LARGE, WIDE = Scene(120, 2, 2), Scene(120, 20, 20), Scene(120, 20, 40)
+ALONG, OTHER = Scene(120, 58, 62, 8, 2), Scene(120, 58, 62, 10, 2)
+ACROSS, ASKEW = replace(ALONG, direction="y"), replace(OTHER, direction="45")
+CUT = replace(ALONG, n_p3=18, n_s3=2)
+GROUPS = {
+    "flat": [FLAT, UPWARDS],
+    "pillars": [SMALL, LARGE, WIDE],
+    "grooves": [ALONG, ACROSS, OTHER],
+    "spacing": [Scene(120, 20, 4), LARGE],
+    "size_flat": [Scene(240)],
+    "size_pillars": [Scene(240, 20, 20), Scene(240, 2, 2)],
+    "angles": [ASKEW, replace(ALONG, direction="45")],
+    "third_level": [CUT, replace(CUT, direction="45")],
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "scenes"),
+    [
+        ("figure_2", [FLAT]),
+        ("figure_5", [LARGE]),
+        ("figure_6", [FLAT, SMALL, LARGE]),
+        ("figure_9", [ALONG, ACROSS, OTHER]),
+        ("supplement_spacing", [LARGE, WIDE, Scene(120, 20, 4)]),
+        ("supplement_size", [FLAT, Scene(240), LARGE, Scene(240, 20, 20)]),
+        ("supplement_angle", [OTHER, ASKEW]),
+        ("supplement_levels", [ALONG, ACROSS, CUT]),
+        ("supplement_restick", [FLAT, UPWARDS, SMALL, LARGE, ALONG, ACROSS]),
+    ],
+)
+def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
+    lengths = {"n_p": 20} if name == "figure_5" else {}
+    assert FIGURES[name].source.needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
+
+
+def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
+    """Grooved surfaces of other sizes, and with them the one that they are compared with."""
+    large = Scene(240, 58, 62, 10, 2)
+    source = FIGURES["supplement_size"].source
+    needs = source.needs(GROUPS | {"size_grooves": [large]}, {})
+    assert [need.scene for need in needs][-2:] == [OTHER, large]
+
+
+def test_levels_are_compared_on_the_pattern_that_has_both():
+    groups = GROUPS | {"grooves": [OTHER, ALONG, ACROSS]}
+    needs = FIGURES["supplement_levels"].source.needs(groups, {})
+    assert [need.scene for need in needs] == [ALONG, ACROSS, CUT]
+
+
+def test_figures_need_no_more_tables_than_they_show():
+    assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
+    tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
+    assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
+    assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
+
+
+def test_figure_8_holds_a_gap_between_two_pillars():
+    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
+    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 240 --n-p 58")
+    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")
+    assert (
+        FIGURES["figure_4"].source.options(120, {"n_p": 2, "n_s": 2}).startswith("--n-blocks 120")
+    )
+
+
+@pytest.mark.parametrize(("config", "groups"), [PAPER, QUICK])
+def test_captions_say_what_a_study_draws(config, groups):
+    """Whatever the grid holds: every figure of scenes names N, each length, seeds and material."""
+    known, material = study.ensembles(config), Material(**config["material"])
+    for name, declared in FIGURES.items():
+        if not declared.is_part_of(groups):
+            continue
+        lengths = config["figures"].get(name, {})
+        caption = declared.caption_in(known, lengths, material)
+        assert caption.startswith(declared.caption)
+        assert caption.endswith(".")
+        assert not set("{}") & set(caption)
+        for need in declared.source.needs(groups, lengths):
+            for key, length in need.scene.lengths.items() if need.scene else ():
+                assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
+            if need.scene:
+                size = rf"N = [\d, ]*\b{need.scene.n_blocks}\b"
+                assert re.search(size, caption), (name, need.scene.n_blocks)
+                assert "Material of the paper." in caption
+
+
+def test_a_caption_follows_the_grid():
+    """Scenes with the same seeds stand together; what all share stands in front."""
+    ensembles = {
+        "flat": [study.Ensemble(FLAT, range(7, 8), None)],
+        "pillars": [study.Ensemble(scene, range(20), None) for scene in (LARGE, SMALL)],
+    }
+    source = FIGURES["figure_6"].source
+    assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
+        "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
+        "(seeds 0 to 19). Material of the paper, but pressure = 100000."
+    )
+    weak = Material(law="slip_weakening", slip_distance=2e-8)
+    assert source.in_words(ensembles, {}, weak).endswith(
+        "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
+    )
+    one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
+    assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."
+    ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
+    assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
+        "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
+        "(seeds 0 to 3). Material of the paper."
+    )
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png", "svg"])
+def test_a_picture_keeps_its_caption(suffix, tmp_path):
+    """The general one, or the one that the workflow fills, which the report shows, too."""
+    for caption, options in (
+        ("The model: a) the mesh", []),
+        ("Two levels.", ["--caption", "Two levels."]),
+    ):
+        output = tmp_path / f"figure.{suffix}"
+        arguments = ["figure", "figure_1", *options, "--output", str(output)]
+        assert CliRunner().invoke(main, arguments).exit_code == 0
+        content = output.read_bytes()
+        assert (
+            caption.encode() in content
+            or caption.replace("(", "\\(").replace(")", "\\)").encode() in content
+        )
+
+
+def batch(path: Path, run: Record) -> Path:
+    """A file that holds one run; what figures do not read is zero in it."""
+    row = {name: getattr(run, name, 0) for name in BATCH.names} | run.scene.row
+    row["contact"] = run.scene.contact.ravel()
+    row |= dict(run.material.items()) | {"integrator": "leapfrog"}
+    row |= {"t_det": run.t_det.ravel(), "sample_interval": run.time[1]}
+    write(rows_to_table([row], BATCH), path, {})
+    return path
+
+
+def test_a_figure_job_loads_neither_the_solver_nor_what_other_figures_need(tmp_path):
+    job = ["figure", "figure_3", str(batch(tmp_path / "batch", record(0)))]
+    job += ["--output", str(tmp_path / "figure.png")]
+    script = f"""if True:
+        import sys
+        from springblock.cli import main
+        from springblock.cli.figure import declarations
+        declarations()
+        print(*sys.modules)
+        main({job}, standalone_mode=False)
+        print(*sys.modules)
+    """
+    outcome = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert outcome.returncode == 0, outcome.stderr
+    declared, drawn = (set(line.split()) for line in outcome.stdout.splitlines())
+    assert {f"springblock.plotting.{name}" for name in FIGURES} <= declared
+    assert not {"numba", "scipy", "snakemake", "pandas", "seaborn"} & declared
+    assert not {"numba", "scipy", "snakemake", "seaborn"} & drawn
+    assert (tmp_path / "figure.png").is_file()
+
+
+def test_the_solver_is_there_for_those_who_ask_for_it():
+    assert all(hasattr(springblock, name) for name in springblock.__all__)
+    assert set(springblock.__all__) <= set(dir(springblock))
+    assert not hasattr(springblock, "simulated")
+
+
+def refusal(*arguments: str) -> str:
+    """The last line that a figure's command ends with."""
+    outcome = CliRunner().invoke(main, ["figure", *arguments])
+    assert outcome.exit_code in (1, 2)
+    return outcome.output.splitlines()[-1]
+
+
+def test_a_name_that_is_no_figure_is_refused_with_those_that_are():
+    sentence = refusal("figure_0", "--output", "figure.png")
+    assert sentence == f"Error: 'figure_0' is no figure; there are {', '.join(FIGURES)}"
+
+
+def test_the_help_lists_figures_by_name_and_title():
+    text = CliRunner().invoke(main, ["figure", "--help"]).output
+    listed = dict(line.split(maxsplit=1) for line in text.splitlines() if line.startswith("  "))
+    assert listed.items() >= {name: figure.title for name, figure in FIGURES.items()}.items()
+
+
+def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
+    other = replace(record(1), scene=Scene(24, SIZE, 2))
+    batches = batch(tmp_path / "one", record(0)), batch(tmp_path / "other", other)
+    found = ensembles(batches, "n_p", "n_s")
+    assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
+    assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
+    with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
+        ensembles(batches, "n_p", "direction")
+    with pytest.raises(ValueError, match="several scenes have n_p = 6"):
+        ensembles(batches, "n_p")
+    by_n_s = ensembles(batches, "n_s").items()
+    assert [(n_s, len(group)) for n_s, group in by_n_s] == [(6, 1), (2, 1)]
+    sentence = refusal("figure_5", *map(str, batches), "--output", "figure.png")
+    assert sentence.startswith("Error: one scene is drawn, not n_blocks-24/level-1/n_p-6/n_s-2/")
+
+
+def test_a_pattern_is_drawn_from_options(tmp_path):
+    """Three pillars each way of the many that there are."""
+    lengths = ["--n-blocks", "40", "--n-p", "2", "--n-s", "2"]
+    output = ["--output", str(tmp_path / "figure.png")]
+    assert CliRunner().invoke(main, ["figure", "figure_4", *lengths, *output]).exit_code == 0
+    surface, _ = MODULES["figure_4"].draw(Scene(40, 2, 2).pattern).axes
+    assert surface.images[0].get_array().shape == (12, 12)
+    assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)

@@ -1,0 +1,98 @@
+"""The figure of the stiff and extreme cases shows what the table holds."""
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from springblock.plotting import stability, style
+
+NAN = np.nan
+#: family, parameter, outcome, quantity, energy residual, relative error, tolerance
+ROWS = [
+    ("step", 0.5, "stable", "static friction", -3e-3, NAN, NAN),
+    ("step", 0.99, "stable", "static friction", 4e-2, NAN, NAN),
+    ("step", 1.01, "refused", "largest step", NAN, 1e-4, 1e-3),
+    ("stiffness", 1e-4, "agrees", "displacement, l", -1e-6, 1e-15, 1e-12),
+    ("stiffness", 1e4, "agrees", "first detachment, s", -1e-6, -2e-4, 1e-3),
+    ("strain", 1e-9, "agrees", "displacement, l", 1e-7, 2e-11, 1e-10),
+    ("strain", 1e-1, "agrees", "displacement, l", 1e-7, 0.0, 1e-2),
+    ("damping", 0.0, "agrees", "spring force, F_n", 1e-4, 2e-4, 1e-3),
+    ("damping", 100.0, "agrees", "spring force, F_n", 1e-4, 1e-5, 1e-3),
+    ("damping", 1e4, "refused", "largest step", NAN, 1e-4, 1e-3),
+    ("speed", 1e-4, "agrees", "spring force, F_n", 1e-16, 3e-5, 1e-3),
+    ("speed", 1e2, "agrees", "spring force, F_n", 1e-16, 2e-7, 4e-2),
+    ("rest", 1e6, "at rest", "none", 0.0, NAN, NAN),
+    ("overflow", NAN, "raises", "none", NAN, NAN, NAN),
+]
+NAMES = (
+    "family",
+    "parameter",
+    "outcome",
+    "quantity",
+    "energy_error",
+    "relative_error",
+    "tolerance",
+)
+
+
+def cases() -> pa.Table:
+    """Every case by both integrators."""
+    rows = [
+        {**dict(zip(NAMES, row, strict=True)), "integrator": name, "case": f"pillars {i}"}
+        for i, row in enumerate(ROWS)
+        for name in ("leapfrog", "rk4")
+    ]
+    return pa.Table.from_pylist(rows)
+
+
+table = pytest.fixture(cases, scope="module")
+DRAWINGS = {"stability": lambda: stability.draw(cases())}
+
+
+def points(ax, marker):
+    """Places of all markers of a kind in a panel, sorted."""
+    lines = [line for line in ax.get_lines() if line.get_marker() == marker]
+    return np.sort(np.concatenate([line.get_xdata() for line in lines]).astype(float))
+
+
+def heights(ax, marker):
+    lines = [line for line in ax.get_lines() if line.get_marker() == marker]
+    return np.sort(np.concatenate([line.get_ydata() for line in lines]).astype(float))
+
+
+def test_a_table_and_its_data_frame_are_drawn_alike(table, tmp_path, monkeypatch):
+    monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)  # quicker
+    contents = []
+    for name, data in (("table", table), ("frame", table.to_pandas())):
+        path = tmp_path / f"{name}.png"
+        style.save(stability.draw(data), path)
+        contents.append(path.read_bytes())
+    assert contents[0] == contents[1]
+
+
+def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused(table):
+    steps = stability.draw(table).axes[0]
+    assert points(steps, "o").tolist() == points(steps, "s").tolist() == [0.5, 0.99]
+    assert heights(steps, "o").tolist() == [3e-3, 4e-2]
+    assert points(steps, "x").tolist() == [1.01, 1.01]
+
+
+def test_families_show_each_error_below_what_is_accepted(table):
+    stiffness, strain, damping, speed = stability.draw(table).axes[2:6]
+    assert points(stiffness, "o").tolist() == [1e-4, 1e4]
+    assert heights(stiffness, "o").tolist() == [1e-15, 2e-4]
+    assert heights(strain, "o").tolist() == [1e-16, 2e-11]  # no error at all is on the floor
+    assert heights(damping, "_").tolist() == 4 * [1e-3]
+    assert points(damping, "x").tolist() == [1e4, 1e4]
+    assert speed.get_xlim()[0] < 1e-4 < 1e2 < speed.get_xlim()[1]
+    assert "0" in [label.get_text() for label in damping.get_xticklabels()]
+
+
+def test_the_overview_counts_all_cases_and_marks_those_without_a_number(table):
+    overview = stability.draw(table).axes[1]
+    names = [label.get_text() for label in overview.get_xticklabels()]
+    assert names[0] == "step (6)"
+    assert names[-1] == "overflow (2)"
+    assert len(points(overview, "^")) == 2
+    assert len(points(overview, "d")) == 4  # step and rest
+    assert (heights(overview, "o") <= 1.0).all()

@@ -1,0 +1,177 @@
+"""The figure of work and precision shows its table, all of it, without a warning."""
+
+import inspect
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from springblock import simulate
+from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES
+from springblock.plotting import work_precision
+
+STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
+NUDGES = (1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3)
+SEEDS = 4 * ENSEMBLE  #: of the ensembles
+
+
+def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
+    evaluations = 2e-4 / step * (1 if integrator == "leapfrog" else 4)
+    return {
+        "comparison": comparison,
+        "scene": scene,
+        "n_blocks": 16 if comparison in ("paired", "scatter") else 8,
+        "integrator": integrator,
+        "step": step,
+        "nudge": nudge,
+        "quantity": quantity,
+        "error": error,
+        "ci_low": error - half,
+        "ci_high": error + half,
+        "worst": 2.0 * error,
+        "realisations": SEEDS,
+        "cpu_seconds": 3e-6 * evaluations,
+        "force_evaluations": evaluations,
+    }
+
+
+@cache
+def table():
+    """First order for both integrators, none for the plain Runge-Kutta; in no order of rows."""
+    rows = []
+    for i, scene in enumerate(SCENES, 1):
+        for quantity in ("t_det before horizon", "static_friction", "t_max"):
+            for h, integrator in product(STEPS, ("leapfrog", "rk4")):
+                rows.append(row("reference", scene, integrator, h, 0.0, quantity, 3e3 * i * h))
+            for h in STEPS[:-1]:
+                rows.append(row("reference", scene, PLAIN, h, 0.0, quantity, 0.02 * i))
+        for quantity in ("static_friction", "t_max", "t_avg"):
+            rows.append(row("scatter", scene, "leapfrog", 2.5e-9, 0.0, quantity, 0.0, 4e-3 * i))
+            for h, integrator in product(STEPS[:3], ("leapfrog", "rk4")):
+                bias = row("paired", scene, integrator, h, 0.0, quantity, -3e4 * i * h, 5e-4)
+                rows.append(bias)
+        for nudge in NUDGES:
+            for quantity in ("t_det before peak", "static_friction"):
+                error = 0.0 if nudge < 1e-6 else 3.0 * i * nudge
+                rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, quantity, error))
+            rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, "horizon", 1.0 - 9.0 * nudge))
+    return pd.DataFrame(rows).sample(frac=1.0, random_state=1)
+
+
+@cache
+def drawn() -> Figure:
+    return work_precision.draw(table())
+
+
+DRAWINGS = {"work_precision": lambda: work_precision.draw(table())}
+
+
+def chosen(**conditions):
+    rows = table()
+    for name, value in conditions.items():
+        rows = rows[rows[name] == value]
+    return rows
+
+
+def panel(letter):
+    """The axes that carry this letter."""
+    return next(ax for ax in drawn().axes if any(t.get_text() == f"{letter})" for t in ax.texts))
+
+
+def points(ax):
+    """What markers of lines show, (n, 2), but for rings."""
+    lines = [line for line in ax.lines if line.get_marker() != "None"]
+    return np.vstack([line.get_xydata() for line in lines if line.get_linestyle() != "None"])
+
+
+def contains(shown, wanted):
+    return all(np.isclose(shown, point, rtol=1e-9, atol=0.0).all(axis=1).any() for point in wanted)
+
+
+def visible(ax, places):
+    """Within the limits of the axes, and where a logarithm exists."""
+    shown = ax.transData.transform(places)
+    low, high = ax.transAxes.transform([(0.0, 0.0), (1.0, 1.0)])
+    return bool(((shown >= low - 0.01) & (shown <= high + 0.01)).all())
+
+
+def test_axes_say_what_they_show():
+    for ax in drawn().axes:
+        if ax.xaxis.get_tick_params()["labelbottom"]:
+            assert ax.get_xlabel()
+        if ax.yaxis.get_tick_params()["labelleft"]:
+            assert ax.get_ylabel()
+    texts = " ".join(text.get_text() for text in drawn().findobj(Text))
+    for label in ("force evaluations", "CPU time (s)", "integration step (ns)", "bias (%)"):
+        assert label in texts
+
+
+@pytest.mark.parametrize(
+    ("letters", "cost", "quantity"),
+    [
+        ("abc", "force_evaluations", "t_det before horizon"),
+        ("def", "cpu_seconds", "static_friction"),
+    ],
+)
+def test_every_single_run_is_shown(letters, cost, quantity):
+    for letter, scene in zip(letters, SCENES, strict=True):
+        wanted = chosen(comparison="reference", scene=scene, quantity=quantity)
+        wanted = wanted[[cost, "error"]].to_numpy()
+        assert len(points(panel(letter))) == len(wanted) == 20
+        assert contains(points(panel(letter)), wanted)
+        assert visible(panel(letter), wanted)
+
+
+def test_rings_mark_the_default_and_the_paper():
+    default = inspect.signature(simulate).parameters
+    rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
+    for ring, integrator, step in zip(
+        rings,
+        (default["integrator"].default, PLAIN),
+        (default["step"].default, PAPER_STEP),
+        strict=True,
+    ):
+        row = chosen(
+            comparison="reference",
+            scene="flat",
+            quantity="t_det before horizon",
+            integrator=integrator,
+            step=step,
+        )
+        assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
+
+
+def test_orders_are_those_of_the_data():
+    texts = [text.get_text() for text in panel("b").texts]
+    assert texts.count("order 1.0") == 2
+
+
+def test_every_bias_is_shown_with_its_interval_and_the_scatter():
+    panels = drawn().axes[6:15]
+    quantities = ("static_friction", "t_max", "t_avg")
+    for ax, (quantity, scene) in zip(panels, product(quantities, SCENES), strict=True):
+        wanted = chosen(comparison="paired", scene=scene, quantity=quantity)
+        assert sorted(points(ax)[:, 1]) == pytest.approx(sorted(100.0 * wanted.error))
+        bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
+        ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
+        assert sorted(bars[:, 1]) == pytest.approx(ends)
+        assert visible(ax, bars)
+        scatter = chosen(comparison="scatter", scene=scene, quantity=quantity).ci_high.item()
+        (band,) = ax.patches
+        assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
+        assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)
+
+
+@pytest.mark.parametrize(
+    ("letter", "quantity"),
+    [("j", "t_det before peak"), ("k", "static_friction"), ("l", "horizon")],
+)
+def test_every_twin_is_shown_also_where_nothing_differs(letter, quantity):
+    wanted = chosen(comparison="twin", quantity=quantity)[["nudge", "error"]].to_numpy()
+    assert len(points(panel(letter))) == len(wanted) == 18
+    assert contains(points(panel(letter)), wanted)
+    assert visible(panel(letter), wanted)

@@ -1,0 +1,134 @@
+"""A run that was stopped goes on from its checkpoint as if nothing had happened."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, Realisation, compute_prelude, simulate
+from springblock.accuracy.surfaces import drawn
+from springblock.simulation.checkpoint import Checkpoint
+
+PILLARS = Pattern.pillars(12, 4, 2)
+WEAKENING = Material(law="slip_weakening", slip_distance=5e-8)
+LONG = 1.6e-4  #: s, 80 pauses; blocks slide from 126 µs on
+TAKEN = 70  #: pauses before the run is stopped, at 140 µs
+EACH_PAUSE = 1e-9  #: s between two writings
+
+
+class Stopped(BaseException):
+    """As sudden as a signal."""
+
+
+@pytest.fixture
+def saved(monkeypatch):
+    """Times that a checkpoint was written."""
+    times, save = [], Checkpoint.save
+
+    def counted(self, *run):
+        save(self, *run)
+        times.append(len(times))
+        if len(times) == TAKEN:
+            raise Stopped
+
+    monkeypatch.setattr(Checkpoint, "save", counted)
+    return times
+
+
+@pytest.fixture
+def stopped(saved, tmp_path):
+    """Stop a run with these options; return the file it has left behind."""
+
+    def left_behind(**options):
+        with pytest.raises(Stopped):
+            pull(checkpoint=tmp_path / "run.npz", **options)
+        saved.clear()
+        return tmp_path / "run.npz"
+
+    return left_behind
+
+
+def pull(seed=1, pattern=PILLARS, **options) -> Realisation:
+    how = {"duration": LONG, "checkpoint_interval": EACH_PAUSE} | options
+    return simulate(*drawn(pattern, seed), **how)
+
+
+def answer(run):
+    """All bits of a run."""
+    fields = (value for value in vars(run).values() if isinstance(value, np.ndarray))
+    return [field.tobytes() for field in fields], run.energy, run.steps
+
+
+@pytest.mark.parametrize("material", [Material(), WEAKENING], ids=lambda material: material.law)
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_a_run_that_goes_on_is_the_run_that_was_not_stopped(stopped, saved, integrator, material):
+    how = {"integrator": integrator, "snapshot_times": (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)}
+    how["material"] = material
+    whole = pull(**how)
+    assert whole.t_first < 1.4e-4  # there are detachments before it is stopped and after
+    assert np.nanmax(whole.t_det) > 1.4e-4
+    file = stopped(**how)
+    assert answer(pull(**how, checkpoint=file)) == answer(whole)
+    assert len(saved) == 80 - TAKEN  # and no more was computed
+    assert not file.exists()
+
+
+def test_a_run_may_go_on_without_its_prelude_and_on_more_cores(stopped):
+    prelude = compute_prelude(PILLARS.contact)
+    file = stopped(prelude=prelude, duration=3e-4)
+    again = pull(checkpoint=file, duration=3e-4, cores=2)
+    assert answer(again) == answer(pull(duration=3e-4))
+
+
+def test_a_run_that_ends_by_its_own_judgement_does_so_where_it_would_have(stopped):
+    file = stopped(duration=None)
+    assert answer(pull(duration=None, checkpoint=file)) == answer(pull(duration=None))
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"seed": 2}, "friction coefficients"),
+        ({"pattern": Pattern.pillars(12, 2, 1)}, "scene or setup, friction coefficients"),
+        ({"direction": "y"}, "scene or setup"),
+        ({"material": Material(gamma=4e3)}, "scene or setup"),
+        ({"step": 1e-8}, "scene or setup"),
+        ({"duration": 2e-4}, "duration"),
+        ({"snapshot_times": (2e-6,)}, "snapshot_times"),
+    ],
+)
+def test_the_checkpoint_of_another_run_is_refused_and_kept(stopped, change, named):
+    file = stopped()
+    content = file.read_bytes()
+    with pytest.raises(ValueError, match=rf"run.npz belongs to a run of other {named}; remove it"):
+        pull(checkpoint=file, **change)
+    assert file.read_bytes() == content
+
+
+def test_so_is_that_of_other_code(stopped, monkeypatch):
+    file = stopped()
+    monkeypatch.setattr("springblock.simulation.checkpoint.digest", lambda *modules: "0123")
+    with pytest.raises(ValueError, match="belongs to a run of other code; remove it"):
+        pull(checkpoint=file)
+
+
+def test_what_is_no_checkpoint_is_refused(stopped, tmp_path):
+    file = stopped()
+    whole = file.read_bytes()
+    compute_prelude(PILLARS.contact).save(tmp_path / "prelude.npz")
+    prelude = (tmp_path / "prelude.npz").read_bytes()
+    for content in (b"", b"text", whole[:1000], whole[: len(whole) // 2], prelude):
+        file.write_bytes(content)
+        with pytest.raises(ValueError, match=r"run.npz is no checkpoint: "):
+            pull(checkpoint=file)
+
+
+@pytest.mark.parametrize(
+    ("interval", "error"), [(0.0, ValueError), (-1.0, ValueError), ("60", TypeError)]
+)
+def test_the_interval_is_a_positive_time(tmp_path, interval, error):
+    with pytest.raises(error, match="checkpoint_interval must be "):
+        pull(checkpoint=tmp_path / "run.npz", checkpoint_interval=interval)
+
+
+def test_a_short_run_leaves_nothing_behind(tmp_path):
+    pull(checkpoint=tmp_path / "run.npz", checkpoint_interval=3600.0, duration=1e-5)
+    assert list(tmp_path.iterdir()) == []

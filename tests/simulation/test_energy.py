@@ -1,0 +1,173 @@
+"""The energy ledger: nothing is lost, nothing comes from nowhere."""
+
+from dataclasses import astuple
+
+import mpmath
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, simulate
+from springblock.accuracy.kernels import spring_forces
+from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.simulation.energy import elastic_energy
+
+PAPER = Material()
+INTEGRATORS = ["leapfrog", "rk4"]
+
+
+def nailed(n):
+    """One contact block in a corner, which never lets go: all other motion is smooth."""
+    contact = np.zeros((n, n), bool)
+    contact[0, 0] = True
+    return contact, np.full((n, n), 1e9), np.zeros((n, n))
+
+
+def exact_energy(u, slider):
+    """Sum of k (r - L)²/2 over all springs, in J, in forty digits; the slider's springs too."""
+    n, length = u.shape[-1], mpmath.mpf(PAPER.spacing)
+    with mpmath.workdps(40):
+        total = mpmath.mpf(0)
+        for y, x in np.ndindex(n, n):
+            here = mpmath.matrix(u[:, y, x])
+            hung = mpmath.norm(mpmath.matrix(slider) - here)
+            total += PAPER.k_s * hung**2 / 2
+            for dx, dy, share in ((1, 0, 1), (0, 1, 1), (1, 1, 2), (-1, 1, 2)):
+                if 0 <= x + dx < n and y + dy < n:
+                    rest = length * mpmath.matrix([dx, dy])
+                    now = rest + mpmath.matrix(u[:, y + dy, x + dx]) - here
+                    stretch = mpmath.norm(now) - mpmath.norm(rest)
+                    total += PAPER.k_int / share * stretch**2 / 2
+        return float(total)
+
+
+@pytest.mark.parametrize("strain", [1e-12, 1e-9, 1e-2, 0.2])
+def test_elastic_energy_keeps_its_digits_at_any_strain(strain, rng):
+    """At a strain of 1e-9, r - L from square roots would keep seven digits of sixteen.
+
+    What is left is the rounding of differences, relative to the larger displacement: a few eps.
+    """
+    u = strain * PAPER.spacing * rng.uniform(-1.0, 1.0, (2, 4, 4))
+    slider = strain * PAPER.spacing * np.array([1.0, -0.5])
+    assert elastic_energy(u, slider, PAPER) == pytest.approx(
+        exact_energy(u, slider), rel=4e-15, abs=0
+    )
+
+
+def test_a_spring_between_two_blocks_stores_half_its_stiffness_times_the_stretch_squared():
+    """Two of four blocks move apart by s: two axial springs, two diagonals at 45 degrees."""
+    stretch = 1e-6 * PAPER.spacing
+    u = np.zeros((2, 2, 2))
+    u[0, :, 1] = stretch
+    axial, diagonal = 0.5 * PAPER.k_int * stretch**2, 0.25 * PAPER.k_int * stretch**2 / 2.0
+    hung = 0.5 * PAPER.k_s * stretch**2
+    energy = elastic_energy(u, np.zeros(2), PAPER)
+    assert energy == pytest.approx(2 * (axial + diagonal + hung), rel=2e-6, abs=0)  # strain 1e-6
+
+
+def test_the_force_is_the_gradient_of_the_energy(rng):
+    """dE/ds along a random direction d, by central differences: -ΣF·d, error of order s²."""
+    u, d = rng.uniform(-1.0, 1.0, (2, 2, 5, 5))
+    u = 1e-2 * u
+    length, s = PAPER.spacing, 1e-5
+
+    def energy(displacement):
+        hung = 0.5 * PAPER.k_s * np.sum((length * displacement) ** 2)
+        return elastic_energy(length * displacement, np.zeros(2), PAPER) - hung
+
+    slope = (energy(u + s * d) - energy(u - s * d)) / (2 * s)
+    work = -np.sum(spring_forces(u) * d) * PAPER.k_int * length**2
+    assert slope == pytest.approx(work, rel=1e-8, abs=0)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("gamma", [0.0, 5e5])
+def test_without_friction_the_ledger_closes_to_second_order(integrator, gamma):
+    """The slider's work is summed by the trapezoidal rule: halving h quarters the residual."""
+    material = Material(gamma=gamma)
+    residuals = [
+        simulate(
+            *nailed(6),
+            material=material,
+            integrator=integrator,
+            step=step,
+            duration=8e-6,
+            sample_interval=4e-8,
+        ).energy.relative_residual
+        for step in (2e-8, 1e-8, 5e-9)
+    ]
+    assert abs(residuals[0]) < (PAPER.omega_max * 2e-8) ** 2
+    ratios = np.divide(residuals[:-1], residuals[1:])
+    assert ratios == pytest.approx([4.0, 4.0], rel=0.1)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_once_a_surface_is_at_rest_the_ledger_closes_to_second_order(integrator):
+    """All blocks have stopped: a quarter of the step leaves a sixteenth of the residual or less.
+
+    From 5e-9 s on: coarser steps have terms of higher order with the other sign, and the residual
+    passes through zero near 1e-8 s.
+    """
+    steps = (1e-8, 5e-9, 1.25e-9)
+    runs = [simulate(*flat(6, seed=3), integrator=integrator, step=step) for step in steps]
+    assert not any(run.velocity.any() for run in runs)
+    residuals = [abs(run.energy.relative_residual) for run in runs]
+    assert residuals[0] < (PAPER.omega_min * 1e-8) ** 2 / 100
+    assert residuals[2] < residuals[1] / 15
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_in_the_midst_of_sliding_the_ledger_closes_to_second_order_too(integrator):
+    """Half a period of the slip lasts 4e-7 s; it is interrupted after about half of that.
+
+    Of the friction's heat, the last half step counts as well: without it, the order is one.
+    """
+    coarse, fine = (
+        simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.336e-4)
+        for step in (2e-8, 5e-9)
+    )
+    assert np.hypot(*fine.velocity[:, 0, 0]) > 0.1
+    assert abs(coarse.energy.relative_residual) < (PAPER.omega_min * 2e-8) ** 2
+    assert abs(fine.energy.relative_residual) < abs(coarse.energy.relative_residual) / 15
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_no_term_of_the_ledger_is_negative(integrator):
+    run = simulate(*drawn(Pattern.pillars(12, 4, 2), seed=1), integrator=integrator)
+    assert min(astuple(run.energy)) > 0.0
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_friction_turns_force_times_path_into_heat(integrator):
+    """One block that slides and stops: mu_d F_n times its path, to second order in omega h."""
+    step = 5e-9
+    run = simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.35e-4)
+    path = run.displacement[0, 0, 0]
+    assert run.velocity[0, 0, 0] == 0.0
+    assert path > 0.0
+    heat = 0.6 * PAPER.block_load * path
+    assert run.energy.friction == pytest.approx(heat, rel=(PAPER.omega_min * step) ** 2, abs=0)
+    assert run.energy.kinetic == 0.0
+
+
+def test_damping_turns_a_slow_drift_into_heat():
+    """Far overdamped, gamma >> omega, a block follows the slider with v (1 - exp(-t/tau)).
+
+    tau = gamma/omega², and gamma m ∫v² dt = gamma m v² (t - 3/2 tau), to order (omega/gamma)².
+    """
+    syrup, time = Material(gamma=1e8), 1e-4
+    run = simulate(*uniform(1, 0.0, 0.0), material=syrup, duration=time)
+    tau = syrup.gamma / syrup.omega_min**2
+    heat = syrup.gamma * syrup.mass * syrup.slider_velocity**2 * (time - 1.5 * tau)
+    assert run.energy.viscous == pytest.approx(
+        heat, rel=(syrup.omega_min / syrup.gamma) ** 2, abs=0
+    )
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_a_surface_at_rest_stores_all_work_in_its_springs(integrator):
+    """W = K_s (v t)²/2 per block."""
+    run = simulate(*uniform(4, 1.0, 0.6), integrator=integrator, duration=1e-4)
+    work = 16 * 0.5 * PAPER.k_s * (PAPER.slider_velocity * 1e-4) ** 2
+    assert run.energy.work_in == pytest.approx(work, rel=1e-12, abs=0)
+    assert run.energy.elastic == pytest.approx(work, rel=1e-12, abs=0)
+    assert run.energy.kinetic == run.energy.friction == run.energy.viscous == 0.0

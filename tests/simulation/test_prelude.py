@@ -1,0 +1,169 @@
+"""The loading before the first detachment: shared by all seeds, and exact to the bit."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
+from springblock.accuracy.surfaces import drawn
+from springblock.simulation.prelude import HOLDING
+from springblock.simulation.setup import STEP
+from springblock.solver import INTEGRATORS
+from springblock.solver.lattice import prepare
+from springblock.solver.springs import Grid
+
+PILLARS = Pattern.pillars(12, 4, 2)
+
+
+@pytest.fixture(scope="module")
+def prelude():
+    return compute_prelude(PILLARS.contact)
+
+
+def answer(run):
+    fields = (run.time, run.force, run.detachments, run.switches, run.t_det, run.displacement)
+    return [field.tobytes() for field in fields], run.energy, run.steps
+
+
+def skipped(prelude, *scene):
+    """Sample intervals that a run does not have to do."""
+    state, constants = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
+    return prelude.start(state, constants, latest=np.inf)[0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_run_from_the_prelude_is_the_run_from_zero(prelude, seed):
+    scene = drawn(PILLARS, seed)
+    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize("direction", ["y", 30.0])
+@pytest.mark.parametrize("surface", ["flat", "pillars", "grooves", "random"])
+def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction, integrator):
+    contact = {
+        "flat": Pattern.flat(8).contact,
+        "pillars": PILLARS.contact,
+        "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1).contact,
+        "random": np.random.default_rng(5).random((9, 9)) < 0.7,
+    }[surface]
+    how = {"direction": direction, "integrator": integrator}
+    scene, prelude = (
+        (contact, *draw_friction(len(contact), seed=1)),
+        compute_prelude(contact, **how),
+    )
+    assert prelude.samples.max() > 0
+    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_so_it_is_for_a_surface_of_several_bands(integrator):
+    surface = Pattern.pillars(48, 10, 14)
+    assert Grid.of(surface.contact.shape).band_rows < surface.n_blocks
+    how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
+    scene, prelude = drawn(surface, seed=1), compute_prelude(surface.contact, **how)
+    assert prelude.samples.max() > 0
+    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+
+
+def test_a_weak_block_makes_the_run_start_earlier_not_differently(prelude):
+    contact, mu_static, mu_dynamic = drawn(PILLARS, seed=1)
+    mu_static[2, 2], mu_dynamic[2, 2] = 0.1, 0.05
+    scene = contact, mu_static, mu_dynamic
+    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
+
+
+def test_no_more_is_skipped_than_the_first_snapshot_allows(prelude):
+    scene, times = drawn(PILLARS, seed=1), [4e-6, 1e-4]
+    skipping = simulate(*scene, duration=1.2e-4, snapshot_times=times, prelude=prelude)
+    plain = simulate(*scene, duration=1.2e-4, snapshot_times=times)
+    assert skipping.snapshots.tobytes() == plain.snapshots.tobytes()
+
+
+@pytest.mark.parametrize("n_blocks", [12, 24, 48])
+def test_a_prelude_keeps_six_states_of_any_surface_and_of_them_what_moves(n_blocks, tmp_path):
+    contact = Pattern.pillars(n_blocks, 4, 2).contact
+    fast = Material(slider_velocity=5e-3)  # soon over
+    prelude = compute_prelude(contact, fast, sample_interval=2e-8)
+    assert len(prelude.samples) == len(HOLDING) == 6
+    assert (np.diff(prelude.samples) > 0).all()
+    bound = np.count_nonzero(contact)
+    numbers = 6 * (4 * (n_blocks**2 - bound) + bound)
+    assert prelude.fields.nbytes + prelude.peak.nbytes == 8 * numbers
+    prelude.save(tmp_path / "prelude.npz")
+    few = prelude.force.nbytes + n_blocks**2 + 4096  # the samples, the pattern as text, headers
+    assert (tmp_path / "prelude.npz").stat().st_size < 8 * numbers + few
+
+
+def test_each_state_serves_as_many_seeds_as_it_is_kept_for(prelude):
+    seeds = 400
+    start = [skipped(prelude, *drawn(PILLARS, seed)) for seed in range(seeds)]
+    for samples, share in zip(prelude.samples, HOLDING, strict=True):
+        scatter = np.sqrt(share * (1.0 - share) / seeds)
+        assert np.mean(np.array(start) >= samples) > share - 4.0 * scatter
+
+
+def test_a_prelude_survives_its_file(prelude, tmp_path):
+    prelude.save(tmp_path / "prelude.npz")
+    stored = Prelude.read(tmp_path / "prelude.npz")
+    assert vars(stored).keys() == vars(prelude).keys()
+    for name, value in vars(prelude).items():
+        np.testing.assert_array_equal(getattr(stored, name), value)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"direction": "y"},
+        {"integrator": "rk4"},
+        {"step": 1e-8},
+        {"sample_interval": 4e-7},
+        {"material": Material(gamma=0.0)},
+    ],
+)
+def test_a_prelude_of_another_scene_is_refused(prelude, change):
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*drawn(PILLARS, seed=1), prelude=prelude, **change)
+
+
+def test_a_prelude_of_another_pattern_is_refused(prelude):
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*drawn(Pattern.flat(12), seed=1), prelude=prelude)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "material"),
+    [
+        (Pattern.flat(1), Material()),
+        (Pattern.flat(3), Material()),
+        (Pattern.pillars(12, 4, 2), Material(pressure=5e7, slider_velocity=0.5)),
+    ],
+)
+def test_a_prelude_ends_where_blocks_are_few_or_springs_fail_first(pattern, material):
+    prelude = compute_prelude(pattern.contact, material)
+    assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1
+
+
+@pytest.mark.parametrize("kind", ["lognormal", "weibull", "uniform"])
+@pytest.mark.parametrize("length", [0.0, 2e-5])
+def test_states_are_kept_for_the_distribution_that_is_drawn(kind, length):
+    """Alike blocks are more likely to hold together: a state then serves more than its share."""
+    material = Material(mu_static_std=0.25, distribution=kind, correlation_length=length)
+    how = {"material": material, "sample_interval": 4e-8}  # often looked at
+    seeds, prelude = 300, compute_prelude(PILLARS.contact, **how)
+    surfaces = [(PILLARS.contact, *draw_friction(12, seed, material)) for seed in range(seeds)]
+    start = np.array([skipped(prelude, *surface) for surface in surfaces])
+    for samples, share in zip(prelude.samples, HOLDING, strict=True):
+        assert np.mean(start >= samples) > share - 4.0 * np.sqrt(share * (1.0 - share) / seeds)
+    plain, skipping = (
+        simulate(*surfaces[0], **how, duration=1e-4, prelude=each) for each in (None, prelude)
+    )
+    assert answer(plain) == answer(skipping)
+
+
+def test_known_thresholds_leave_one_state_the_last_that_holds():
+    known = drawn(PILLARS, seed=3)
+    prelude = compute_prelude(PILLARS.contact, mu_static=known[1])
+    assert len(prelude.samples) == 1
+    plain = simulate(*known)
+    assert 0.8 * plain.t_first < prelude.samples[0] * 2e-7 < plain.t_first
+    assert answer(simulate(*known, prelude=prelude)) == answer(plain)

@@ -1,0 +1,343 @@
+"""The public call: what it takes, what it refuses, what it answers."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, Realisation, SimulationError, simulate
+from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.model.defaults import STEP
+from springblock.model.direction import heading
+from springblock.simulation.realisation import first_minimum
+
+PAPER = Material()
+N = 12
+PILLARS = Pattern.pillars(N, 4, 2)
+PAUSE = 10  #: sample intervals between two looks at whether the run may end
+STABLE = {"leapfrog": 2.0 / PAPER.omega_max, "rk4": math.sqrt(8.0) / PAPER.omega_max}
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A patterned scene that ends by its own judgement."""
+    return simulate(*drawn(PILLARS, seed=1))
+
+
+def same(a: Realisation, b: Realisation, samples=None):
+    """Whether two runs agree bit for bit, in all or in their first samples."""
+    whole = samples is None
+    names = ["time", "force", "detachments", "switches"]
+    fields = [getattr(r, name)[:samples] for name in names for r in (a, b)]
+    if whole:
+        fields += [getattr(r, n) for n in ("t_det", "displacement", "velocity") for r in (a, b)]
+    bits = [field.tobytes() for field in fields]
+    return bits[::2] == bits[1::2] and (not whole or a.energy == b.energy)
+
+
+# --- what a run answers
+
+
+def test_a_curve_starts_at_rest_and_has_one_entry_per_interval(run):
+    assert run.time.shape == run.force.shape == run.detachments.shape == run.switches.shape
+    assert (run.time[0], run.force[0], run.detachments[0], run.switches[0]) == (0, 0, 0, 0)
+    np.testing.assert_allclose(np.diff(run.time), 2e-7, rtol=1e-10)  # differences of 1e-4
+    assert run.steps == round(2e-7 / STEP) * (len(run.time) - 1)
+
+
+def test_fields_have_one_entry_per_block(run):
+    assert run.t_det.shape == (N, N)
+    assert run.displacement.shape == run.velocity.shape == (2, N, N)
+    assert run.snapshots.shape == (0, 2, N, N)
+
+
+def test_detachments_count_each_contact_block_once_at_its_time(run):
+    detached = np.isfinite(run.t_det)
+    np.testing.assert_array_equal(detached, PILLARS.contact)
+    assert run.detachments.sum() == detached.sum()
+    for so_far, time in zip(np.cumsum(run.detachments), run.time, strict=True):
+        times = run.t_det[detached]
+        assert np.sum(times < time - STEP) <= so_far <= np.sum(times < time + STEP)
+    assert (run.switches >= run.detachments).all()
+
+
+def test_means_and_extremes_are_those_of_the_fields(run):
+    assert run.t_avg == pytest.approx(run.t_det[PILLARS.contact].mean(), rel=1e-14, abs=0)
+    assert run.t_first == run.t_det[PILLARS.contact].min()
+    assert run.static_friction == run.force.max() / run.normal_force
+    assert run.force[run.time == run.t_max] == run.force.max()
+    assert run.normal_force == pytest.approx(
+        PAPER.pressure * (N * PAPER.spacing) ** 2, rel=1e-14, abs=0
+    )
+
+
+def test_dynamic_friction_is_the_mean_after_the_first_minimum():
+    run = simulate(*uniform(1, 1.0, 0.6), duration=2e-6)
+    force = np.array([0.0, 5.0, 2.0, 3.0, 4.0]) * run.normal_force
+    assert replace(run, force=force).dynamic_friction == pytest.approx(3.0, rel=1e-15)
+    assert math.isnan(replace(run, force=force[:3]).dynamic_friction)
+
+
+def test_a_run_in_which_nothing_detaches_has_no_detachment_times():
+    run = simulate(*uniform(2, 1.0, 0.6), duration=1e-5)
+    assert np.isnan(run.t_det).all()
+    assert math.isnan(run.t_avg)
+    assert math.isnan(run.t_first)
+    assert not run.detachments.any()
+    assert run.t_max == run.time[-1] == pytest.approx(1e-5, rel=1e-14, abs=0)
+
+
+def test_a_snapshot_is_the_end_of_a_shorter_run():
+    scene = drawn(PILLARS, seed=1)
+    times = (4e-6, 1.5e-4, 1.8e-4)
+    long = simulate(*scene, duration=2e-4, snapshot_times=times)
+    assert long.snapshots.shape == (3, 2, N, N)
+    assert same(long, simulate(*scene, duration=2e-4))
+    for time, snapshot in zip(times, long.snapshots, strict=True):
+        short = simulate(*scene, duration=time)
+        assert short.displacement.tobytes() == snapshot.tobytes()
+        assert same(long, short, samples=len(short.time))
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_the_same_surface_gives_the_same_bytes(integrator):
+    scene = flat(6, seed=4)
+    assert same(*(simulate(*scene, integrator=integrator) for _ in range(2)))
+
+
+def test_what_lies_off_the_contact_is_not_read():
+    contact, *mu = drawn(PILLARS, seed=1)
+    blank = [np.where(contact, m, np.nan) for m in mu]
+    assert same(simulate(contact, *mu, duration=1.8e-4), simulate(contact, *blank, duration=1.8e-4))
+
+
+def test_lists_will_do_for_arrays():
+    scene = uniform(2, 1.0, 0.6)
+    lists = [array.tolist() for array in scene]
+    assert same(simulate(*scene, duration=2e-6), simulate(*lists, duration=2e-6))
+
+
+# --- when a run ends
+
+
+def test_a_run_ends_after_the_last_detachment_and_the_first_minimum(run):
+    assert first_minimum(run.force) is not None
+    assert run.time[-1] > np.nanmax(run.t_det)
+    before = simulate(*drawn(PILLARS, seed=1), duration=run.time[-1 - PAUSE])
+    assert np.isnan(before.t_det[PILLARS.contact]).any() or first_minimum(before.force) is None
+    assert same(run, before, samples=len(before.time))
+
+
+def test_a_force_that_merely_ripples_ends_with_its_first_ripple():
+    """mu_d = mu_s: the blocks let go without a drop, and swing by K_s v/omega about mu_d F_n."""
+    run = simulate(*uniform(2, 0.6, 0.6))
+    ripple = PAPER.k_s * PAPER.slider_velocity / PAPER.omega_min / PAPER.block_load
+    assert run.static_friction == pytest.approx(0.6 + ripple, abs=ripple)
+    assert run.dynamic_friction == pytest.approx(0.6, abs=ripple)
+    period = 2.0 * math.pi / PAPER.omega_min
+    assert 0.0 < run.time[-1] - run.t_first < period + (PAUSE + 1) * 2e-7
+
+
+def test_a_force_that_never_drops_is_followed_half_as_long_again():
+    """Overdamped, gamma > 2 omega: the force creeps up to mu_d F_n + gamma m v for good."""
+    thick = Material(gamma=1e8)
+    run = simulate(*uniform(2, 0.6, 0.6), material=thick)
+    assert first_minimum(run.force) is None
+    rounding = 1e-12 * run.t_first  # the last time is a multiple of the step, too
+    assert 1.5 * run.t_first - rounding < run.time[-1] <= 1.5 * run.t_first + (PAUSE + 1) * 2e-7
+    drag = thick.gamma * thick.mass * thick.slider_velocity / thick.block_load
+    assert run.static_friction == pytest.approx(0.6 + drag, rel=1e-3)  # gamma h = 2
+    assert math.isnan(run.dynamic_friction)
+
+
+@pytest.mark.parametrize(
+    ("force", "index"),
+    [
+        ([0, 1, 2, 3], None),  # no peak yet
+        ([0, 4, 3, 2], None),  # still falling
+        ([0, 4, 0, 0.3], None),  # risen by less than a tenth of the drop
+        ([0, 4, 0, 0.5], 2),
+        ([0, 4, 2, 3, 0, 4], 2),  # the first, not the lowest
+        ([0, 4, 3.9, 4, 0, 3], 2),  # however shallow
+        ([3, 1, 4, 4, 1, 2.5], 4),  # what precedes the peak does not count
+        ([2, 2, 2, 2], None),
+    ],
+)
+def test_the_first_minimum_counts_once_the_force_has_risen_by_a_tenth(force, index):
+    assert first_minimum(np.array(force, float)) == index
+
+
+# --- which way the slider goes
+
+
+@pytest.mark.parametrize(
+    ("direction", "unit"),
+    [
+        ("x", (1, 0)),
+        ("y", (0, 1)),
+        (0, (1, 0)),
+        (90, (0, 1)),
+        (180.0, (-1, 0)),
+        (270, (0, -1)),
+        (-90, (0, -1)),
+        (450, (0, 1)),
+    ],
+)
+def test_right_angles_are_exact(direction, unit):
+    assert heading(direction) == unit
+
+
+@pytest.mark.parametrize("angle", [30, 135.0, -100, np.float64(225), np.int64(359)])
+def test_any_other_angle_gives_a_unit_vector(angle):
+    expected = (np.cos(np.radians(angle)), np.sin(np.radians(angle)))
+    assert heading(angle) == pytest.approx(expected, rel=1e-14)
+    assert math.hypot(*heading(angle)) == pytest.approx(1.0, rel=1e-15)
+
+
+# --- what is refused
+
+
+def array(value, dtype=float, shape=(2, 2)):
+    return np.full(shape, value, dtype)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"contact": array(1.0)}, "contact must be an array of bool, or of 0 and 1, not of float"),
+        ({"contact": array("1", str)}, "contact must be an array of bool, or of 0 and 1, not of"),
+        ({"mu_static": array(1, bool)}, "mu_static must be an array of real numbers"),
+        ({"mu_static": array("1", str)}, "mu_static must be an array of real numbers"),
+        ({"mu_dynamic": array(1j, complex)}, "mu_dynamic must be an array of real numbers"),
+        ({"material": {"pressure": 5e4}}, "material must be a Material"),
+        ({"direction": None}, "direction must be 'x', 'y' or an angle"),
+        ({"direction": "z"}, "direction must be 'x', 'y' or an angle"),
+        ({"direction": True}, "direction must be 'x', 'y' or an angle"),
+        ({"step": "2e-8"}, "step must be a number of seconds"),
+        ({"duration": True}, "duration must be a number of seconds"),
+        ({"sample_interval": [2e-7]}, "sample_interval must be a number of seconds"),
+        ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number of seconds"),
+        ({"periodic": 1}, "periodic must be True or False, not 1"),
+    ],
+)
+def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
+    with pytest.raises(TypeError, match=message):
+        pull(**change)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N_y, N_x\)"),
+        ({"contact": array(True, bool, (2, 5000))}, r"the shape \(2, 5000\); .* goes up to 4096"),
+        ({"contact": array(True, bool, (0, 2))}, "contact is False everywhere"),
+        ({"periodic": True}, r"shape \(2, 2\); with periodic edges each side must hold at least 3"),
+        ({"contact": array(False, bool)}, "contact is False everywhere"),
+        ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape \(2, 2\)"),
+        ({"mu_dynamic": array(0.6, shape=(1,))}, r"mu_dynamic must have the shape \(2, 2\)"),
+        ({"contact": array(2, int)}, "contact must hold bool, or 0 and 1, not 2"),
+        ({"contact": [[0, 1], [1, -1]]}, "contact must hold bool, or 0 and 1, not -1"),
+        ({"mu_static": math.nan}, "mu_static must be finite and not negative"),
+        ({"contact": array(True, bool, (2, 3))}, r"mu_static must have the shape \(2, 3\)"),
+        ({"mu_static": [[1, 1], [1, math.nan]]}, "mu_static must be finite and not negative"),
+        ({"mu_dynamic": array(math.inf)}, "mu_dynamic must be finite and not negative"),
+        ({"mu_dynamic": array(-0.1)}, "mu_dynamic must be finite and not negative"),
+        ({"integrator": "euler"}, "integrator must be one of leapfrog, rk4, not 'euler'"),
+        ({"direction": math.nan}, "direction must be 'x', 'y' or a finite angle"),
+        ({"step": 0.0}, "step must be finite and positive"),
+        ({"step": 3e-8}, "sample_interval must be a multiple of step"),
+        ({"sample_interval": 5e-9}, "sample_interval must be a multiple of step"),
+        ({"sample_interval": 1e308}, "sample_interval must be a multiple of step"),
+        ({"sample_interval": math.nan}, "sample_interval must be finite and positive"),
+        ({"duration": 1e-7}, "duration must be at least one sample_interval"),
+        ({"duration": -1.0}, "duration must be finite and positive"),
+        ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
+        ({"snapshot_times": [4e-7, 2e-7]}, "snapshot_times must rise"),
+        ({"snapshot_times": [2e-7, 2e-7]}, "snapshot_times must rise"),
+        ({"snapshot_times": [4e-6]}, "snapshot_times must lie within the duration"),
+    ],
+)
+def test_arguments_that_make_no_sense_are_refused_by_name(change, message):
+    with pytest.raises(ValueError, match=message):
+        pull(**change)
+
+
+def pull(**changes):
+    """Two by two blocks, pulled for ten intervals."""
+    contact, mu_static, mu_dynamic = uniform(2, 1.0, 0.6)
+    scene = {"contact": contact, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
+    return simulate(**{**scene, "duration": 2e-6, **changes})
+
+
+@pytest.mark.parametrize("integrator", STABLE)
+def test_a_step_is_stable_up_to_the_limit_of_the_highest_mode(integrator):
+    """2/omega_max for leapfrog, 2√2/omega_max for Runge-Kutta; gamma h/2 is 3e-4 here."""
+    below, above = 0.999 * STABLE[integrator], 1.001 * STABLE[integrator]
+    assert pull(integrator=integrator, step=below, sample_interval=below).steps > 0
+    with pytest.raises(ValueError, match=rf"unstable: {integrator} needs less than") as refusal:
+        pull(integrator=integrator, step=above, sample_interval=above)
+    named = float(str(refusal.value).split("less than ")[1].split()[0])
+    assert named == pytest.approx(STABLE[integrator], rel=1e-3, abs=0)
+
+
+@pytest.mark.parametrize("integrator", STABLE)
+def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
+    """Under a thousand times the load, a block slides by several spacings when it lets go."""
+    heavy = Material(pressure=5e7, slider_velocity=0.5)
+    scene = flat(4, seed=1)
+    with pytest.raises(SimulationError, match=r"at t = .* block \(y, x\) = \(\d, \d\)") as failure:
+        simulate(*scene, material=heavy, integrator=integrator)
+    time = float(str(failure.value).split("t = ")[1].split()[0])
+    first = np.min(scene[1]) * heavy.block_load / (heavy.k_s * heavy.slider_velocity)
+    assert first < time < 1.1 * first
+
+
+def test_snapshots_do_not_change_when_a_run_ends():
+    scene = drawn(PILLARS, seed=1)
+    plain = simulate(*scene)
+    end = plain.time[-1]
+    times = [round(end / 2e-7 - k) * 2e-7 for k in (13, 7, 3)]
+    watched = simulate(*scene, snapshot_times=times)
+    assert same(plain, watched)
+    assert len(watched.snapshots) == 3
+
+
+def test_a_run_goes_on_until_its_last_snapshot():
+    scene = drawn(PILLARS, seed=1)
+    plain = simulate(*scene)
+    late = round(plain.time[-1] / 2e-7 + 3 * PAUSE + 1) * 2e-7
+    watched = simulate(*scene, snapshot_times=[1e-4, late])
+    assert watched.snapshot_times == pytest.approx([1e-4, late], rel=1e-14)
+    assert late <= watched.time[-1] < late + (PAUSE + 1) * 2e-7
+    assert same(watched, plain, samples=len(plain.time))
+    shorter = simulate(*scene, duration=late)
+    assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
+
+
+def test_a_mask_of_0_and_1_and_single_numbers_are_taken():
+    contact, mu_static, _ = drawn(PILLARS, seed=1)
+    fields = simulate(contact, mu_static, np.full((N, N), 0.6), duration=1.5e-4)
+    numbers = simulate(contact.astype(np.uint8), mu_static, 0.6, duration=1.5e-4)
+    assert same(fields, numbers)
+    assert (numbers.contact == contact).all()
+
+
+def test_a_run_says_what_it_is_in_one_line(run):
+    said = f"static friction {run.static_friction:.4f}, t_max {1e6 * run.t_max:.1f} µs"
+    assert repr(run) == f"<12 x 12 blocks: {said}, t_avg {1e6 * run.t_avg:.1f} µs>"
+    assert repr(pull()).endswith("t_max 2.0 µs, nothing has detached>")
+
+
+def test_progress_counts_samples_on_stderr_where_asked_to(capsys):
+    plain, counted = pull(), pull(progress=True)
+    said = capsys.readouterr()
+    assert "10/10" in said.err
+    assert said.out == ""
+    assert same(plain, counted)
+
+
+def test_coefficients_of_any_real_type_are_taken():
+    contact, *mu = drawn(PILLARS, seed=1)
+    wide = [field.astype(np.longdouble) for field in mu]
+    assert same(simulate(contact, *mu, duration=2e-6), simulate(contact, *wide, duration=2e-6))

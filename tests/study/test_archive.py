@@ -1,0 +1,152 @@
+"""One file to deposit: what is in it, what it says of itself, and that nobody contradicts it."""
+
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+import yaml
+from click.testing import CliRunner
+from rocrate.rocrate import ROCrate
+
+from springblock.cli import main
+from springblock.study.archive import CRATE, archive
+from test_workflow import snakemake
+
+ROOT = Path(__file__).parents[2]
+CODE = {
+    "Snakefile": "rule all:\n",
+    "environment.lock": "numpy==2.0\n",
+    "config/config.yaml": "n_blocks: 12\n",
+}
+RESULTS = ("tables/a.parquet", "figures/figure_1.png", "claims.md", "realisations/b.parquet")
+ASIDE = ("logs/a.log", "benchmarks/a.tsv", "set-aside/tables/b.parquet", "tables/.a.parquet.123")
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """A clone with results; contents do not matter."""
+    folder = tmp_path / "study"
+    made = {f"results/{name}": name for name in (*RESULTS, *ASIDE)}
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    for name, text in {**CODE, **made, "CITATION.cff": citation, "notes.txt": "mine"}.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
+    subprocess.run(["git", "add", *CODE, "CITATION.cff"], cwd=folder, check=True)
+    return folder
+
+
+def packed(study):
+    """Archive of a study, and how many files it is said to hold."""
+    output = study.parent / "study.zip"
+    number = archive(study, study / "results", study / "config/config.yaml", output)
+    return output, number
+
+
+def test_it_holds_code_and_results_and_nothing_else(clone):
+    output, number = packed(clone)
+    with zipfile.ZipFile(output) as file:
+        names = file.namelist()
+        assert file.testzip() is None
+    assert len(names) == number
+    assert set(names) == {*CODE, "CITATION.cff", CRATE, *(f"results/{name}" for name in RESULTS)}
+
+
+def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):
+    output, _ = packed(clone)
+    with zipfile.ZipFile(output) as file:
+        file.extractall(tmp_path / "unpacked")
+    crate = ROCrate(tmp_path / "unpacked")  # its library reads it back
+    files = {entity.id: entity for entity in crate.data_entities}
+    for path in (tmp_path / "unpacked").rglob("*.*"):
+        name = path.relative_to(tmp_path / "unpacked").as_posix()
+        if name != CRATE:
+            assert files[name]["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+            assert int(files[name]["contentSize"]) == path.stat().st_size
+    assert crate.mainEntity.id == "Snakefile"
+    assert {"SoftwareSourceCode", "ComputationalWorkflow"} <= set(crate.mainEntity.type)
+    [run] = crate.root_dataset["mentions"]
+    assert run.type == "CreateAction"
+    assert run["instrument"].id == "Snakefile"
+    assert {each.id for each in run["object"]} == {"config/config.yaml", "environment.lock"}
+    assert {each.id for each in run["result"]} == {f"results/{name}" for name in RESULTS}
+    assert run["startTime"] <= run["endTime"]
+    # what the profile Workflow Run Crate 0.5 and RO-Crate 1.1 require of the root
+    root = crate.root_dataset
+    assert all(root[name] for name in ("name", "description", "license", "datePublished"))
+    profiles = {each.id.rsplit("/", 2)[1] for each in root["conformsTo"]}
+    assert profiles == {"process", "workflow", "workflow-ro-crate"}
+
+
+def test_an_unpacked_archive_can_be_packed_again(clone, tmp_path):
+    output, number = packed(clone)
+    with zipfile.ZipFile(output) as file:
+        file.extractall(tmp_path / "unpacked")
+    again, repeated = packed(tmp_path / "unpacked")
+    with zipfile.ZipFile(output) as first, zipfile.ZipFile(again) as second:
+        assert repeated == number
+        for name in set(first.namelist()) - {CRATE}:
+            assert first.read(name) == second.read(name)
+
+
+@pytest.mark.parametrize(
+    ("missing", "sentence"),
+    [(".git", "neither a clone of the study nor"), ("results/tables", "run the study first")],
+)
+def test_what_is_no_finished_study_is_refused(clone, monkeypatch, missing, sentence):
+    (clone / missing).rename(clone.parent / "elsewhere")
+    monkeypatch.chdir(clone)
+    outcome = CliRunner().invoke(main, ["archive", "results", "--output", "study.zip"])
+    assert outcome.exit_code == 1
+    assert sentence in outcome.output
+    assert not (clone / "study.zip").exists()
+
+
+def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
+    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
+    folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
+    for name in ("CITATION.cff", "environment.lock"):
+        shutil.copy(ROOT / name, folder)
+    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
+    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
+    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
+    with zipfile.ZipFile(tmp_path / "study.zip") as file:
+        file.extractall(tmp_path / "unpacked")
+    results = tmp_path / "unpacked/results"
+    before = {
+        file: file.read_bytes() for file in [*results.glob("figures/*"), results / "claims.md"]
+    }
+    assert len(before) > 20
+    touched = snakemake(tmp_path / "unpacked", "--touch")
+    assert touched.returncode == 0, touched.stderr
+    for file in before:
+        file.unlink()
+    names = sorted({file.stem for file in before if file.suffix == ".png"})
+    redrawn = snakemake(tmp_path / "unpacked", "--", *names, "claims")
+    assert redrawn.returncode == 0, redrawn.stderr
+    assert not re.search(r"Simulating|Loading|Correlating", redrawn.stderr + redrawn.stdout)
+    assert {file: file.read_bytes() for file in before} == before
+
+
+def test_every_description_of_the_software_says_the_same():
+    read = {
+        "citation": yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8")),
+        "codemeta": json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8")),
+        "zenodo": json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8")),
+    }
+    assert len({each["version"] for each in read.values()}) == 1
+    assert len({each["license"].rsplit("/", 1)[-1] for each in read.values()}) == 1
+    paper = read["citation"]["references"][0]
+    assert read["codemeta"]["referencePublication"]["@id"].endswith(paper["doi"])
+    assert read["codemeta"]["referencePublication"]["name"] == paper["title"]
+    assert read["zenodo"]["related_identifiers"][0]["identifier"] == paper["doi"]
+    names = [
+        [each["name"] for each in read[kind][key]]
+        for kind, key in (("citation", "authors"), ("codemeta", "author"), ("zenodo", "creators"))
+    ]
+    assert names[0] == names[1] == names[2]

@@ -1,0 +1,383 @@
+"""The configuration: what it expands to, and that its documentation keeps up with it."""
+
+import copy
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from springblock.model.scene import Scene
+from springblock.provenance import configuration_digest
+from springblock.study.configuration import Ensemble, check, completed, ensembles, for_figures
+
+ROOT = Path(__file__).parents[2]
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+
+
+def changed(*path, to):
+    """The paper's configuration with one key changed."""
+    configuration = copy.deepcopy(PAPER)
+    node = configuration
+    for key in path[:-1]:
+        node = node[key]
+    node[path[-1]] = to
+    return configuration
+
+
+def keys(schema):
+    """All keys that a schema names, at any depth."""
+    found = set(schema.get("properties", {}))
+    for part in [*schema.get("properties", {}).values(), *schema.get("$defs", {}).values()]:
+        found |= keys(part)
+    return found
+
+
+def test_the_papers_configuration_is_accepted():
+    check(PAPER, SCHEMA)
+
+
+def test_every_key_is_documented():
+    text = (ROOT / "config/README.md").read_text()
+    assert {key for key in keys(SCHEMA) if f"`{key}`" not in text} == set()
+
+
+def test_a_group_is_a_grid_over_its_lists():
+    groups = ensembles(PAPER)
+    assert [e.scene.n_p for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["n_p"]
+    assert all(e.scene.n_s == e.scene.n_p for e in groups["pillars"])
+    assert [e.scene.direction for e in groups["grooves"]][:2] == ["x", "y"]
+    assert groups["flat"][0] == Ensemble(Scene(120), range(40), 3e-4)
+
+
+def test_a_group_may_be_a_list_of_grids():
+    grids = [{"n_p": [n_p], "n_s": [10 - n_p], "direction": ["x"], "seeds": 1} for n_p in (4, 6)]
+    members = ensembles(changed("beyond", "ten", to=grids))["ten"]
+    assert [(e.scene.n_p, e.scene.n_s) for e in members] == [(4, 6), (6, 4)]
+
+
+def test_a_constant_may_be_an_axis_of_a_grid():
+    """The study's own value makes the scene that other groups have."""
+    axes = {"slider_velocity": [5e-4, 1e-3], "gamma": [0, 5000]}
+    grid = {"n_blocks": [9], "material": axes, "step": [1e-8, 2e-8], "direction": ["x"], "seeds": 1}
+    scenes = [e.scene for e in ensembles(changed("scenes", "fast", to=grid))["fast"]]
+    assert len(set(scenes)) == 8
+    assert Scene(9) in scenes
+    assert Scene(9, varied={"slider_velocity": 1e-3, "gamma": 0, "step": 1e-8}) in scenes
+
+
+def test_a_law_may_be_an_axis_with_its_constant():
+    axes = {"law": ["slip_weakening"], "slip_distance": [1e-8, 1e-7]}
+    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
+    weak = changed("scenes", "weak", to=grid)
+    check(weak, SCHEMA)
+    scenes = [e.scene for e in ensembles(weak)["weak"]]
+    assert scenes[1] == Scene(9, varied={"law": "slip_weakening", "slip_distance": 1e-7})
+
+
+@pytest.mark.parametrize(
+    ("axes", "sentence"),
+    [
+        ({"law": ["slip_weakening"]}, "slip_distance must be positive with slip_weakening"),
+        ({"slip_distance": [1e-7]}, "slip_distance must be zero with coulomb, not 1e-07"),
+        ({"speed_scale": [-1.0]}, "speed_scale must be finite and zero or positive, not -1.0"),
+    ],
+)
+def test_a_group_whose_law_lacks_its_constant_is_refused_by_name(axes, sentence):
+    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
+    with pytest.raises(ValueError, match=rf"^scenes\.weak: Material\.{sentence}"):
+        check(changed("scenes", "weak", to=grid), SCHEMA)
+
+
+def test_there_is_no_other_law():
+    with pytest.raises(ValueError, match=r"^material\.law is not valid: 'stribeck' is not one of"):
+        check(changed("material", "law", to="stribeck"), SCHEMA)
+
+
+def test_gaps_may_follow_the_pillars():
+    halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
+    assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]
+    doubled = changed("scenes", "pillars", "n_s", to=["2n_p"])
+    assert [e.scene.n_s for e in ensembles(doubled)["pillars"]] == [4, 6, 12, 20, 40, 60, 120]
+
+
+@pytest.mark.parametrize(("given", "gaps"), [("n_p/3", [1, 3, 10]), ("3n_p", [9, 30, 90])])
+def test_gaps_may_be_multiples_and_parts_of_a_pillar(given, gaps):
+    grid = {"n_p": [3, 10, 30], "n_s": [given], "direction": ["x"], "seeds": 1}
+    assert [e.scene.n_s for e in ensembles(changed("scenes", "far", to=grid))["far"]] == gaps
+
+
+def test_each_size_of_pillars_may_have_its_own_number_of_seeds():
+    groups = ensembles(PAPER)
+    assert [len(e.seeds) for e in groups["pillars"]] == PAPER["scenes"]["pillars"]["seeds"]
+    assert {len(e.seeds) for e in groups["angles"]} == {PAPER["scenes"]["angles"]["seeds"]}
+
+
+def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds():
+    both = {"n_p": [6, 20], "n_s": [20, "n_p"], "direction": ["x"], "seeds": [500, 7]}
+    groups = ensembles(changed("scenes", "both", to=both))
+    assert len(groups["both"]) == 3  # n_s = n_p = 20 occurs twice
+    shared = set(groups["both"]) & set(groups["pillars"])
+    assert {(e.scene.n_p, len(e.seeds)) for e in shared} == {(6, 500), (20, 60)}
+    whole, decimal = ({"direction": [angle], "seeds": 1} for angle in (15, 15.0))
+    assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
+
+
+def test_a_scene_of_the_study_may_be_pulled_more_often_beyond_it_and_never_less():
+    few = {"n_p": [10, 6], "n_s": [10], "direction": ["x"], "seeds": [3, 30], "duration": 3e-4}
+    many = {"n_p": [20, 10, 6], "n_s": [10], "direction": ["x"], "seeds": [5, 500, 4]}
+    most = {**many, "seeds": [9, 6, 7]}
+    parts = {"scenes": {"few": few}, "beyond": {"many": many}, "more": {"most": most}}
+    groups = ensembles(PAPER | parts)
+    assert [len(e.seeds) for e in groups["few"]] == [3, 30]  # whatever goes beyond
+    assert [len(e.seeds) for e in groups["many"]] == [5, 500, 30]
+    assert [len(e.seeds) for e in groups["most"]] == [9, 500, 30]
+    for later in ("many", "most"):
+        assert [e.duration for e in groups[later]] == [None, 3e-4, 3e-4]
+
+
+def test_a_group_may_be_left_out():
+    left_out = changed("scenes", "spacing", to=None)
+    check(left_out, SCHEMA)
+    assert ensembles(left_out)["spacing"] == []
+
+
+def test_numbers_that_come_as_text_are_numbers():
+    """YAML takes 1e-8 for text, and Snakemake all within an option."""
+    given = {
+        "step": "1e-8",
+        "results": "2024",
+        "scenes": {"flat": {"seeds": "3", "spacing": "null"}},
+    }
+    read = {"step": 1e-8, "results": "2024", "scenes": {"flat": {"seeds": 3, "spacing": None}}}
+    assert completed(given) == read
+    ways = {"direction": ["x", "15"], "n_s": ["2n_p", "n_p"], "accuracy": "true"}
+    assert completed(ways) == {"direction": ["x", 15], "n_s": ["2n_p", "n_p"], "accuracy": True}
+    assert completed(PAPER) == PAPER
+
+
+def test_lists_can_be_continued_without_being_said_again():
+    further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
+    whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
+    check(whole, SCHEMA)
+    sizes = {e.scene.n_p: len(e.seeds) for e in ensembles(whole)["pillars"]}
+    assert sizes == {e.scene.n_p: len(e.seeds) for e in ensembles(PAPER)["pillars"]} | {15: 7}
+    assert len(ensembles(whole)["grooves"]) == len(ensembles(PAPER)["grooves"]) + 5
+    assert (whole["step"], whole["scenes"]["flat"]) == (1e-8, PAPER["scenes"]["flat"])
+    assert completed(PAPER) == PAPER
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 7, 20])
+def test_batches_hold_each_seed_once(count):
+    batches = list(Ensemble(Scene(4), range(3, 3 + count), None).batches(5))
+    assert [seed for batch in batches for seed in batch] == list(range(3, 3 + count))
+    assert all(len(batch) in (1, 5) for batch in batches)
+
+
+def test_a_larger_ensemble_keeps_the_whole_batches_of_a_smaller_one():
+    small, large = (list(Ensemble(Scene(4), range(n), None).batches(5)) for n in (10, 25))
+    assert large[: len(small)] == small
+
+
+def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
+    scenes = {e.scene for group in ensembles(PAPER).values() for e in group}
+    assert {scene.level for scene in scenes} == {0, 1, 2, 3}
+    assert len({scene.folder for scene in scenes}) == len(scenes)
+    for scene in scenes:
+        pairs = list(zip(*[iter(scene.arguments.split())] * 2, strict=True))
+        named = {key[2:].replace("-", "_"): value for key, value in pairs if key != "--vary"}
+        varied = dict(value.split("=") for key, value in pairs if key == "--vary")
+        texts = {key: named.pop(key) for key in ("direction", "along_3") if key in named}
+        assert Scene(**texts, **{k: int(v) for k, v in named.items()}, varied=varied) == scene
+
+
+@pytest.fixture
+def surfaces(tmp_path):
+    """The paper's configuration with a group of one's own surfaces, given its grid."""
+    np.save(tmp_path / "corner.npy", np.array([[1, 1, 0], [0, 0, 0], [0, 0, 0]], bool))
+    np.save(tmp_path / "strip.npy", np.eye(3, 5, dtype=bool))
+    (tmp_path / "again").mkdir()
+    shutil.copy(tmp_path / "corner.npy", tmp_path / "again")
+    np.save(tmp_path / "diagonal.npy", np.eye(3, dtype=bool))
+    np.save(tmp_path / "strong.npy", np.full((3, 3), 1.5))
+    np.save(tmp_path / "weak.npy", np.full((3, 3), -0.5))
+    (tmp_path / "broken.png").write_bytes(b"no image")
+
+    def configured(direction=("x",), seeds=4, **grid):
+        files = ("mask", "mu_static", "mu_dynamic", "topography")
+        for key in grid.keys() & set(files):
+            named = grid[key] if isinstance(grid[key], list) else [grid[key]]
+            paths = [str(tmp_path / name) for name in named]
+            grid[key] = paths if isinstance(grid[key], list) else paths[0]
+        counted = {} if seeds is None else {"seeds": seeds}
+        return changed("scenes", "own", to={"direction": [*direction], **counted, **grid})
+
+    return configured
+
+
+def test_masks_are_an_axis_of_a_grid(surfaces):
+    constants = {"distribution": ["normal", "weibull"], "correlation_length": [0.0, 2e-5]}
+    masks = surfaces(mask=["corner.npy", "strip.npy"], material=constants, direction=("x", "y"))
+    check(masks, SCHEMA)
+    scenes = [ensemble.scene for ensemble in ensembles(masks)["own"]]
+    assert len({scene.folder for scene in scenes}) == 2 * 2 * 2 * 2
+    assert {scene.shape for scene in scenes} == {(3, 3), (3, 5)}
+    assert {scene.level for scene in scenes} == {-1}
+    assert sum(not scene.varied for scene in scenes) == 4  # with the study's own constants
+
+
+def test_the_papers_scenes_are_where_they_were(surfaces):
+    """No folder but those of surfaces of one's own says anything new."""
+    folders = {e.scene.folder for group in ensembles(PAPER).values() for e in group}
+    assert "n_blocks-120/level-0/direction-x" in folders
+    assert "n_blocks-120/level-1/n_p-20/n_s-20/direction-x" in folders
+    assert not [f for f in folders if "mask" in f or "n_rows" in f or "edges" in f]
+    assert not [f for f in folders if "distribution" in f or "correlation_length" in f]
+
+
+def test_where_nothing_is_drawn_one_realisation_is_all(surfaces):
+    files = {"mu_static": "strong.npy", "mu_dynamic": "strong.npy"}
+    alone = surfaces(mask="corner.npy", seeds=None, **files)
+    check(alone, SCHEMA)
+    assert [ensemble.seeds for ensemble in ensembles(alone)["own"]] == [range(1)]
+
+
+def test_rectangles_and_edges_are_part_of_a_grid(surfaces):
+    wide = surfaces(n_blocks=[12], n_rows=[6, 12], n_p=[4], n_s=[2], edges="periodic")
+    check(wide, SCHEMA)
+    scenes = [ensemble.scene for ensemble in ensembles(wide)["own"]]
+    assert [(s.shape, s.edges) for s in scenes] == [((6, 12), "periodic"), ((12, 12), "periodic")]
+
+
+@pytest.mark.parametrize(
+    ("grid", "sentence"),
+    [
+        ({"mask": "absent.npy"}, "absent.npy does not exist"),
+        ({"mask": "broken.png"}, "broken.png is neither an image nor an array"),
+        ({"mask": ["corner.npy", "again/corner.npy"]}, r"masks are the same surface, corner-\w{8}"),
+        ({"mask": []}, "scenes.own.mask is not valid"),
+        ({"mask": "corner.npy", "n_p": [4], "n_s": [4]}, "mask cannot be given together with n_p"),
+        ({"mask": "corner.npy", "n_blocks": [4]}, "n_blocks and n_rows are those of the mask, 3"),
+        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be given together with a topogr"),
+        ({"bearing_area": 0.5}, "scenes.own: bearing_area needs a topography"),
+        ({"topography": "absent.opd", "height": 1e-6}, "absent.opd does not exist"),
+        ({"topography": "strip.npy", "bearing_area": 1.5}, "bearing_area is not valid: 1.5"),
+        ({"mask": "strip.npy", "mu_static": "strong.npy"}, r"strong-\w{8} must have the shape"),
+        ({"mask": "corner.npy", "mu_static": "weak.npy"}, r"weak-\w{8} must be finite and not neg"),
+        ({"mu_static": "strong.npy"}, r"strong-\w{8} must have the shape .* \(120, 120\)"),
+        ({"mask": "corner.npy", "seeds": None}, "scenes.own: 'seeds' is a required property"),
+        (
+            {"mask": "corner.npy", "mu_static": "strong.npy", "mu_dynamic": "strong.npy"},
+            "seeds is 4, but nothing is drawn: leave it out, or say 1",
+        ),
+        (
+            {"mask": "corner.npy", "mu_static": "strong.npy", "material": {"mu_static": [2.0]}},
+            r"mu_static cannot be varied where strong-\w{8} says mu_static",
+        ),
+        ({"material": {"distribution": ["gauss"]}}, "distribution.0 is not valid: 'gauss'"),
+        (
+            {"material": {"distribution": ["uniform"], "mu_static_std": [0.6]}},
+            "scenes.own: no uniform distribution has mu_static = 1.0",
+        ),
+        ({"material": {"correlation_length": [-1.0]}}, "correlation_length must be .* zero or pos"),
+        ({"material": {"correlation_length": [1.0]}}, "own: correlation_length = 1.0 m must not"),
+        ({"n_blocks": [5000]}, "scenes.own: N is 5000; the solver goes up to 4096"),
+        ({"edges": "periodic", "n_rows": [2]}, "periodic edges each side must hold at least 3"),
+        ({"edges": "closed"}, "scenes.own.edges is not valid: 'closed'"),
+    ],
+)
+def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        check(surfaces(**grid), SCHEMA)
+    assert "\n" not in str(refusal.value)
+
+
+def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
+    own = surfaces(mask="corner.npy")["scenes"]["own"]
+    groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
+    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}, "more": {}}))
+    assert {group: len(members) for group, members in drawn.items()} == {
+        "flat": 1,
+        "sizes": 0,
+        "surfaces": 1,
+    }
+
+
+def test_the_papers_groups_hold_its_own_surfaces(surfaces):
+    own = surfaces(mask="corner.npy")["scenes"]["own"]
+    for group in ("flat", "grooves"):
+        with pytest.raises(ValueError, match=f"scenes.{group}: its surfaces must be the paper's"):
+            check(changed("scenes", group, to=own), SCHEMA)
+
+
+def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
+    """As if their digests met, which they do once in four thousand million."""
+    one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
+    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}, "more": {}}
+    monkeypatch.setattr("springblock.model.blockmap._name", lambda file, values: "same-00000000")
+    with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
+        ensembles(both)
+
+
+def test_any_change_changes_the_digest():
+    digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=1e-8))}
+    assert len(digests) == 2
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [
+        (("realisations_per_job",), 0, "realisations_per_job is not valid: 0 .* minimum of 1"),
+        (("integrator",), "euler", "integrator is not valid: 'euler'.*leapfrog"),
+        (("step",), "fast", r"step is not valid: 'fast'"),
+        (("step",), 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
+        (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
+        (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
+        (("scenes", "flat", "direction"), [float("nan")], "flat: direction must be .* finite"),
+        (("scenes", "flat", "duration"), 1e-8, "scenes.flat: duration.*less than one"),
+        (("scenes", "pillars", "n_p"), [7] * 7, "scenes.pillars.n_p is not valid"),
+        (("scenes", "pillars", "seeds"), [20, 60], "pillars: seeds lists 2 numbers for 7 values"),
+        (("scenes", "pillars", "seeds"), 2, "pillars of 6 blocks need 3 seeds or more"),
+        (
+            ("scenes", "pillars", "n_p"),
+            list(range(7, 14)),
+            r"scenes.pillars: the period n_p \+ n_s = 7 \+ 7",
+        ),
+        (("scenes", "grooves", 0, "n_s2"), [58], "scenes.grooves: a groove of 58 .* of 58"),
+        (("scenes", "spacing", 0, "n_p2"), [2], "scenes.spacing: n_p2 = 2 needs n_s2"),
+        (("scenes", "third_level", 0, "n_p3"), [9], "third_level: pawls of 9 .* do not fill"),
+        (("scenes", "third_level", 0, "np"), [9], "third_level.0 has the unknown key 'np'"),
+        (("scenes", "third_level", 1, "along_3"), "z", "third_level.1.along_3 is not valid: 'z'"),
+        (("beyond", "loading"), [], "beyond.loading is not valid"),
+        (("beyond", "loading", 0, "material", "speed"), [1.0], "material has the unknown key"),
+        (("beyond", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
+        (("beyond", "loading", 4, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
+        (("beyond", "flat"), {"direction": ["x"], "seeds": 1}, "beyond.flat: scenes has a group"),
+        (("more", "layer"), {"direction": ["x"], "seeds": 1}, "more.layer: beyond has a group"),
+        (
+            ("more", "repetitions"),
+            {"n_p": [7], "n_s": [7], "direction": ["x"], "seeds": 3},
+            "more.repetitions: the period",
+        ),
+        (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
+        (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
+        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks-120.* is given two durations"),
+        (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
+        (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
+        (("scenes", "pillars"), None, "scenes.pillars is not valid: None"),
+        (
+            ("figures", "sweeps", "slider_velocity", "groups"),
+            ["flat", "speeds"],
+            "figures.sweeps.slider_velocity.groups has 'speeds', which is none of flat, pillars",
+        ),
+        (("figures", "sweeps", "scatter", "over"), "speed", "over is 'speed'; it may be .*n_p, "),
+        (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
+        (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
+    ],
+)
+def test_one_sentence_says_what_is_wrong(path, value, sentence):
+    with pytest.raises(ValueError, match=sentence) as refusal:
+        check(changed(*path, to=value), SCHEMA)
+    assert "\n" not in str(refusal.value)
