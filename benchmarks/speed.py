@@ -53,7 +53,7 @@ from springblock import Realisation, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
 from springblock.cli.options import one_sentence
-from springblock.io.tables import rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.scene import Scene
 from springblock.provenance import code_version

@@ -17,7 +17,8 @@ from benchmarks.peers.missing import Missing
 from benchmarks.timing import Row, interleaved, missing, row
 from springblock import draw_friction, simulate
 from springblock.cli.simulate import batch_row
-from springblock.io.tables import BATCH, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.schemas import BATCH
 from springblock.model.scene import Scene
 from springblock.plotting import declarations
 from springblock.simulation.setup import Setup

@@ -16,7 +16,7 @@ import pyarrow as pa
 from numpy.typing import ArrayLike, NDArray
 
 from benchmarks.peers.missing import Missing
-from springblock.io.tables import column
+from springblock.io.schemas import column
 
 SCHEMA = pa.schema(
     [

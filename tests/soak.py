@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from springblock.analysis.comparison import compare
-from springblock.io.tables import load
+from springblock.io.parquet import load
 
 ROOT = Path(__file__).parents[1]
 TARGETS = ("aggregate", "correlations", "claims")

@@ -17,7 +17,7 @@ import yaml
 import springblock
 from springblock.cli import COMMANDS, main
 from springblock.io.dictionary import tables
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.material import Material
 
 ROOT = Path(__file__).parents[1]

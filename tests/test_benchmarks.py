@@ -18,7 +18,7 @@ from benchmarks.peers.scipy_lattice import UNIT, ScipyLattice
 from benchmarks.timing import BLOCK_STEP, SCHEMA, interleaved, missing, printed, row
 from springblock import Material
 from springblock.accuracy.kernels import spring_forces
-from springblock.io.tables import rows_to_table
+from springblock.io.parquet import rows_to_table
 from springblock.model.scene import Scene
 from springblock.plotting import declarations
 

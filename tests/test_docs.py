@@ -17,7 +17,7 @@ from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.io.dictionary import page as dictionary
 from springblock.io.dictionary import tables
-from springblock.io.tables import SETUP
+from springblock.io.schemas import SETUP
 
 DOCS = Path(__file__).parents[1] / "docs"
 

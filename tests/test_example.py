@@ -9,7 +9,7 @@ import yaml
 from PIL import Image
 
 from springblock import draw_friction, simulate
-from springblock.io.tables import read_records
+from springblock.io.records import read_records
 from springblock.model.blockmap import BlockMap
 from test_workflow import GROOVES, TINY, copied, planned, snakemake
 

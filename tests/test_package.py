@@ -26,11 +26,11 @@ sys.meta_path.insert(0, Withhold())
 
 import click
 
-from springblock import Pattern, draw_friction, simulate
+from springblock import Pattern, draw_friction, plot, simulate
 from springblock.cli import main
 
 run = simulate(Pattern.pillars(6, 2, 1).contact, *draw_friction(6, seed=0), duration=4e-6)
-run.plot().savefig({folder!r} + "/run.png")
+plot(run).savefig({folder!r} + "/run.png")
 for command in (
     "simulate --n-blocks 6 --duration 4e-6 --output {folder}/run.parquet",
     "info {folder}/run.parquet",

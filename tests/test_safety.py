@@ -20,8 +20,7 @@ from PIL import Image
 from snakemake_interface_executor_plugins.utils import format_cli_arg
 
 from springblock import Pattern, compute_prelude
-from springblock.arrays import read_arrays
-from springblock.files import BLANK, write_sealed
+from springblock.files import BLANK, read_arrays, write_sealed
 from springblock.model.blockmap import _MOST, BlockMap, Cut
 from springblock.model.scene import Scene
 from springblock.simulation.checkpoint import Checkpoint
@@ -434,7 +433,7 @@ def test_packed_arrays_are_plain_and_no_larger_than_they_are(tmp_path, content):
 def test_a_packed_bomb_is_not_unpacked(tmp_path, monkeypatch):
     file = packed(tmp_path / "a.npz", peak=npy((10**6,)) + bytes(8 * 10**6))
     assert file.stat().st_size < 10**5
-    monkeypatch.setattr("springblock.arrays._MOST", 10**6)
+    monkeypatch.setattr("springblock.files._MOST", 10**6)
     with pytest.raises(ValueError, match=r"^it would take 8\d+ bytes; 1000000 are the most"):
         read_arrays(file)
 
@@ -475,7 +474,8 @@ def test_metadata_of_tables_are_parsed_alone(tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    from springblock.io.tables import SUMMARY, read
+    from springblock.io.parquet import read
+    from springblock.io.schemas import SUMMARY
 
     trap = json.dumps({"__reduce__": "os.system('touch PWNED')"})
     metadata = {"configuration_digest": "$(touch PWNED)", "pandas": trap}

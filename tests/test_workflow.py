@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from springblock import Material
-from springblock.io.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.plotting import declarations
 from springblock.solver import INTEGRATORS
 

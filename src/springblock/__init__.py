@@ -8,12 +8,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from springblock.io.reading import read
+    from springblock.io.records import read
     from springblock.model.asperities import draw_friction
     from springblock.model.material import Material
     from springblock.model.pattern import Pattern
+    from springblock.plotting.runs.film import animate
+    from springblock.plotting.runs.still import plot
     from springblock.simulation.prelude import Prelude, compute_prelude
-    from springblock.simulation.realisation import Realisation
+    from springblock.simulation.run import Realisation
     from springblock.simulation.simulate import SimulationError, simulate
 
 __all__ = [
@@ -22,8 +24,10 @@ __all__ = [
     "Prelude",
     "Realisation",
     "SimulationError",
+    "animate",
     "compute_prelude",
     "draw_friction",
+    "plot",
     "read",
     "simulate",
 ]
@@ -33,11 +37,13 @@ _HOMES = {
     "Material": "model.material",
     "Pattern": "model.pattern",
     "Prelude": "simulation.prelude",
-    "Realisation": "simulation.realisation",
+    "Realisation": "simulation.run",
+    "animate": "plotting.runs.film",
     "SimulationError": "simulation.simulate",
     "compute_prelude": "simulation.prelude",
     "draw_friction": "model.asperities",
-    "read": "io.reading",
+    "plot": "plotting.runs.still",
+    "read": "io.records",
     "simulate": "simulation.simulate",
 }
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from test_correlation import times
 
+from analysis.test_correlation import times
 from springblock import Pattern, draw_friction, simulate
 from springblock.accuracy import production
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import SCHEMA, STEPS, of_length, of_mean, production_rows
-from springblock.io.tables import rows_to_table
+from springblock.io.parquet import rows_to_table
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 

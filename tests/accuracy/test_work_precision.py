@@ -6,7 +6,7 @@ from click.testing import CliRunner
 
 from springblock.accuracy.work_precision import SCHEMA, rows_of
 from springblock.cli import main
-from springblock.io.tables import rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.signal import lfilter
 
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 
@@ -28,9 +28,7 @@ def record(scene: Scene, seed: int, t_det: np.ndarray, friction: float, hills=()
         detachments=counts,
         switches=counts,
         t_det=np.where(scene.pattern.contact, t_det, np.nan),
-        t_max=T_MAX,
-        t_avg=T_MAX,
-        static_friction=friction,
+        contact=np.isfinite(t_det),
         constants=dict(Material().items()) | dict(scene.varied),
     )
 

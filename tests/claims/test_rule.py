@@ -22,7 +22,8 @@ from springblock.claims.rule import (
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli import main
 from springblock.cli.claims import _by_scene, _stress
-from springblock.io.tables import SUMMARY, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.schemas import SUMMARY
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup

@@ -4,7 +4,7 @@ import pyarrow as pa
 import pytest
 
 from precision import precision_rows, production_rows
-from springblock.io.tables import write
+from springblock.io.parquet import write
 
 
 @pytest.fixture

@@ -3,7 +3,8 @@
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from springblock.io.tables import SUMMARY, write
+from springblock.io.parquet import write
+from springblock.io.schemas import SUMMARY
 
 CONFIGURATION = ("--configuration", "0123")
 

@@ -3,7 +3,7 @@
 import pyarrow.parquet as pq
 import pytest
 
-from springblock.io.tables import CORRELATION, CORRELATION_LENGTH
+from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 
 
 @pytest.fixture

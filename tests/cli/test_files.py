@@ -6,7 +6,7 @@ import pytest
 
 from springblock.analysis.comparison import compare
 from springblock.io.dictionary import tables
-from springblock.io.tables import write
+from springblock.io.parquet import write
 
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):

@@ -4,7 +4,7 @@ import pyarrow.parquet as pq
 import pytest
 from PIL import Image
 
-from springblock.io.tables import write
+from springblock.io.parquet import write
 from springblock.plotting import style
 from springblock.plotting.runs import film
 

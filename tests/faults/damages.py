@@ -5,7 +5,7 @@ import shutil
 
 import pyarrow.parquet as pq
 
-from springblock.io.tables import load, origin_of, write
+from springblock.io.parquet import load, origin_of, write
 from springblock.simulation.prelude import Prelude
 
 FLAT, PILLARS = "n_blocks-12/level-0/direction-x", "n_blocks-12/level-1/n_p-6/n_s-6/direction-x"

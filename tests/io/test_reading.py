@@ -9,7 +9,8 @@ import pytest
 
 from springblock import Pattern, draw_friction, read, simulate
 from springblock.cli.simulate import batch_row
-from springblock.io.tables import BATCH, SNAPSHOTS, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 

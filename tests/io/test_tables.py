@@ -7,14 +7,9 @@ import pytest
 from springblock import draw_friction, simulate
 from springblock.cli.simulate import batch_row
 from springblock.files import whole_file
-from springblock.io.tables import (
-    BATCH,
-    SUMMARY,
-    read,
-    read_records,
-    rows_to_table,
-    write,
-)
+from springblock.io.parquet import read, rows_to_table, write
+from springblock.io.records import read_records
+from springblock.io.schemas import BATCH, SUMMARY
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 

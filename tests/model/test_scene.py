@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from springblock.io.tables import SCENE
+from springblock.io.schemas import SCENE
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import COLUMNS, Scene
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from beyond.made_up import ensemble, grooves, lattices, lean, sizes_and_distances
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import (
     beyond_disorder,

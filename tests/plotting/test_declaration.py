@@ -13,15 +13,17 @@ from typing import get_args
 import pytest
 import yaml
 from click.testing import CliRunner
-from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
 from snakemake.utils import update_config
 
 import springblock
+from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
 from springblock import Material
 from springblock import plotting as figures
 from springblock.cli import main
 from springblock.cli.figure import ensembles
-from springblock.io.tables import BATCH, Record, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.records import Record
+from springblock.io.schemas import BATCH
 from springblock.model.scene import Scene
 from springblock.plotting.declaration import Category, Need
 from springblock.study import configuration as study

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from springblock import Pattern
 from springblock.analysis.statistics import whole_curve
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import figure_5, figure_6, figure_9
 from springblock.plotting.ensembles import SINGLE, draw_runs, pillar_look
@@ -44,9 +44,7 @@ def record(seed: int, peaks: tuple[float, ...] = (110e-6,), samples: int = 700) 
         detachments=detachments,
         switches=detachments,
         t_det=t_det,
-        t_max=peaks[0],
-        t_avg=float(np.nanmean(t_det)),
-        static_friction=float(force.max() / NORMAL_FORCE),
+        contact=np.isfinite(t_det),
     )
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from springblock import Material, Pattern, Realisation
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import figure_1, figure_2, figure_3, figure_4, figure_8, style
 from springblock.simulation.energy import elastic_energy
@@ -40,9 +40,7 @@ def made(seed: int, samples: int = 700, contact: NDArray[np.bool_] | None = None
         detachments=detachments,
         switches=detachments + (time > 120e-6),
         t_det=t_det,
-        t_max=110e-6,
-        t_avg=float(np.nanmean(t_det)),
-        static_friction=float(force.max() / 1.3e-3),
+        contact=np.isfinite(t_det),
     )
 
 

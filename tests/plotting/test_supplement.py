@@ -6,12 +6,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plotting.test_ensembles import record
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from springblock.io.tables import Record
+from plotting.test_ensembles import record
+from springblock.io.records import Record
 from springblock.plotting import (
     supplement_angle,
     supplement_levels,
@@ -26,7 +26,9 @@ from springblock.plotting import (
 def ensemble(friction: float, *peaks: float, runs: int = 4) -> list[Record]:
     """Runs with about this static friction."""
     made = [record(seed, peaks) for seed in range(runs)]
-    return [replace(run, static_friction=friction + 0.01 * run.seed) for run in made]
+    return [
+        replace(run, normal_force=run.force.max() / (friction + 0.01 * run.seed)) for run in made
+    ]
 
 
 def drawings(runs: int) -> dict[str, Callable[[], Figure]]:

@@ -5,11 +5,11 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plotting.test_ensembles import record
 from matplotlib.figure import Figure
 
+from plotting.test_ensembles import record
 from springblock import Material
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import surfaces

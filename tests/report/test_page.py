@@ -10,7 +10,7 @@ from springblock.claims import CLAIMS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.cli import main
-from springblock.io.tables import read_records
+from springblock.io.records import read_records
 from springblock.model.scene import Scene
 from springblock.plotting import declarations
 from springblock.report import findings, media, statements, tables, text

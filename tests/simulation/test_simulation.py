@@ -10,7 +10,7 @@ from springblock import Material, Pattern, Realisation, SimulationError, simulat
 from springblock.accuracy.surfaces import drawn, flat, uniform
 from springblock.model.defaults import STEP
 from springblock.model.direction import heading
-from springblock.simulation.realisation import first_minimum
+from springblock.simulation.run import first_minimum
 
 PAPER = Material()
 N = 12

@@ -19,11 +19,11 @@ from springblock.accuracy.surfaces import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.io.rows import Row
-from springblock.io.tables import column
+from springblock.io.schemas import column
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import Prelude, compute_prelude
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import simulate
 
 SCHEMA = pa.schema(

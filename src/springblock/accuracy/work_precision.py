@@ -24,10 +24,10 @@ from springblock.accuracy import plain_rk4, reference
 from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
 from springblock.accuracy.surfaces import Array, Surface, drawn
 from springblock.io.rows import Row
-from springblock.io.tables import column
+from springblock.io.schemas import column
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import simulate
 from springblock.solver import INTEGRATORS
 

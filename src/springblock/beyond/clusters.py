@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from springblock.analysis.statistics import Interval, cluster_sizes, mean_interval
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
+from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 
 Mask = NDArray[np.bool_]

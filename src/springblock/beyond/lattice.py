@@ -24,8 +24,8 @@ from springblock.beyond.resampling import (
     means,
     slopes,
 )
+from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 

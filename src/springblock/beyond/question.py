@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from springblock.analysis.statistics import Interval
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most

@@ -9,8 +9,8 @@ from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
 from springblock.beyond.resampling import FEWEST, Sample, SideLength, interval, lowest_place, slopes
+from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 

@@ -8,8 +8,8 @@ from springblock.analysis.statistics import Interval
 from springblock.beyond.peaks import angle
 from springblock.beyond.question import Ensembles, Question, number
 from springblock.beyond.resampling import FEWEST, SideLength
+from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 

@@ -31,7 +31,7 @@ from springblock.claims.samples import (
     scenes_along_x,
     share_of,
 )
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.asperities import draw_friction
 from springblock.simulation.run import Array, Run
 

@@ -36,7 +36,7 @@ from springblock.claims.samples import (
     scenes_along_x,
     share,
 )
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 

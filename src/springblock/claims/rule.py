@@ -8,8 +8,8 @@ from statistics import median
 from typing import Any
 
 from springblock.analysis.statistics import Interval, share_interval, students_t
+from springblock.io.records import Record
 from springblock.io.rows import Row
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 

@@ -14,8 +14,8 @@ from springblock.analysis.statistics import (
     share_interval,
 )
 from springblock.claims.rule import Case, Estimate, Finding, Share, describe
+from springblock.io.records import Record
 from springblock.io.rows import Row
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 

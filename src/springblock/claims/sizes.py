@@ -29,8 +29,8 @@ from springblock.claims.samples import (
     position,
     scenes_along_x,
 )
+from springblock.io.records import Record
 from springblock.io.rows import select
-from springblock.io.tables import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 

@@ -15,7 +15,7 @@ from springblock.claims.rule import (
     verdict,
 )
 from springblock.io.rows import Row
-from springblock.io.tables import column
+from springblock.io.schemas import column
 
 SCHEMA = pa.schema(
     [

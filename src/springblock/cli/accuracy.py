@@ -7,7 +7,7 @@ import click
 from springblock.accuracy.page import page
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
-from springblock.io.tables import load
+from springblock.io.parquet import load
 
 
 @click.command("accuracy")

@@ -7,7 +7,8 @@ import pyarrow as pa
 
 from springblock.accuracy.residuals import suspects
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
-from springblock.io.tables import SUMMARY, read, write
+from springblock.io.parquet import read, write
+from springblock.io.schemas import SUMMARY
 from springblock.model.scene import COLUMNS
 from springblock.provenance import code_version
 

@@ -6,7 +6,7 @@ import click
 
 from springblock.analysis import comparison
 from springblock.cli.options import one_sentence
-from springblock.io.tables import load
+from springblock.io.parquet import load
 from springblock.study import audit
 
 FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)

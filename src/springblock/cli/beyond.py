@@ -9,7 +9,7 @@ from springblock.beyond.page import page
 from springblock.beyond.question import by_scene
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
-from springblock.io.tables import read_records
+from springblock.io.records import read_records
 
 
 @click.command("beyond")

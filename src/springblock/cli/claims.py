@@ -14,8 +14,9 @@ from springblock.claims.rule import Evidence, enough
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
+from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
+from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
-from springblock.io.tables import Record, load, read_records, refuse_mixture, rows_to_table, write
 from springblock.model.direction import heading
 from springblock.model.scene import Scene
 from springblock.provenance import code_version

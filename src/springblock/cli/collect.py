@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
-from springblock.io.tables import load, origin_of, read, write
+from springblock.io.parquet import load, origin_of, read, write
 
 
 @click.command("collect")

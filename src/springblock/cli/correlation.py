@@ -15,17 +15,10 @@ from springblock.analysis.correlation import (
     side_times,
 )
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.io.parquet import load, origin_of, rows_to_table, write
+from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
-from springblock.io.tables import (
-    CORRELATION,
-    CORRELATION_LENGTH,
-    Record,
-    load,
-    origin_of,
-    read_records,
-    rows_to_table,
-    write,
-)
+from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 from springblock.provenance import code_version
 
 

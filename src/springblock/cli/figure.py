@@ -10,15 +10,9 @@ from typing import Any
 import click
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
-from springblock.io.tables import (
-    CORRELATION,
-    CORRELATION_LENGTH,
-    Record,
-    load,
-    read,
-    read_records,
-    refuse_mixture,
-)
+from springblock.io.parquet import load, read, refuse_mixture
+from springblock.io.records import Record, read_records
+from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 from springblock.plotting import declarations
 from springblock.plotting.declaration import Correlations, Realisations, Source, Surface, Table
 from springblock.plotting.style import save

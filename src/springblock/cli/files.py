@@ -11,7 +11,7 @@ from springblock.analysis import comparison
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
 from springblock.io.dictionary import columns, page, tables
-from springblock.io.tables import load, origin_of
+from springblock.io.parquet import load, origin_of
 from springblock.model.scene import Scene
 from springblock.simulation.prelude import Prelude
 

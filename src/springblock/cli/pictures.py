@@ -7,9 +7,9 @@ from typing import Any
 import click
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
-from springblock.io import tables
-from springblock.io.reading import read
-from springblock.io.tables import Record
+from springblock.io.parquet import read as read_tables
+from springblock.io.records import Record, read
+from springblock.io.schemas import SUMMARY
 from springblock.model.scene import Scene
 from springblock.plotting.runs import film, still, surface, sweep
 from springblock.plotting.style import save
@@ -64,9 +64,9 @@ def plot(
         if over is None:
             if len(files) > 1:
                 raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
-            picture, caption = still.draw(_chosen(files[0], seed)), still.CAPTION
+            picture, caption = still.plot(_chosen(files[0], seed)), still.CAPTION
         else:
-            rows = tables.read(files, tables.SUMMARY).to_pylist()
+            rows = read_tables(files, SUMMARY).to_pylist()
             picture = sweep.draw(rows, over, observables or ["static_friction"])
             caption = sweep.caption(rows, over)
             _tell_left_out(len(rows) - len(sweep.drawn(rows, over)), over)
@@ -85,7 +85,7 @@ def _tell_left_out(realisations: int, over: str) -> None:
 def animate(run: Path, seed: int | None, output: Path) -> None:
     """Film one run of a file RUN: the blocks that let go, while the force runs along."""
     with one_sentence():
-        film.write(_chosen(run, seed), output)
+        film.animate(_chosen(run, seed), output)
 
 
 @click.command("show")

@@ -7,7 +7,7 @@ import click
 from springblock.accuracy.conventions import SCENES
 from springblock.accuracy.production import SCHEMA, production_rows
 from springblock.cli.options import OUTPUT, one_sentence
-from springblock.io.tables import rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.provenance import code_version
 
 

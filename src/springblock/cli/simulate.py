@@ -21,8 +21,9 @@ from springblock.cli.options import (
     scene_options,
     with_options,
 )
+from springblock.io.parquet import load, rows_to_table, write
 from springblock.io.rows import Row
-from springblock.io.tables import BATCH, SNAPSHOTS, load, rows_to_table, write
+from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.asperities import draw_friction
 from springblock.model.defaults import SAMPLE_INTERVAL, STEP
 from springblock.model.material import Material
@@ -30,7 +31,7 @@ from springblock.model.scene import TEXTS, Scene
 from springblock.provenance import code_version, configuration_digest
 from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.prelude import Prelude, compute_prelude
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import SimulationError, simulate
 from springblock.solver import INTEGRATORS

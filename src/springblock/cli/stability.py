@@ -7,7 +7,7 @@ from tqdm import tqdm
 
 from springblock.accuracy.stability.table import SCHEMA, all_cases, row
 from springblock.cli.options import OUTPUT
-from springblock.io.tables import rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.provenance import code_version
 
 

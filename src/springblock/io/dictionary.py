@@ -6,7 +6,7 @@ from typing import NamedTuple
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
-from springblock.io.tables import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 
 _PAGE = """# The tables
 

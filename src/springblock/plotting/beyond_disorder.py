@@ -16,7 +16,7 @@ from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, by_scene
 from springblock.beyond.scatter import by_scatter, fits, long_enough, shared
 from springblock.beyond.variance import by_pattern, exponent, variance
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Realisations
 from springblock.plotting.ensembles import FRICTION

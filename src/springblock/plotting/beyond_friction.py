@@ -15,7 +15,7 @@ from matplotlib.ticker import NullLocator
 from springblock.analysis.statistics import mean_interval
 from springblock.beyond.friction import Map, crossed, families, friction_map, residuals
 from springblock.beyond.question import by_scene
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Realisations
 from springblock.plotting.ensembles import FRICTION

@@ -25,7 +25,7 @@ from springblock.beyond.lattice import (
 )
 from springblock.beyond.question import by_scene
 from springblock.beyond.resampling import FEWEST
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Realisations
 from springblock.plotting.ensembles import FRICTION

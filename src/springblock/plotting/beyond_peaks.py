@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from springblock.beyond.peaks import Grooves, by_grooves
 from springblock.beyond.question import by_scene
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Realisations
 from springblock.plotting.style import journal

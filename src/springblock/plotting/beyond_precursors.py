@@ -22,7 +22,7 @@ from springblock.beyond.clusters import (
 )
 from springblock.beyond.question import Ensembles, by_scene
 from springblock.beyond.sliding import by_angle, edges
-from springblock.io.tables import Record
+from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Realisations
 from springblock.plotting.ensembles import pillar_look, pillar_name

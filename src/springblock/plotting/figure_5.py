@@ -21,7 +21,7 @@ from springblock.plotting.surface import Axis, draw_sliding
 from springblock.simulation.run import Array
 
 if TYPE_CHECKING:
-    from springblock.io.tables import Record
+    from springblock.io.records import Record
 
 FIGURE = Declaration(
     title="First detachment times on one pillar",

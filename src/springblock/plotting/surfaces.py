@@ -18,7 +18,7 @@ from springblock.plotting.surface import draw_mask
 from springblock.simulation.run import Array
 
 if TYPE_CHECKING:
-    from springblock.io.tables import Record
+    from springblock.io.records import Record
 
 FIGURE = Declaration(
     title="Surfaces of one's own",

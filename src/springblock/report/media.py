@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image
 
-from springblock.io.tables import Record, read_records
+from springblock.io.records import Record, read_records
 from springblock.plotting import declarations
 from springblock.plotting.caption import sample_in_words
 from springblock.plotting.runs import film

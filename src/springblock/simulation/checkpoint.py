@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.arrays import read_arrays
-from springblock.files import whole_file
+from springblock.files import read_arrays, whole_file
 from springblock.provenance import digest
 from springblock.simulation.checks import check_positive
 from springblock.solver.lattice import Samples, State

@@ -18,8 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springblock.arrays import read_arrays
-from springblock.files import BLANK, MENDING, read_sealed, write_sealed
+from springblock.files import BLANK, MENDING, read_arrays, read_sealed, write_sealed
 from springblock.io.origin import check_origin, results_of
 from springblock.model.asperities import log_share_above
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP

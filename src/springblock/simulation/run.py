@@ -1,112 +1,90 @@
-"""What statistics and figures need to know of a run, and how one looks at it."""
+"""What one run yields."""
 
-from importlib import import_module
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from springblock.simulation.energy import Energy
 
 Array = NDArray[np.float64]
-Counts = NDArray[np.integer[Any]]
+Counts = NDArray[np.integer]
+
+#: Share of the drop after the peak by which the force must have risen again: then it has passed
+#: its first minimum.
+_REBOUND = 0.1
 
 
-class Run(Protocol):
-    """One realisation in SI units, computed just now or read back from a file."""
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Run:
+    """One run in SI units, computed or read back from a file. Fields are indexed [y, x]."""
 
-    @property
-    def time(self) -> Array:
-        """(n,) s, evenly spaced."""
-
-    @property
-    def force(self) -> Array:
-        """(n,) N, force of the slider."""
-
-    @property
-    def normal_force(self) -> float:
-        """P l² N², N."""
-
-    @property
-    def contact(self) -> NDArray[np.bool_]:
-        """(N_y, N_x), [y, x], blocks in contact with the substrate."""
-
-    @property
-    def detachments(self) -> Counts:
-        """(n,) blocks that detached for the first time in the interval that ends at `time`."""
-
-    @property
-    def switches(self) -> Counts:
-        """(n,) blocks that went from rest to sliding in the interval, again or not."""
-
-    @property
-    def t_det(self) -> Array:
-        """(N_y, N_x) s, [y, x], first detachment; NaN where never or not in contact."""
-
-    @property
-    def t_max(self) -> float:
-        """Time of the force maximum, s."""
-
-    @property
-    def t_avg(self) -> float:
-        """Mean of `t_det`, s."""
-
-    @property
-    def static_friction(self) -> float:
-        """Maximum of the force over P l² N²."""
-
-    @property
-    def snapshot_times(self) -> Array:
-        """(k,) s, when displacements were kept."""
-
-    @property
-    def snapshots(self) -> Array:
-        """(k, 2, N_y, N_x) m, [time, component, y, x], displacements at these times."""
+    time: Array  #: (n,) s, multiples of the sample interval, from zero
+    force: Array  #: (n,) N, |ΣF_s|
+    detachments: Counts  #: (n,) blocks that detached for the first time in the interval
+    switches: Counts  #: (n,) blocks that went from rest to sliding, again or not
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    normal_force: float  #: P l² N_y N_x, N
+    contact: NDArray[np.bool_]  #: (N_y, N_x) blocks in contact with the substrate
+    snapshot_times: Array  #: (k,) s, when displacements were kept
+    snapshots: Array  #: (k, 2, N_y, N_x) m, [time, component, y, x], displacements at these times
 
     @property
     def name(self) -> str:
         """What it is a run of."""
-
-
-class Visible:
-    """A run that can be looked at.
-
-    Pictures are imported by their names when they are asked for: they take no part in a result,
-    whose digest (`sources`) follows imports, and would slow down those who draw nothing.
-    """
-
-    @property
-    def name(self: Run) -> str:
-        """What it is a run of."""
         rows, columns = self.t_det.shape
         return f"{columns} x {rows} blocks"
 
-    def __repr__(self: Run) -> str:
-        detached = np.count_nonzero(np.isfinite(self.t_det))
+    @property
+    def t_max(self) -> float:
+        """Time of the force maximum, s."""
+        return float(self.time[np.argmax(self.force)])
+
+    @property
+    def static_friction(self) -> float:
+        """Global static friction coefficient: the maximum of the force over P l² N_y N_x."""
+        return float(self.force.max()) / self.normal_force
+
+    @property
+    def dynamic_friction(self) -> float:
+        """Mean of force over P l² N_y N_x after the first minimum that follows the peak.
+
+        Over the samples that the run holds; the force still oscillates there. NaN where the run
+        ends before, or the force does not fall.
+        """
+        minimum = first_minimum(self.force)
+        if minimum is None:
+            return math.nan
+        return float(self.force[minimum:].mean()) / self.normal_force
+
+    @property
+    def t_avg(self) -> float:
+        """Mean of t_det over the contact blocks that have detached, s; NaN where none has."""
+        detached = self.t_det[np.isfinite(self.t_det)]
+        return float(detached.mean()) if detached.size else math.nan
+
+    @property
+    def t_first(self) -> float:
+        """Time of the first detachment, s; NaN where there is none."""
+        detached = self.t_det[np.isfinite(self.t_det)]
+        return float(detached.min()) if detached.size else math.nan
+
+    def __repr__(self) -> str:
         times = f"t_max {1e6 * self.t_max:.1f} µs, " + (
-            f"t_avg {1e6 * self.t_avg:.1f} µs" if detached else "nothing has detached"
+            "nothing has detached" if math.isnan(self.t_avg) else f"t_avg {1e6 * self.t_avg:.1f} µs"
         )
         return f"<{self.name}: static friction {self.static_friction:.4f}, {times}>"
 
-    def plot(self: Run) -> "Figure":
-        """Draw force, detachments, the map of first detachment times, and snapshots if any.
 
-        A matplotlib figure without pyplot: `run.plot().savefig("run.png")`. Notebooks show it after
-        `%matplotlib inline`.
-        """
-        return import_module("springblock.plotting.runs.still").draw(self)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Realisation(Run):
+    """A run that was computed just now, with what is not stored."""
 
-    def animate(self: Run, path: str | Path) -> None:
-        """Write a film of the blocks that let go, beside the force: .gif or .mp4.
-
-        Raises
-        ------
-        ValueError
-            Where the suffix is another one.
-        """
-        import_module("springblock.plotting.runs.film").write(self, Path(path))
+    energy: Energy  #: at the end, J
+    steps: int  #: of the integrator
+    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
+    velocity: Array  #: (2, N_y, N_x) m/s, at the end
 
 
 def friction(run: Run) -> Array:
@@ -120,3 +98,17 @@ def percent(run: Run, blocks: Counts) -> Array:
     These are all contact blocks where the run has gone on until everything slides.
     """
     return 100.0 * blocks / np.count_nonzero(np.isfinite(run.t_det))
+
+
+def first_minimum(force: Array) -> int | None:
+    """Index of the first minimum after the peak of `force`; None if it is not passed yet.
+
+    A minimum counts once the force has risen again by a tenth of its drop from the peak.
+    """
+    peak = int(np.argmax(force))
+    after = force[peak:]
+    lowest = np.minimum.accumulate(after)
+    rebound = after - lowest > _REBOUND * (after[0] - lowest)
+    if not rebound.any():
+        return None
+    return peak + int(np.argmin(after[: int(np.argmax(rebound)) + 1]))

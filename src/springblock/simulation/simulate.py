@@ -16,7 +16,7 @@ from springblock.simulation.checkpoint import Checkpoint, belonging
 from springblock.simulation.checks import checked_surface, count_samples, whole_multiple
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.prelude import Prelude, conditions
-from springblock.simulation.realisation import Realisation, first_minimum
+from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import PAPER, Setup
 from springblock.solver import on_cores
 from springblock.solver.lattice import (

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from springblock.files import MENDING, read_sealed, seal, whole_file
-from springblock.io.tables import load, origin_of
+from springblock.io.parquet import load, origin_of
 from springblock.model.blockmap import BlockMap
 from springblock.provenance import code_version, configuration_digest, digest
 from springblock.simulation.prelude import Prelude

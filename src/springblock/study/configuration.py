@@ -10,7 +10,7 @@ from typing import Any
 import jsonschema
 import numpy as np
 
-from springblock.io.tables import AXES
+from springblock.io.schemas import AXES
 from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.material import Material

@@ -8,7 +8,7 @@ from imageio_ffmpeg import count_frames_and_secs
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from springblock import Pattern, Realisation, draw_friction, simulate
+from springblock import Pattern, Realisation, animate, draw_friction, simulate
 from springblock.plotting.runs import film
 from springblock.plotting.runs.maps import painted
 from springblock.plotting.style import VERMILION
@@ -84,7 +84,7 @@ def test_what_stands_still_is_drawn_once_and_what_moves_on_it(run, brief):
 
 
 def test_a_gif_goes_round_at_its_pace_and_is_small(run, brief, tmp_path):
-    run.animate(tmp_path / "run.gif")
+    animate(run, tmp_path / "run.gif")
     with Image.open(tmp_path / "run.gif") as image:
         assert image.info["loop"] == 0
         pauses = []
@@ -97,7 +97,7 @@ def test_a_gif_goes_round_at_its_pace_and_is_small(run, brief, tmp_path):
 
 
 def test_an_mp4_holds_every_frame(run, brief, tmp_path):
-    run.animate(str(tmp_path / "run.mp4"))
+    animate(run, str(tmp_path / "run.mp4"))
     count, seconds = count_frames_and_secs(str(tmp_path / "run.mp4"))
     assert (count, seconds) == (film.FRAMES, film.FRAMES / film.PER_SECOND)
     assert (tmp_path / "run.mp4").read_bytes()[4:8] == b"ftyp"
@@ -106,5 +106,5 @@ def test_an_mp4_holds_every_frame(run, brief, tmp_path):
 
 def test_other_formats_are_refused(run, tmp_path):
     with pytest.raises(ValueError, match=r"films are written as .gif or .mp4, not as '.avi'"):
-        run.animate(tmp_path / "run.avi")
+        animate(run, tmp_path / "run.avi")
     assert list(tmp_path.iterdir()) == []

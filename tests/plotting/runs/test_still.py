@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from springblock import Pattern, Realisation, draw_friction, simulate
+from springblock import Pattern, Realisation, draw_friction, plot, simulate
 from springblock.plotting import style
 from springblock.plotting.runs import still
 from springblock.plotting.runs.maps import painted, scale
@@ -52,7 +52,7 @@ def test_what_is_still_to_come_is_not_seen_and_what_has_just_come_is_black(run):
 @pytest.mark.parametrize("shape", [lambda run: run, oblong])
 def test_a_run_is_drawn_with_all_that_it_holds(run, shape):
     run = shape(run)
-    force, blocks, times, bar, *snapshots, displacement = run.plot().axes
+    force, blocks, times, bar, *snapshots, displacement = plot(run).axes
     np.testing.assert_array_equal(force.get_lines()[0].get_ydata(), run.force / run.normal_force)
     assert blocks.patches
     np.testing.assert_array_equal(times.images[0].get_array(), painted(run))
@@ -65,7 +65,7 @@ def test_a_run_is_drawn_with_all_that_it_holds(run, shape):
 
 def test_a_run_in_which_nothing_detaches_has_no_times_to_be_drawn():
     run = simulate(PILLARS.contact, 1.0, 0.6, duration=1e-5)
-    force, times = run.plot().axes
+    force, times = plot(run).axes
     assert len(force.get_lines()) == 1  # no t_max, which is merely the end
     words = [text.get_text() for text in times.get_legend().get_texts()]
     assert words == ["not detached", "not in contact"]
@@ -74,13 +74,13 @@ def test_a_run_in_which_nothing_detaches_has_no_times_to_be_drawn():
 def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
     times = 1e-6 * np.arange(1.0, 11.0)
     many = replace(run, snapshot_times=times, snapshots=np.zeros((10, 2, 12, 12)))
-    titles = [ax.get_title() for ax in many.plot().axes]
+    titles = [ax.get_title() for ax in plot(many).axes]
     assert [title for title in titles if title] == ["1 µs", "4 µs", "7 µs", "10 µs"]
 
 
 @pytest.mark.parametrize("shape", [lambda run: run, oblong])
 def test_nothing_leaves_the_page(run, shape):
-    picture = still.draw(shape(run))
+    picture = still.plot(shape(run))
     box = style.journal(picture.get_tightbbox)()  # inches
     width, height = picture.get_size_inches()
     assert 0.0 <= box.x0 < box.x1 <= width

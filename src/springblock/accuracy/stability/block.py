@@ -15,7 +15,7 @@ from springblock.accuracy.stability.schemes import limit, limit_of_damping
 from springblock.accuracy.stability.step import beyond_the_limit
 from springblock.accuracy.surfaces import Array, uniform
 from springblock.model.material import Material
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 
 
 def force_at_the_end(pull: Pull, run: Realisation) -> float:

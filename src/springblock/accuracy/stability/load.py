@@ -16,7 +16,7 @@ from springblock.accuracy.stability.schemes import limit
 from springblock.accuracy.stability.surface import COLUMNS, FREE_COLUMN
 from springblock.accuracy.surfaces import Array, Surface, flat
 from springblock.model.material import Material
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import SimulationError
 
 BURST, COLLAPSE = 3.0, -0.75  #: (r/L)² - 1 of a spring twice and half as long

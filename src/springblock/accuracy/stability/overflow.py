@@ -8,7 +8,7 @@ from typing import Any
 from springblock.accuracy.stability.cases import Case, Family, Outcome, failure, refusal
 from springblock.accuracy.stability.pull import PAPER, SEED, Pull
 from springblock.accuracy.surfaces import flat
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 
 
 def ten_steps(

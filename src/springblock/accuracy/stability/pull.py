@@ -9,7 +9,7 @@ from springblock.accuracy.stability.cases import Outcome, compared
 from springblock.accuracy.stability.schemes import limit
 from springblock.accuracy.surfaces import Surface
 from springblock.model.material import Material
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import simulate
 
 PAPER = Material()

@@ -15,7 +15,7 @@ from springblock.accuracy.stability.schemes import STABLE, limit_of_damping, tur
 from springblock.accuracy.surfaces import Array, drawn
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
-from springblock.simulation.realisation import Realisation
+from springblock.simulation.run import Realisation
 
 #: Avalanches on pillars excite the highest modes.
 PILLARS = Pattern.pillars(8, 2, 2)

@@ -17,7 +17,7 @@ from springblock.accuracy.stability import (
     weakening,
 )
 from springblock.accuracy.stability.cases import Case, Outcome
-from springblock.io.tables import column
+from springblock.io.schemas import column
 from springblock.solver import INTEGRATORS
 
 SCHEMA = pa.schema(

@@ -40,7 +40,7 @@ Frame = NDArray[np.uint8]  #: (height, width, 3)
 Update = Callable[[float, float], list[Artist]]
 
 
-def write(run: Run, path: Path) -> None:
+def animate(run: Run, path: str | Path) -> None:
     """Write a film as GIF or MP4, whole or not at all, as the suffix of `path` says.
 
     Raises
@@ -48,10 +48,11 @@ def write(run: Run, path: Path) -> None:
     ValueError
         Where the suffix is another one, or MP4 is not installed.
     """
-    if path.suffix not in _WRITERS:
-        raise ValueError(f"films are written as {' or '.join(_WRITERS)}, not as {path.suffix!r}")
-    with whole_file(path) as partial:
-        _WRITERS[path.suffix](frames(run), partial)
+    file = Path(path)
+    if file.suffix not in _WRITERS:
+        raise ValueError(f"films are written as {' or '.join(_WRITERS)}, not as {file.suffix!r}")
+    with whole_file(file) as partial:
+        _WRITERS[file.suffix](frames(run), partial)
 
 
 @journal

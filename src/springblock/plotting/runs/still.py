@@ -32,8 +32,12 @@ _HEIGHT, _ROW = 97.0, 55.0
 
 
 @journal
-def draw(run: Run) -> Figure:
-    """Draw what a run holds; panels of what it does not hold are left out."""
+def plot(run: Run) -> Figure:
+    """Draw what a run holds: force, detachments, the map of t_det, and snapshots if any.
+
+    A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
+    `%matplotlib inline`.
+    """
     row = _ROW if len(run.snapshots) else 0.0
     detached = bool(np.isfinite(run.t_det).any())
     picture = style.figure(style.DOUBLE, _HEIGHT + row)

@@ -12,7 +12,7 @@ from matplotlib.ticker import NullFormatter
 
 from springblock.analysis.statistics import mean_interval
 from springblock.io.rows import Row
-from springblock.io.tables import AXES, SCENE, SETUP
+from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.scene import LENGTHS, Scene
 from springblock.plotting import style
 from springblock.plotting.caption import sample_in_words

@@ -1,0 +1,182 @@
+"""Tables as Parquet files: written whole or not at all, read back, and never mixed."""
+
+import json
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from springblock.files import BLANK, MENDING, read_sealed, seal, write_sealed
+from springblock.io.origin import check_origin, results_of
+from springblock.io.schemas import SCENE, SETUP
+from springblock.model.scene import Scene
+
+
+def write(
+    table: pa.Table, path: Path, metadata: Mapping[str, str], inputs: Iterable[Path] = ()
+) -> None:
+    """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
+
+    Of `inputs`, the files that it was computed from, it keeps the places and the checksums.
+
+    Raises
+    ------
+    ValueError
+        Where the table has no row.
+    """
+    if not table.num_rows:
+        raise ValueError(f"there is nothing to write to {path}")
+    own = {"checksum": BLANK.decode()}
+    if inputs:
+        own["inputs"] = json.dumps(
+            {os.path.relpath(file, path.parent): seal(file) for file in inputs}
+        )
+    described = table.replace_schema_metadata({**metadata, **own})
+    # curves and fields: their numbers hardly repeat, but their leading bytes do
+    split = [
+        f"{field.name}.list.element"
+        for field in table.schema
+        if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
+    ]
+    content = pa.BufferOutputStream()
+    pq.write_table(
+        described,
+        content,
+        compression="zstd",
+        use_dictionary=not split,
+        use_byte_stream_split=split,
+    )
+    write_sealed(path, memoryview(content.getvalue()))
+
+
+def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
+    """Build a table of exactly the columns of `schema`; whatever else rows hold is left out."""
+    columns = [_array([row[field.name] for row in rows], field.type) for field in schema]
+    return pa.Table.from_arrays(columns, schema=schema)
+
+
+def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
+    """`pa.array` without pandas, which that loads to see whether it is given a Series."""
+    if pa.types.is_list(kind):
+        offsets = _array(np.cumsum([0, *map(len, values)]), pa.int32())
+        return pa.ListArray.from_arrays(
+            offsets, _array(np.concatenate(values or [[]]), kind.value_type)
+        )
+    if pa.types.is_string(kind):
+        text = [value.encode() for value in values]
+        offsets = np.cumsum([0, *map(len, text)], dtype=np.int32)
+        return pa.Array.from_buffers(
+            kind, len(text), [None, *map(pa.py_buffer, (offsets, b"".join(text)))]
+        )
+    numbers = np.asarray(values, dtype=kind.to_pandas_dtype())
+    packed = np.packbits(numbers, bitorder="little") if pa.types.is_boolean(kind) else numbers
+    return pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(packed)])
+
+
+def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+    """Read one file that `write` wrote; all its columns, or these.
+
+    Raises
+    ------
+    ValueError
+        With one sentence, where it is not as it was written, lacks a column, or is not the file of
+        its scene, its seeds, its study's configuration and code that its place says.
+    """
+    content = read_sealed(path)
+    try:
+        file = pq.ParquetFile(pa.BufferReader(content))
+    except pa.ArrowInvalid:
+        raise ValueError(f"{path} is no table (Parquet); {MENDING}") from None
+    present = file.schema_arrow.names
+    missing = [name for name in columns or () if name not in present]
+    if missing:
+        raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
+    table = file.read(columns)
+    _check_place(path, table)
+    return table
+
+
+def origin_of(table: pa.Table) -> dict[str, str]:
+    """What made a table: its metadata as text."""
+    return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
+
+
+def _check_place(path: Path, table: pa.Table) -> None:
+    """Refuse a file of a scene that lies where another belongs."""
+    if not set(SCENE.names) <= set(table.column_names):
+        return
+    first, last = re.fullmatch(r"seeds-(\d+)-(\d+)|.*", path.stem).groups()  # type: ignore[union-attr]
+    for row in table.group_by(SCENE.names).aggregate([]).to_pylist():
+        scene = Scene.from_row(row).folder
+        results = results_of(path, f"{scene}/{path.name}")
+        if results is None:
+            return
+        if first is not None:
+            check_origin(path, results, scene, origin_of(table))
+    if first is not None and table["seed"].to_pylist() != [*range(int(first), int(last) + 1)]:
+        raise ValueError(f"{path} does not hold the seeds {first} to {last}; {MENDING}")
+
+
+def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
+    """Read the columns of `schema` from several files of one study, one after another.
+
+    Raises
+    ------
+    ValueError
+        As `load` does; or where two were computed differently, or by different code.
+    """
+    paths = list(paths)
+    tables = [load(path, schema.names) for path in paths]
+    refuse_mixture(zip(paths, tables, strict=True))
+    _refuse_mixed_code(zip(paths, tables, strict=True))
+    return pa.concat_tables([table.cast(schema) for table in tables])
+
+
+def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    known: dict[str, Path] = {}
+    for path, table in tables:
+        version = origin_of(table).get("code_version", "")
+        known.setdefault(version.rpartition("+")[2], path)
+    if len(known) > 1:
+        (one, first), (other, second), *_ = known.items()
+        raise ValueError(
+            f"{first} and {second} must be made by the same code; theirs is {one} and {other}; "
+            f"of the older one, {MENDING}"
+        )
+
+
+def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    """Refuse tables that were computed with different constants, given with the file of each.
+
+    Constants that a scene has of its own are part of the scene, and may differ.
+
+    Raises
+    ------
+    ValueError
+        With the name of the constant, both values and both files.
+    """
+    known: dict[str, tuple[Any, Path]] = {}
+    for path, table in tables:
+        for row in _constants(table):
+            own = {pair.partition("=")[0] for pair in row.pop("varied").split(", ")}
+            for name in [name for name in row if name not in own]:
+                value, (before, first) = row[name], known.setdefault(name, (row[name], path))
+                if value != before:
+                    raise ValueError(
+                        f"{name} is {before!r} in {first} and {value!r} in {path}: runs of "
+                        "different studies do not belong together"
+                    )
+
+
+def _constants(table: pa.Table) -> list[dict[str, Any]]:
+    """Each combination of constants in a table of scenes, and which are a scene's own."""
+    names = ["varied", *SETUP.names]
+    if not set(names) <= set(table.column_names):
+        return []
+    return table.group_by(names).aggregate([]).to_pylist()

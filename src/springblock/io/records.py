@@ -1,0 +1,92 @@
+"""Runs read back from the files that `springblock simulate` writes."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from springblock.io.parquet import load
+from springblock.io.parquet import read as read_tables
+from springblock.io.schemas import BATCH, SCENE, SETUP, SNAPSHOTS
+from springblock.model.material import Material
+from springblock.model.scene import Scene
+from springblock.simulation.run import Run
+
+_CONSTANTS = [name for name, _ in Material().items()]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Record(Run):
+    """A run as it was stored: its scene, its seed and its constants."""
+
+    scene: Scene
+    seed: int
+    constants: Mapping[str, Any] = field(default_factory=lambda: dict(Material().items()))
+    snapshot_times: np.ndarray = field(default_factory=lambda: np.empty(0))
+    snapshots: np.ndarray = field(default_factory=lambda: np.empty((0, 2, 0, 0)))
+
+    @property
+    def material(self) -> Material:
+        """The layer that was pulled."""
+        return Material(**{name: self.constants[name] for name in _CONSTANTS})
+
+    @property
+    def name(self) -> str:
+        """Its scene and its seed."""
+        return f"{self.scene}, seed = {self.seed}"
+
+
+def read(path: str | Path) -> list[Record]:
+    """Read the runs of one file, in order of their seeds.
+
+    Each has the fields of `Realisation` but for energy, steps and the last displacements and
+    velocities, which are not stored, and knows its `scene`, `seed` and `material`.
+
+    Raises
+    ------
+    FileNotFoundError
+        Where there is no such file.
+    ValueError
+        Where it is no such file, naming what it lacks, or is not as it was written.
+    """
+    records, table = read_records([Path(path)]), load(Path(path))
+    if "snapshots" not in table.column_names:
+        return records
+    seeds = table["seed"].to_pylist()
+    return [_with_snapshots(each, table.slice(seeds.index(each.seed), 1)) for each in records]
+
+
+def _with_snapshots(record: Record, row: pa.Table) -> Record:
+    times, fields = (row[name][0].values.to_numpy() for name in SNAPSHOTS.names)
+    shape = (len(times), 2, *record.t_det.shape)
+    return replace(record, snapshot_times=times, snapshots=fields.reshape(shape))
+
+
+def read_records(paths: Iterable[Path]) -> list[Record]:
+    """Read stored realisations in order of their seeds."""
+    table = read_tables(paths, BATCH)
+    records = [_record(table.slice(i, 1)) for i in range(table.num_rows)]
+    return sorted(records, key=lambda record: record.seed)
+
+
+def _record(row: pa.Table) -> Record:
+    scene = Scene.from_row(row.select(SCENE.names).to_pylist()[0])
+    fields = {
+        name: row[name][0].values.to_numpy(zero_copy_only=False)
+        for name in ("force", "detachments", "switches", "t_det", "contact")
+    }
+    fields |= {name: fields[name].reshape(scene.shape) for name in ("t_det", "contact")}
+    if scene.mask is not None:
+        scene = replace(scene, mask=replace(scene.mask, values=fields["contact"]))
+    interval = row["sample_interval"][0].as_py()
+    return Record(
+        scene=scene,
+        seed=row["seed"][0].as_py(),
+        time=np.arange(len(fields["force"])) * interval,
+        normal_force=row["normal_force"][0].as_py(),
+        constants=row.select(SETUP.names).to_pylist()[0],
+        **fields,
+    )

@@ -1,0 +1,190 @@
+"""Columns of the tables, with the unit and the meaning of each."""
+
+import pyarrow as pa
+
+
+def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
+    """Return a column that carries its unit and meaning in its metadata."""
+    return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
+
+
+#: What tells one scene from another, as `Scene` names it.
+SCENE = pa.schema(
+    [
+        column("level", pa.int8(), "1", "levels of the pattern; 0 if flat, -1 with a mask instead"),
+        column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
+        column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
+        column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove along x; 0 without grooves"),
+        column("n_p3", pa.int32(), "blocks", "size of what cuts leave of a pawl; 0 without"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove between these; 0 without"),
+        column("along_3", pa.string(), "x or y", "axis that these grooves run along; '' without"),
+        column("varied", pa.string(), "name=value", "constants other than the study's own"),
+        column("direction", pa.string(), "x, y or degrees", "sliding direction"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface, along x"),
+        column("n_rows", pa.int32(), "blocks", "side along y, the same on a square surface"),
+        column("edges", pa.string(), "free or periodic", "edges of the surface, both ways"),
+        column("mask", pa.string(), "name", "file and digest of the contact mask; '' without"),
+        column("mu_static_field", pa.string(), "name", "the same of mu_static; '' where drawn"),
+        column("mu_dynamic_field", pa.string(), "name", "the same of mu_dynamic; '' where drawn"),
+    ]
+)
+
+#: How a realisation was computed: `Setup.constants`.
+SETUP = pa.schema(
+    [
+        column("youngs_modulus", pa.float64(), "Pa", "E"),
+        column("density", pa.float64(), "kg/m³", "rho"),
+        column("pressure", pa.float64(), "Pa", "P, over the whole nominal area"),
+        column("slider_velocity", pa.float64(), "m/s", "v"),
+        column("spacing", pa.float64(), "m", "l, distance between blocks"),
+        column("thickness", pa.float64(), "m", "l_z, of the layer"),
+        column("gamma", pa.float64(), "1/s", "damping frequency"),
+        column("mu_static", pa.float64(), "1", "mean of the static coefficients"),
+        column("mu_static_std", pa.float64(), "1", "their standard deviation"),
+        column("mu_dynamic", pa.float64(), "1", "mean of the dynamic coefficients"),
+        column("mu_dynamic_std", pa.float64(), "1", "their standard deviation"),
+        column("distribution", pa.string(), "1", "of both coefficients, where they are drawn"),
+        column("correlation_length", pa.float64(), "m", "of both: exp(-r²/ℓ²) of their normals"),
+        column("law", pa.string(), "1", "of friction: coulomb, slip_ or velocity_weakening"),
+        column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 with other laws"),
+        column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 with others"),
+        column("integrator", pa.string(), "1", "leapfrog or rk4"),
+        column("step", pa.float64(), "s", "integration step h"),
+        column("sample_interval", pa.float64(), "s", "time between two samples"),
+    ]
+)
+
+#: What results may be drawn over: numbers that tell scenes apart, and the direction.
+AXES = [field.name for field in (*SCENE, *SETUP) if not pa.types.is_string(field.type)]
+AXES = [name for name in AXES if name != "level"] + ["direction"]
+
+#: One row per realisation; t_* and *_friction in the paper's names.
+SUMMARY = pa.schema(
+    [
+        *SCENE,
+        *SETUP,
+        column("seed", pa.int64(), "1", "seed of the friction coefficients"),
+        column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
+        column(
+            "dynamic_friction",
+            pa.float64(),
+            "1",
+            "mean force over P l² N² from the first minimum after the peak to the end of the run; "
+            "settled only where the scene has a duration well past t_max; NaN without a minimum",
+        ),
+        column("t_max", pa.float64(), "s", "time of the force maximum"),
+        column("t_avg", pa.float64(), "s", "mean first detachment time of the contact blocks"),
+        column("t_first", pa.float64(), "s", "time of the first detachment of all"),
+        column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
+        column("steps", pa.int64(), "1", "integration steps"),
+    ]
+)
+
+_SIDE = [
+    *SCENE,
+    *SETUP,
+    column(
+        "side",
+        pa.string(),
+        "x, y or grooves",
+        "axis along which the sides of the pillars run, or edges along the grooves within them",
+    ),
+    column("realisations", pa.int32(), "1", "realisations k that are averaged over"),
+]
+
+#: One row per scene, side and distance.
+CORRELATION = pa.schema(
+    [
+        *_SIDE,
+        column("r", pa.int32(), "blocks", "distance along the side from its middle"),
+        column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
+        column("ci_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "1", "upper limit"),
+        column("bias", pa.float64(), "1", "jackknife estimate of its bias; not subtracted"),
+        column("residual", pa.float64(), "1", "c(r) - A exp(-r/l_c); NaN beyond the fit"),
+        column("residual_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("residual_high", pa.float64(), "1", "upper limit"),
+        column("samples", pa.int32(), "1", "sides averaged over: realisations × pillars × 2"),
+    ]
+)
+
+#: One row per scene and side; lengths of 0.1 stand for no correlation.
+CORRELATION_LENGTH = pa.schema(
+    [
+        *_SIDE,
+        column("l_c", pa.float64(), "blocks", "weighted least-squares fit of exp(-r/l_c)"),
+        column("ci_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("ci_high", pa.float64(), "blocks", "upper limit"),
+        column("bias", pa.float64(), "blocks", "jackknife estimate of its bias; not subtracted"),
+        column(
+            "r_last",
+            pa.int32(),
+            "blocks",
+            "end of the fits, which begin at r = 1: 6 for all sides, n_p/3 on shorter ones",
+        ),
+        column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
+        column("integral", pa.float64(), "blocks", "length with the same sum of exp(-r/l) as c(r)"),
+        column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("integral_high", pa.float64(), "blocks", "upper limit"),
+        column("tail", pa.float64(), "blocks", "l_c in A exp(-r/l_c); NaN if r_last < 3"),
+        column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
+        column("tail_high", pa.float64(), "blocks", "upper limit"),
+        column("amplitude", pa.float64(), "1", "A of that fit"),
+        column("amplitude_low", pa.float64(), "1", "lower limit of its 95 % interval"),
+        column("amplitude_high", pa.float64(), "1", "upper limit"),
+        column(
+            "design_effect",
+            pa.float64(),
+            "1",
+            "variance of c(r) over that if the pillars of a realisation were independent",
+        ),
+    ]
+)
+
+#: A batch of realisations also holds what the figures draw.
+BATCH = pa.schema(
+    [
+        *SUMMARY,
+        column("force", pa.list_(pa.float64()), "N", "|ΣF_s|, one per sample from t = 0"),
+        column(
+            "detachments",
+            pa.list_(pa.int32()),
+            "blocks",
+            "blocks that detached for the first time since the sample before",
+        ),
+        column(
+            "switches",
+            pa.list_(pa.int32()),
+            "blocks",
+            "switches from rest to sliding since the sample before",
+        ),
+        column(
+            "t_det",
+            pa.list_(pa.float64()),
+            "s",
+            "first detachment time of each block, row by row from y = 0; NaN where none",
+        ),
+        column("normal_force", pa.float64(), "N", "P l² N²"),
+        column(
+            "contact",
+            pa.list_(pa.bool_()),
+            "1",
+            "whether each block is in contact, row by row from y = 0",
+        ),
+    ]
+)
+
+#: What a batch holds beside that where snapshots were asked for.
+SNAPSHOTS = pa.schema(
+    [
+        column("snapshot_times", pa.list_(pa.float64()), "s", "when displacements were kept"),
+        column(
+            "snapshots",
+            pa.list_(pa.float64()),
+            "m",
+            "displacements at these times, one after another: along x row by row from y = 0, then "
+            "along y",
+        ),
+    ]
+)
