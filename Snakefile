@@ -15,46 +15,34 @@ container: "container/springblock.sif"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/drawn.smk"
-include: "workflow/rules/running.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/correlation.smk"
-include: "workflow/rules/figures.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/claims.smk"
-include: "workflow/rules/beyond.smk"
+include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/origins.smk"
 
 
 onstart:
-    refuse_orphans()
-    # Without a limit on jobs per second: Snakemake would look for free places once a second for each job
-    # that has ended, and after some hundred short ones do little else.
-    workflow.scheduler.job_rate_limiter = None
+    begin()
 
 
 rule all:
     default_target: True
     input:
-        rules.aggregate.input,
-        CORRELATIONS,
+        rules.aggregate.output,
+        rules.correlations.input,
         rules.claims.output,
-        expand(
-            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[*filter(is_part_of_all, FIGURES), *sweeps("")],
-            suffix=["pdf", "png"],
-        ),
-        rules.accuracy.output if config["accuracy"] else [],
+        rules.figures.input,
         rules.report.output,
+        rules.accuracy.output if config["accuracy"] else [],
+        rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"
 
 
 onsuccess:
-    from springblock.study import audit
-
-    audit.write_manifest(Path(RESULTS), config, Path(workflow.basedir, "environment.lock"))
     page = Path(RESULTS, "report.html").resolve()
     if page.exists():
         print(

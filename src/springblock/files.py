@@ -1,8 +1,7 @@
-"""Files that are whole or absent, and that say themselves whether they still are."""
+"""Files that are whole or absent, and whether they still are what was written."""
 
 import contextlib
 import hashlib
-import os
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,7 +18,6 @@ MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it a
 _MARK = b"springblock-sha256:"
 #: Stands once in content to be sealed, where the digest of all of it goes.
 BLANK = _MARK + 64 * b"0"
-_TAIL = 2**22  #: bytes at the end of a file among which its seal is looked for
 
 
 @contextlib.contextmanager
@@ -34,16 +32,13 @@ def whole_file(path: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
-def write_sealed(path: Path, content: bytes | memoryview) -> None:
+def write_sealed(path: Path, content: bytes) -> None:
     """Write content whole or not at all, with the digest of all of it in place of `BLANK`.
 
-    Parquet has room for it in its metadata, a zip archive in its comment, and after the numbers
-    of a .npy nobody reads on.
+    Checksums of Parquet's own cover its pages, not the footer that says where these are.
     """
-    whole = bytearray(content)
-    whole[_place(whole)] = hashlib.sha256(whole).hexdigest().encode()
     with whole_file(path) as partial:
-        partial.write_bytes(whole)
+        partial.write_bytes(content.replace(BLANK, _seal(content)))
 
 
 def read_sealed(path: Path) -> bytes:
@@ -54,38 +49,21 @@ def read_sealed(path: Path) -> bytes:
     ValueError
         Where a single bit is not as it was written, naming the command that mends it.
     """
-    whole = path.read_bytes()
-    if not whole:
-        raise ValueError(f"{path} is empty; {MENDING}")
-    try:
-        place = _place(whole)
-    except ValueError:
+    content = path.read_bytes()
+    start = content.rfind(_MARK)
+    if start < 0:
         raise ValueError(
-            f"{path} is no whole table (Parquet), prelude or mask of springblock's: it has no "
-            f"checksum, like files of other or older origin and those cut short; {MENDING}"
-        ) from None
-    blank, view = BLANK[len(_MARK) :], memoryview(whole)
-    digest = hashlib.sha256(view[: place.start])
-    digest.update(blank)
-    digest.update(view[place.stop :])
-    if digest.hexdigest().encode() != whole[place]:
+            f"{path} is no whole table of springblock's: it has no checksum, like files of other "
+            f"origin and those cut short; {MENDING}"
+        )
+    end = start + len(BLANK)
+    if _seal(content[:start] + BLANK + content[end:]) != content[start:end]:
         raise ValueError(f"{path} is damaged: its content does not fit its checksum; {MENDING}")
-    return whole
+    return content
 
 
-def seal(path: Path) -> str:
-    """What a sealed file says that its digest is, 16 hexadecimal digits; '' where it says none."""
-    with path.open("rb") as file:
-        size = file.seek(0, os.SEEK_END)
-        file.seek(max(0, size - _TAIL))
-        end = file.read()
-    return end[_place(end)][:16].decode("ascii", "replace") if _MARK in end else ""
-
-
-def _place(content: bytes | bytearray) -> slice:
-    """Where the digest stands; raises ValueError where there is none."""
-    start = content.rindex(_MARK) + len(_MARK)
-    return slice(start, start + len(BLANK) - len(_MARK))
+def _seal(content: bytes) -> bytes:
+    return _MARK + hashlib.sha256(content).hexdigest().encode()
 
 
 #: Bytes that a packed file may become: the largest prelude has six states of 4096 x 4096 blocks.

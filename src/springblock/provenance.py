@@ -1,79 +1,84 @@
-"""Digests of the package's own sources and of configurations: what made a result."""
+"""What a result was made with: the version of the code, and a digest of the configuration."""
 
+import ast
 import hashlib
 import json
-import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-_PACKAGE = "springblock"
 _ROOT = Path(__file__).parent
-_TEMPLATES = (".html", ".css", ".js")
+_PHYSICS = ("model", "solver", "simulation")
 
-
-def _file(module: str) -> Path | None:
-    """Source file of a module of this package; None if there is no such module."""
-    path = _ROOT.joinpath(*module.split(".")[1:])
-    for candidate in (path.with_suffix(".py"), path / "__init__.py"):
-        if candidate.is_file():
-            return candidate
-    return None
-
-
-#: An import of this package, at the top of a line or inside a function; `ast` would take 0.2 s.
-_IMPORT = re.compile(
-    rf"""
-    ^[ \t]* (?: from [ ] ({_PACKAGE} [.\w]*) [ ] import [ ] ( \( [^)]* \) | [^#\n]* )
-             | import [ ] ({_PACKAGE} [.\w]*) )
-    """,
-    re.MULTILINE | re.VERBOSE,
-)
+#: Folders of the package that decide what each step of the study makes. Reading, writing and the
+#: command line are not among them: they pass numbers on as they are.
+STEPS: dict[str, tuple[str, ...]] = {
+    "compile": ("solver",),
+    "mask": ("model",),
+    "simulate": _PHYSICS,
+    "analyse": ("model", "analysis"),
+    "accuracy": (*_PHYSICS, "analysis", "accuracy"),
+    "claims": ("model", "analysis", "claims"),
+    "beyond": ("model", "analysis", "beyond"),
+    "plot": ("model", "analysis", "plotting"),
+    "report": ("model", "analysis", "plotting", "report"),
+}
 
 
 @cache
-def imports(file: Path) -> frozenset[str]:
-    """Names of this package that a source file imports, at its top or inside a function."""
-    names: set[str] = set()
-    for home, members, module in _IMPORT.findall(file.read_text()):
-        names.add(module or home)
-        names.update(f"{home}.{member}" for member in re.findall(r"(\w+)(?: as \w+)?", members))
-    return frozenset(names)
+def digest(step: str) -> str:
+    """Return the digest of the code that a step runs; 16 hexadecimal digits.
 
-
-def files(*modules: str) -> list[Path]:
-    """Source files of modules of this package and of all that they import from it.
-
-    To a package belong the templates beside it.
+    Comments, docstrings, layout and the wording of errors do not change it.
     """
-    found: set[Path] = set()
-    waiting = list(modules)
-    while waiting:
-        file = _file(waiting.pop())
-        if file and file not in found:
-            found.add(file)
-            if file.name == "__init__.py":
-                found.update(path for path in file.parent.iterdir() if path.suffix in _TEMPLATES)
-            waiting.extend(imports(file))
-    return sorted(found)
+    return _short("".join(map(_of_folder, STEPS[step])))
 
 
-def digest(*modules: str) -> str:
-    """Digest of the sources that these modules consist of; 16 hexadecimal digits."""
-    content = hashlib.sha256()
-    for file in files(*modules):
-        content.update(file.relative_to(_ROOT).as_posix().encode() + file.read_bytes())
-    return content.hexdigest()[:16]
+def code_version(step: str) -> str:
+    """Return the package's version with the digest of a step, as 1.0.0+1234567890abcdef."""
+    return f"{version('springblock')}+{digest(step)}"
+
+
+def same_code(one: str, other: str) -> bool:
+    """Return whether two versions have the same digest."""
+    return one.rpartition("+")[2] == other.rpartition("+")[2]
 
 
 def configuration_digest(configuration: Mapping[str, Any]) -> str:
-    """Digest of a configuration, of the study or of one batch; 16 hexadecimal digits."""
-    text = json.dumps(configuration, sort_keys=True)
+    """Return the digest of a configuration, of the study or of one batch."""
+    return _short(json.dumps(configuration, sort_keys=True))
+
+
+@cache
+def _of_folder(folder: str) -> str:
+    texts = []
+    for file in sorted((_ROOT / folder).rglob("*")):
+        if file.suffix == ".py":
+            texts += [file.name, *_skeleton(ast.parse(file.read_bytes()))]
+        elif file.suffix in (".html", ".css", ".js"):  # templates of the report
+            texts.append(file.read_text(encoding="utf-8"))
+    return _short("\n".join(texts))
+
+
+def _skeleton(node: Any) -> Iterator[str]:
+    """Yield what a syntax tree computes with: its nodes without places, docstrings and errors."""
+    if isinstance(node, list):
+        for part in node:
+            yield from _skeleton(part)
+    elif not isinstance(node, ast.AST):
+        yield repr(node)
+    elif isinstance(node, ast.Raise):
+        yield "Raise"
+    elif not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+        yield type(node).__name__
+        for field in node._fields:
+            value = getattr(node, field, None)
+            if value is not None and value != []:
+                yield field
+                yield from _skeleton(value)
+
+
+def _short(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def code_version(*modules: str) -> str:
-    """Version of the package with the digest of these modules, as 0.1.0+1234567890abcdef."""
-    return f"{version(_PACKAGE)}+{digest(*modules)}"

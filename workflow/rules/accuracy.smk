@@ -2,13 +2,10 @@
 
 from springblock.accuracy import conventions
 
-COMPILED = rules.compile.input
-
 
 rule compare_scene:
     input:
-        COMPILED,
-        made_of("steps/compare_scene", "springblock.cli.measure"),
+        rules.compile.output,
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -23,10 +20,12 @@ rule compare_scene:
     resources:
         mem_mb=600,
         runtime=20,
+    params:
+        code=code("accuracy"),
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "springblock measure --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "springblock --code {params.code} make {wildcards.comparison}-{wildcards.scene} "
         "--output {output:q} > {log:q} 2>&1"
 
 
@@ -44,8 +43,7 @@ rule compare:
 
 rule precision_table:
     input:
-        made_of("steps/precision_table", "springblock.cli.collect"),
-        tables=rules.compare.input,
+        rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
     log:
@@ -55,16 +53,17 @@ rule precision_table:
     resources:
         mem_mb=400,
         runtime=5,
+    params:
+        code=code("accuracy"),
     message:
         "Collecting errors and run times in one table"
     shell:
-        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
+        "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule production_scene:
     input:
-        COMPILED,
-        made_of("steps/production_scene", "springblock.cli.production"),
+        rules.compile.output,
     output:
         f"{RESULTS}/accuracy/production/{{scene}}.parquet",
     log:
@@ -76,16 +75,17 @@ rule production_scene:
     resources:
         mem_mb=800,
         runtime=30,
+    params:
+        code=code("accuracy"),
     message:
         "Measuring errors of ensembles at full size: {wildcards.scene}"
     shell:
-        "springblock production --scene {wildcards.scene} --output {output:q} > {log:q} 2>&1"
+        "springblock --code {params.code} make production-{wildcards.scene} --output {output:q} > {log:q} 2>&1"
 
 
 rule production_table:
     input:
-        made_of("steps/production_table", "springblock.cli.collect"),
-        tables=expand(rules.production_scene.output, scene=conventions.SCENES),
+        expand(rules.production_scene.output, scene=conventions.SCENES),
     output:
         f"{RESULTS}/tables/production.parquet",
     log:
@@ -95,29 +95,17 @@ rule production_table:
     resources:
         mem_mb=400,
         runtime=5,
+    params:
+        code=code("accuracy"),
     message:
         "Collecting errors at full size in one table"
     shell:
-        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
-
-
-rule production:
-    input:
-        rules.production_table.output,
-        expand(
-            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[name for name, figure in FIGURES.items() if figure.upon_request],
-            suffix=["pdf", "png"],
-        ),
-    localrule: True
-    message:
-        "Errors at full size are measured and drawn"
+        "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule stability_table:
     input:
-        COMPILED,
-        made_of("steps/stability_table", "springblock.cli.stability"),
+        rules.compile.output,
     output:
         f"{RESULTS}/tables/stability.parquet",
     log:
@@ -127,25 +115,20 @@ rule stability_table:
     resources:
         mem_mb=1000,
         runtime=10,
+    params:
+        code=code("accuracy"),
     message:
         "Trying stiff and extreme cases"
     shell:
-        "springblock try --output {output:q} > {log:q} 2>&1"
-
-
-#: The table of errors at full size belongs to the page once it is there.
-AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).exists()]
+        "springblock --code {params.code} make stability --output {output:q} > {log:q} 2>&1"
 
 
 rule accuracy:
     input:
-        made_of("steps/accuracy", "springblock.cli.accuracy"),
-        tables=[
-            rules.precision_table.output,
-            rules.stability_table.output,
-            rules.aggregate.input,
-        ],
-        production=AT_FULL_SIZE,
+        rules.precision_table.output,
+        rules.stability_table.output,
+        rules.aggregate.output,
+        rules.production_table.output if config["production"] else [],
     output:
         f"{RESULTS}/accuracy.md",
     log:
@@ -156,9 +139,9 @@ rule accuracy:
         mem_mb=400,
         runtime=5,
     params:
-        production="--production" if AT_FULL_SIZE else "",
+        code=code("accuracy"),
     message:
         "Writing down what to trust"
     shell:
-        "springblock accuracy {input.tables:q} {params.production} {input.production:q} "
-        "--output {output:q} > {log:q} 2>&1"
+        "springblock --code {params.code} make accuracy {input:q} --output {output:q} "
+        "> {log:q} 2>&1"

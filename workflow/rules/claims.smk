@@ -1,43 +1,19 @@
-# What becomes of the paper's statements.
+# What becomes of the paper's statements, and what was learnt beyond them.
 
-#: Groups whose realisations and preludes claims rest on, by part; those of the parts that are
-#: simulated upon request count once that has been done.
-CLAIM_GROUPS = {
-    "": ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"],
-    "beyond/": ["loading"],
-    "more/": ["repetitions", "groove_lengths", "one_level"],
-}
-CLAIM_PARTS = ["", *filter(was_simulated, ["beyond/", "more/"])]
-CLAIM_ENSEMBLES = ensembles(
-    CLAIM_PARTS[-1], chain.from_iterable(CLAIM_GROUPS[part] for part in CLAIM_PARTS)
-)
-#: Tables that claims rest on, by the option that takes them.
-CLAIM_TABLES = {
-    table.replace("_", "-"): [
-        file for part in CLAIM_PARTS for file in tables_of(part) if Path(file).stem == table
-    ]
-    for table in ("realisations", "correlation", "correlation_length")
-}
-if config["accuracy"]:
-    CLAIM_TABLES["precision"] = rules.precision_table.output
-
-
-rule more:
-    input:
-        lambda wildcards: tables_of("more/"),
-    localrule: True
-    message:
-        f"{RESULTS}/tables/more is what statements rest on, too, from the next `snakemake` on"
+#: Groups whose realisations and preludes claims rest on.
+GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
+GROUPS_CLAIMED += ["loading", "repetitions", "groove_lengths", "one_level"]
 
 
 rule claims:
     input:
-        *CLAIM_TABLES.values(),
-        made_of("steps/claims", "springblock.cli.claims", configuration=CONFIGURATION),
-        batches=batches(CLAIM_ENSEMBLES),
+        batches=batches(ensembles(GROUPS_CLAIMED)),
+        realisations=rules.aggregate.output,
+        correlations=rules.correlations.input,
+        precision=rules.precision_table.output if config["accuracy"] else [],
         preludes=[
             f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
-            for ensemble in CLAIM_ENSEMBLES
+            for ensemble in ensembles(GROUPS_CLAIMED)
             if not ensemble.scene.varied
         ],
     output:
@@ -51,18 +27,38 @@ rule claims:
         mem_mb=1500,
         runtime=10,
     params:
+        code=code("claims"),
         configuration=CONFIGURATION,
+        tables=lambda wildcards, input: " ".join(
+            f"--{Path(table).stem.replace('_', '-')} {quote(table)}"
+            for table in chain(input.realisations, input.correlations, input.precision)
+        ),
         preludes=lambda wildcards, input: " ".join(
             f"--prelude {quote(file)}" for file in input.preludes
-        ),
-        tables=" ".join(
-            f"--{option} {quote(table)}"
-            for option, tables in CLAIM_TABLES.items()
-            for table in tables
         ),
     message:
         "Testing the paper's statements"
     shell:
-        "springblock claims {input.batches:q} {params.tables} {params.preludes} "
-        "--configuration {params.configuration} --output {output.table:q} --page {output.page:q} "
-        "> {log:q} 2>&1"
+        "springblock --code {params.code} claims {input.batches:q} {params.tables} "
+        "{params.preludes} --configuration {params.configuration} --output {output.table:q} "
+        "--page {output.page:q} > {log:q} 2>&1"
+
+
+rule beyond:
+    input:
+        batches(ensembles([*GROUPS_CLAIMED, *GROUPS_BEYOND])),
+    output:
+        f"{RESULTS}/beyond.md",
+    log:
+        f"{RESULTS}/logs/beyond.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/beyond.tsv"
+    resources:
+        mem_mb=2500,
+        runtime=10,
+    params:
+        code=code("beyond"),
+    message:
+        "Answering questions beyond the paper"
+    shell:
+        "springblock --code {params.code} make beyond {input:q} --output {output:q} > {log:q} 2>&1"

@@ -1,163 +1,128 @@
+# The configuration, checked and expanded, and what several steps ask of it.
+
 import os
 import re
+import shutil
+import subprocess
 import sys
-from itertools import accumulate, chain
-from operator import or_
+from itertools import chain
 from pathlib import Path
 from shlex import quote
 
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import Material, provenance as sources
-from springblock.io import origin
-from springblock.study import configuration as study, cost
-from springblock.simulation.setup import Setup
+from springblock import Material
+from springblock.provenance import configuration_digest, digest
+from springblock.study import configuration as study
+from springblock.study import cost, record
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
 
 config = study.completed(config)
+RESULTS = str(
+    Path(config.get("results", ""))
+)  # results/ would be a folder with two slashes after it
 try:
     study.check(config, SCHEMA)
+    if workflow.is_main_process:
+        record.refuse_unknown(Path(RESULTS), config)
 except (TypeError, ValueError) as error:
-    raise WorkflowError(f"The configuration cannot be used: {error}.") from None
+    raise WorkflowError(f"The study cannot be run: {error}.") from None
 
-RESULTS = str(Path(config["results"]))  # results/ would be a folder with two slashes after it
-SETUP = Setup(
-    Material(**config["material"]),
-    **{key: config[key] for key in ("integrator", "step", "sample_interval")},
-)
-INTEGRATORS = SCHEMA["properties"]["integrator"]["enum"]
-CORRELATIONS = expand(
-    f"{RESULTS}/tables/{{table}}.parquet", table=["correlation", "correlation_length"]
-)
-#: Groups of scenes, each a list of ensembles.
+SETUP = study.setup(config)
+CONFIGURATION = configuration_digest(config)
+#: Groups of scenes, each a list of ensembles, and the ensemble in each folder of realisations.
 ENSEMBLES = study.ensembles(config)
-#: Groups of each part of the study, by the folder of its tables.
-PARTS = {"": config["scenes"], "beyond/": config["beyond"], "more/": config["more"]}
-#: Groups that it may draw on: its own, and those of the parts before it.
-REACH = dict(zip(PARTS, accumulate(PARTS.values(), or_), strict=True))
-#: The ensemble in each folder of realisations.
-ENSEMBLE = {
-    part: {each.scene.folder: each for group in groups for each in ENSEMBLES[group]}
-    for part, groups in REACH.items()
-}
-EVERY = ENSEMBLE["more/"]
-#: Cuts of measured surfaces by the name of the mask that they make.
-CUTS = {
-    ensemble.scene.mask.name: ensemble.scene.mask.cut
-    for ensemble in EVERY.values()
-    if ensemble.scene.mask and ensemble.scene.mask.cut
-}
-
-CONFIGURATION = sources.configuration_digest(config)
-#: Code that realisations are computed with.
-SIMULATING = sources.digest("springblock.cli.simulate")
-#: What is made of code and conditions whose digests these files have in their names, by the file.
-ORIGINS = {}
+ENSEMBLE = {ensemble.scene.folder: ensemble for ensemble in chain.from_iterable(ENSEMBLES.values())}
 
 # Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not; on
 # a cluster that is the same path on every node, on a file system that they share.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), *os.get_exec_path()]))
 
 
-def made_of(name, *modules, code=None, **conditions):
-    """File whose name changes with the code of these modules and with conditions."""
-    code = code or sources.digest(*modules)
-    file = origin.origin(RESULTS, name, code, conditions).as_posix()
-    ORIGINS[file] = conditions
-    return file
+wildcard_constraints:
+    scene="|".join(map(re.escape, ENSEMBLE)),
 
 
-SCENE_ORIGIN = {
-    folder: made_of(folder, code=SIMULATING, **study.conditions(config, ensemble))
-    for folder, ensemble in EVERY.items()
-}
+def code(step):
+    """The digest of the code of a step: jobs run again where it changes."""
+    return lambda wildcards: digest(step)
+
+
+def ensembles(groups):
+    """Ensembles of groups of scenes, as far as the study has these, each once."""
+    return list(dict.fromkeys(chain.from_iterable(ENSEMBLES.get(group, []) for group in groups)))
 
 
 def batches(members):
-    """Files that hold the realisations of these ensembles, a thousand in a folder."""
+    """Files that hold the realisations of these ensembles."""
     return [
-        f"{RESULTS}/realisations/{ensemble.scene.folder}/{further(i)}"
-        f"seeds-{batch[0]}-{batch[-1]}.parquet"
+        f"{RESULTS}/realisations/{ensemble.scene.folder}/batch-{i}.parquet"
         for ensemble in members
-        for i, batch in enumerate(ensemble.batches(config["realisations_per_job"]))
+        for i in ensemble.batches(config["realisations_per_job"])
     ]
 
 
-def further(i):
-    """Folder within a scene's own for the batch of this number; none for the first thousand."""
-    return f"more-{i // 1000}/" if i >= 1000 else ""
-
-
-def ensembles(part, groups=None):
-    """Ensembles of a part of the study, each once: of its own groups, or of these."""
-    members = chain.from_iterable(ENSEMBLES.get(group, []) for group in groups or PARTS[part])
-    return list(dict.fromkeys(ENSEMBLE[part][each.scene.folder] for each in members))
-
-
-def tables_of(part):
-    """Tables of a part, which must hold scenes; of correlations where some of these have sides."""
-    if not ensembles(part):
-        raise WorkflowError(
-            f"{part.rstrip('/')} holds no scenes; config/config.yaml has some to begin with."
-        )
-    tables = ["realisations"]
-    if any(ensemble.scene.sides for ensemble in ensembles(part)):
-        tables += ["correlation", "correlation_length"]
-    return [f"{RESULTS}/tables/{part}{table}.parquet" for table in tables]
-
-
-def was_simulated(part):
-    """Whether a part that is simulated upon request has been."""
-    return bool(ensembles(part)) and Path(tables_of(part)[0]).exists()
-
-
-def furthest(groups):
-    """The part that has simulated most of these groups, or must."""
-    return "more/" if was_simulated("more/") or set(groups) & set(PARTS["more/"]) else "beyond/"
+def seeds(wildcards):
+    """Seeds of a batch."""
+    return ENSEMBLE[wildcards.scene].batches(config["realisations_per_job"])[int(wildcards.batch)]
 
 
 def scene(wildcards):
     """The scene of a job, as options of its command."""
-    return EVERY[wildcards.scene].scene.arguments
+    return ENSEMBLE[wildcards.scene].scene.arguments
 
 
 def own_files(wildcards):
     """Masks and coefficients that a scene is read from."""
-    return [str(file) for file in EVERY[wildcards.scene].scene.files.values()]
+    return [str(file) for file in ENSEMBLE[wildcards.scene].scene.files.values()]
 
 
 def duration(wildcards):
-    seconds = EVERY[wildcards.scene].duration
+    seconds = ENSEMBLE[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
 
 
-def seeds_of(wildcards):
-    """Number of realisations of a job; a prelude counts as one."""
-    return int(wildcards.get("last", 0)) - int(wildcards.get("first", 0)) + 1
+def runs_of(wildcards):
+    """Number of runs of a job; a prelude counts as one."""
+    return len(seeds(wildcards)) if "batch" in wildcards.keys() else 1
 
 
 def memory(wildcards, attempt):
     """MB; more, if that was not enough."""
-    return attempt * cost.memory(EVERY[wildcards.scene].scene, seeds_of(wildcards))
+    return attempt * cost.memory(ENSEMBLE[wildcards.scene].scene, runs_of(wildcards))
 
 
 def minutes(wildcards, attempt):
     """Minutes; more, if that was not enough."""
-    ensemble = EVERY[wildcards.scene]
+    ensemble = ENSEMBLE[wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
-    return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, seeds_of(wildcards))
+    return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, runs_of(wildcards))
 
 
-def correlations(table, part):
-    """Files that hold a table of correlations for each ensemble of a part that has sides."""
-    scenes = [ensemble.scene for ensemble in ensembles(part) if ensemble.scene.sides]
-    return [f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet" for scene in scenes]
+def begin():
+    """Write down what results are made with, before the first job; dry runs do not come here."""
+    refuse_orphans()
+    try:
+        record.begin(Path(RESULTS), config, touched=workflow.touch)
+    except (OSError, ValueError) as error:
+        raise WorkflowError(f"The study cannot be run: {error}.") from None
 
 
-def there_already(*files):
-    """Those of these results that have been made, which belongs to no step of the study itself."""
-    results = [Path(RESULTS, file) for file in files]
-    return [str(file) for file in results if file.exists()]
+def refuse_orphans():
+    """Stop while Slurm holds jobs that a killed run of this folder has left; both would write the same files."""
+    if not shutil.which("squeue"):
+        return
+    listed = subprocess.run(
+        ["squeue", "--me", "--noheader", "--format=%j|%Z"], capture_output=True, text=True
+    )
+    jobs = [line.split("|", 1) for line in listed.stdout.splitlines()]
+    names = {name for name, folder in jobs if Path(folder) == Path.cwd()}
+    orphans = sorted(name for name in names if name.startswith("springblock_"))
+    if orphans:
+        raise WorkflowError(
+            "Slurm still holds jobs of a run of this folder that was killed. "
+            f"Wait for their end, or cancel them: scancel --name={','.join(orphans)}"
+        )

@@ -1,61 +1,66 @@
-rule correlation_scene:
+# Correlations of detachment times along the sides of pillars, scene by scene and in two tables.
+
+#: Scenes whose pillars have sides.
+WITH_SIDES = [each.scene.folder for each in ENSEMBLE.values() if each.scene.sides]
+
+
+rule correlation:
     input:
-        made_of("steps/correlation", "springblock.cli.correlation"),
-        batches=lambda wildcards: batches([ENSEMBLE[wildcards.part][wildcards.scene]]),
+        lambda wildcards: batches([ENSEMBLE[wildcards.scene]]),
     output:
-        correlation=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation.parquet",
-        length=f"{RESULTS}/correlations/{{part}}{{scene}}/correlation_length.parquet",
+        correlation=f"{RESULTS}/correlations/{{scene}}/correlation.parquet",
+        length=f"{RESULTS}/correlations/{{scene}}/correlation_length.parquet",
     log:
-        f"{RESULTS}/logs/{{part}}{{scene}}/correlation.log",
+        f"{RESULTS}/logs/{{scene}}/correlation.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{part}}{{scene}}/correlation.tsv"
+        f"{RESULTS}/benchmarks/{{scene}}/correlation.tsv"
     group:
         "correlations"
     resources:
         mem_mb=1200,
         runtime=5,
+    params:
+        code=code("analyse"),
     message:
-        "Correlating detachment times along the sides of {wildcards.part}{wildcards.scene}"
+        "Correlating detachment times along the sides of {wildcards.scene}"
     shell:
-        "springblock correlation {input.batches:q} --output-correlation {output.correlation:q} "
-        "--output-length {output.length:q} > {log:q} 2>&1"
-
-
-rule correlation:
-    input:
-        [correlations(table, "") for table in ("correlation", "correlation_length")],
-    localrule: True
-    message:
-        "Detachment times are correlated wherever pillars have sides"
+        "springblock --code {params.code} correlation {input:q} "
+        "--output-correlation {output.correlation:q} --output-length {output.length:q} "
+        "> {log:q} 2>&1"
 
 
 rule correlations_table:
     input:
-        made_of("steps/correlations", "springblock.cli.collect", configuration=CONFIGURATION),
-        tables=lambda wildcards: correlations(wildcards.table, wildcards.part),
+        lambda wildcards: [
+            f"{RESULTS}/correlations/{scene}/{wildcards.table}.parquet" for scene in WITH_SIDES
+        ],
     output:
-        f"{RESULTS}/tables/{{part}}{{table}}.parquet",
+        f"{RESULTS}/tables/{{table}}.parquet",
     log:
-        f"{RESULTS}/logs/{{part}}{{table}}.log",
+        f"{RESULTS}/logs/{{table}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{part}}{{table}}.tsv"
+        f"{RESULTS}/benchmarks/{{table}}.tsv"
     wildcard_constraints:
         table="correlation|correlation_length",
     resources:
         mem_mb=400,
         runtime=5,
     params:
+        code=code("analyse"),
         configuration=CONFIGURATION,
     message:
-        "Collecting correlations in one table: {wildcards.part}{wildcards.table}"
+        "Collecting correlations in one table: {wildcards.table}"
     shell:
-        "springblock collect {input.tables:q} --configuration {params.configuration} "
+        "springblock --code {params.code} collect {input:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
 
 
 rule correlations:
     input:
-        CORRELATIONS,
+        expand(
+            rules.correlations_table.output,
+            table=["correlation", "correlation_length"] if WITH_SIDES else [],
+        ),
     localrule: True
     message:
         "All correlations are in two tables"

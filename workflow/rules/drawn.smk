@@ -1,70 +1,61 @@
-# What is drawn: figures and sweeps, what each needs, and what it shows.
+# What is drawn: figures, sweeps and films, what each needs, and what its caption says.
 
 from springblock.plotting import declarations
+from springblock.plotting.declaration import having
 
-#: Those that figures are drawn from, and their scenes.
-DRAWN = study.for_figures(ENSEMBLES)
-SCENES = {group: [ensemble.scene for ensemble in members] for group, members in DRAWN.items()}
-#: What figures declare whose groups of scenes the configuration simulates.
-FIGURES = {name: figure for name, figure in declarations().items() if figure.is_part_of(SCENES)}
-#: Observables over an axis of some groups, as far as the configuration simulates these.
+#: Groups that questions beyond the paper look at.
+GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter", "variance"]
+GROUPS_BEYOND = [group for group in GROUPS_BEYOND if ENSEMBLES.get(group)]
+#: What figures declare whose groups of scenes and tables the study has.
+PAPERS = study.for_figures(ENSEMBLES)
+SCENES = {group: [each.scene for each in members] for group, members in PAPERS.items()}
+FIGURES = {
+    name: figure
+    for name, figure in declarations().items()
+    if figure.is_part_of(SCENES)
+    and (figure.category != "Accuracy" or config["accuracy"])
+    and (figure.category != "Beyond" or GROUPS_BEYOND)
+    and (not figure.upon_request or config["production"])
+}
+#: Observables over an axis of some groups that the study has.
 SWEEPS = {
-    name: sweep
+    f"sweep_{name}": sweep
     for name, sweep in config["figures"].get("sweeps", {}).items()
     if all(ENSEMBLES.get(group) for group in sweep["groups"])
 }
-#: Those that the study draws by itself.
-CATEGORIES = ["Figures", "Supplement"] + ["Accuracy"] * config["accuracy"]
-
-
-def part_of(figure):
-    """The part of the study that a figure takes its ensembles from."""
-    declared = FIGURES[figure]
-    return furthest(declared.source.groups) if declared.category == "Beyond" else ""
+#: What is filmed, by group: the ensemble on the surface that a figure shows.
+FILMS = {
+    group: ENSEMBLE[scene.folder]
+    for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
+    for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
+}
 
 
 def needed(figure):
     """Files that a figure is drawn from; there must be surfaces with the lengths that it shows."""
-    lengths, part = config["figures"].get(figure, {}), part_of(figure)
-    shown = lengths.items() if FIGURES[figure].source.groups else ()
-    scenes = chain.from_iterable(SCENES[group] for group in FIGURES[figure].source.groups)
+    lengths, source = config["figures"].get(figure, {}), FIGURES[figure].source
+    shown = lengths.items() if source.groups else ()
+    scenes = chain.from_iterable(SCENES[group] for group in source.groups)
     if shown and not any(shown <= scene.lengths.items() for scene in scenes):
         wanted = ", ".join(f"{name} = {length}" for name, length in shown)
         raise WorkflowError(
-            f"figures.{figure} shows {wanted}, which no scene of "
-            f"{' or '.join(FIGURES[figure].source.groups)} has."
+            f"figures.{figure}: no scene of {' or '.join(source.groups)} has {wanted}."
         )
-    for table, scene, number in FIGURES[figure].source.needs(SCENES, lengths):
+    for table, scene, number in source.needs(SCENES, lengths):
         if scene is None:
             yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
-            yield from batches([ENSEMBLE[part][scene.folder]])[:number]
+            yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:
-            yield f"{RESULTS}/correlations/{part}{scene.folder}/{table}.parquet"
+            yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
+
+
+def options_of(figure):
+    """What the command of a figure takes beside files."""
+    return FIGURES[figure].source.options(config["n_blocks"], config["figures"].get(figure, {}))
 
 
 def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
-    lengths, part = config["figures"].get(figure, {}), part_of(figure)
-    members = {
-        group: [ENSEMBLE[part][each.scene.folder] for each in drawn]
-        for group, drawn in DRAWN.items()
-        if group in REACH[part]
-    }
-    return FIGURES[figure].caption_in(members, lengths, Material(**config["material"]))
-
-
-def sweeps(part):
-    """Sweeps that belong to a part of the study: over groups of the study itself, or beyond it."""
-    own = set(config["scenes"])
-    return [
-        f"sweep_{name}" for name in SWEEPS if (set(SWEEPS[name]["groups"]) <= own) == (not part)
-    ]
-
-
-def is_part_of_all(figure):
-    """Whether `snakemake` alone draws a figure; what is upon request, once its table is there."""
-    declared = FIGURES[figure]
-    if declared.category not in CATEGORIES:
-        return False
-    return not declared.upon_request or all(Path(file).exists() for file in needed(figure))
+    lengths, material = config["figures"].get(figure, {}), Material(**config["material"])
+    return FIGURES[figure].caption_in(PAPERS, lengths, material)

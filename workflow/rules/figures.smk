@@ -1,4 +1,4 @@
-# A rule for each figure, from what its module declares.
+# A rule for each figure, from what its module declares, and for each sweep of the configuration.
 
 for figure, declared in FIGURES.items():
 
@@ -6,24 +6,10 @@ for figure, declared in FIGURES.items():
         name:
             figure
         input:
-            made_of(
-                f"figures/{figure}",
-                "springblock.cli.figure",
-                f"springblock.plotting.{figure}",
-                options=declared.source.options(
-                    config["n_blocks"], config["figures"].get(figure, {})
-                ),
-            ),
-            data=lambda wildcards, figure=figure: list(needed(figure)),
+            lambda wildcards, figure=figure: list(needed(figure)),
         output:
             pdf=f"{RESULTS}/figures/{figure}.pdf",
-            png=report(
-                f"{RESULTS}/figures/{figure}.png",
-                caption="../report/caption.rst",
-                category=declared.category,
-                # A second label with two values would make the report a blank page.
-                labels={"figure": f"{figure.removeprefix('figure_')}: {declared.title}"},
-            ),
+            png=f"{RESULTS}/figures/{figure}.png",
         log:
             f"{RESULTS}/logs/{figure}.log",
         benchmark:
@@ -34,48 +20,54 @@ for figure, declared in FIGURES.items():
             mem_mb=1200,
             runtime=5,
         params:
+            code=code("plot"),
             figure=figure,
-            options=declared.source.options(config["n_blocks"], config["figures"].get(figure, {})),
+            options=options_of(figure),
             caption=lambda wildcards, figure=figure: caption(figure),
         message:
             f"Drawing {figure}: {declared.title}"
         shell:
-            "springblock figure {params.figure} {params.options} {input.data:q} "
+            "springblock --code {params.code} figure {params.figure} {params.options} {input:q} "
             "--caption {params.caption:q} --output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
 
 
-# Sweeps: observables over an axis, as the configuration names them.
 for name, sweep in SWEEPS.items():
 
     rule:
         name:
-            f"sweep_{name}"
+            name
         input:
-            made_of(f"figures/sweep_{name}", "springblock.plotting.runs.sweep", **sweep),
-            batches=lambda wildcards, groups=sweep["groups"]: batches(
-                ensembles(furthest(groups), groups)
-            ),
+            batches(ensembles(sweep["groups"])),
         output:
-            pdf=f"{RESULTS}/figures/sweep_{name}.pdf",
-            png=report(
-                f"{RESULTS}/figures/sweep_{name}.png",
-                category="Sweeps",
-                labels={"figure": f"{name}: over {sweep['over']}"},
-            ),
+            pdf=f"{RESULTS}/figures/{name}.pdf",
+            png=f"{RESULTS}/figures/{name}.png",
         log:
-            f"{RESULTS}/logs/sweep_{name}.log",
+            f"{RESULTS}/logs/{name}.log",
         benchmark:
-            f"{RESULTS}/benchmarks/sweep_{name}.tsv"
+            f"{RESULTS}/benchmarks/{name}.tsv"
         group:
             "figures"
         resources:
             mem_mb=1200,
             runtime=5,
         params:
+            code=code("plot"),
             over=sweep["over"],
             of=" ".join(f"--of {observable}" for observable in sweep.get("of", [])),
         message:
-            f"Drawing sweep_{name}: over {sweep['over']}"
+            f"Drawing {name}: over {sweep['over']}"
         shell:
-            "springblock plot {input.batches:q} --over {params.over} {params.of} "
+            "springblock --code {params.code} plot {input:q} --over {params.over} {params.of} "
             "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
+
+
+rule figures:
+    input:
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
+            figure=[*FIGURES, *SWEEPS],
+            suffix=["pdf", "png"],
+        ),
+    localrule: True
+    message:
+        f"All figures are in {RESULTS}/figures"

@@ -9,45 +9,42 @@ HOW = " ".join(
         *(f"--material {name}={value}" for name, value in config["material"].items()),
     ]
 )
+#: Integrators and laws of friction that are compiled before any job needs them.
+SETUPS = [SETUP.vary(dict(ensemble.scene.varied)) for ensemble in ENSEMBLE.values()]
+COMPILED = {setup.integrator for setup in SETUPS}
+if config["accuracy"]:
+    COMPILED |= {"leapfrog", "rk4"}
+LAWS = {setup.material.law for setup in SETUPS}
+#: Cuts of measured surfaces by the name of the mask that they make.
+CUTS = {
+    ensemble.scene.mask.name: ensemble.scene.mask.cut
+    for ensemble in ENSEMBLE.values()
+    if ensemble.scene.mask and ensemble.scene.mask.cut
+}
 
 
-wildcard_constraints:
-    scene="|".join(map(re.escape, EVERY)),
-    part="|".join(map(re.escape, PARTS)),
-    mask="|".join(map(re.escape, CUTS)),
-
-
-rule compile_integrator:
+rule compile:
     output:
-        touch(f"{RESULTS}/compiled/{{integrator}}"),
+        touch(f"{RESULTS}/compiled"),
     log:
-        f"{RESULTS}/logs/compile-{{integrator}}.log",
+        f"{RESULTS}/logs/compile.log",
     benchmark:
-        f"{RESULTS}/benchmarks/compile-{{integrator}}.tsv"
-    wildcard_constraints:
-        integrator="[a-z0-9]+",
+        f"{RESULTS}/benchmarks/compile.tsv"
     resources:
         mem_mb=600,
         runtime=5,
     params:
-        code=sources.digest("springblock.solver"),
+        code=code("compile"),
+        integrators=" ".join(f"--integrator {name}" for name in sorted(COMPILED)),
+        laws=" ".join(f"--law {name}" for name in sorted(LAWS)),
     message:
-        "Compiling the solver: {wildcards.integrator}"
+        "Compiling the solver"
     shell:
-        "springblock compile --integrator {wildcards.integrator} > {log:q} 2>&1"
+        "springblock --code {params.code} compile {params.integrators} {params.laws} > {log:q} 2>&1"
 
 
-rule compile:
+rule mask:
     input:
-        expand(rules.compile_integrator.output, integrator=INTEGRATORS),
-    localrule: True
-    message:
-        "All integrators are compiled"
-
-
-rule mask_topography:
-    input:
-        made_of("steps/mask", "springblock.cli.mask"),
         topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
     output:
         f"{RESULTS}/surfaces/{{mask}}.npy",
@@ -55,31 +52,26 @@ rule mask_topography:
         f"{RESULTS}/logs/surfaces/{{mask}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/surfaces/{{mask}}.tsv"
+    wildcard_constraints:
+        mask="|".join(map(re.escape, CUTS)),
     resources:
         mem_mb=800,
         runtime=5,
     params:
+        code=code("mask"),
         cut=lambda wildcards: CUTS[wildcards.mask].arguments,
     message:
         "Cutting a measured surface: {wildcards.mask}"
     shell:
-        "springblock mask {input.topography:q} {params.cut} --output {output:q} > {log:q} 2>&1"
-
-
-rule mask:
-    input:
-        expand(rules.mask_topography.output, mask=CUTS),
-    localrule: True
-    message:
-        "All measured surfaces are cut"
+        "springblock --code {params.code} mask {input.topography:q} {params.cut} --output {output:q} "
+        "> {log:q} 2>&1"
 
 
 # Preludes are not temp(): made again for more seeds, they would make finished batches run again.
-rule prelude_scene:
+rule prelude:
     input:
-        f"{RESULTS}/compiled/{config['integrator']}",
+        rules.compile.output,
         own_files,
-        lambda wildcards: SCENE_ORIGIN[wildcards.scene],
     output:
         f"{RESULTS}/preludes/{{scene}}.npz",
     log:
@@ -92,90 +84,86 @@ rule prelude_scene:
         mem_mb=memory,
         runtime=minutes,
     params:
+        code=code("simulate"),
         scene=scene,
         how=HOW,
     message:
         "Loading {wildcards.scene} up to its first detachment"
     shell:
-        "springblock prelude {params.scene} {params.how} --output {output:q} > {log:q} 2>&1"
-
-
-rule prelude:
-    input:
-        expand(
-            rules.prelude_scene.output,
-            scene=[ensemble.scene.folder for ensemble in ensembles("")],
-        ),
-    localrule: True
-    message:
-        "All scenes are loaded up to their first detachment"
+        "springblock --code {params.code} prelude {params.scene} {params.how} --output {output:q} "
+        "> {log:q} 2>&1"
 
 
 rule simulate_batch:
     input:
         own_files,
-        lambda wildcards: SCENE_ORIGIN[wildcards.scene],
-        prelude=rules.prelude_scene.output,
+        prelude=rules.prelude.output,
     output:
-        f"{RESULTS}/realisations/{{scene}}/{{more}}seeds-{{first}}-{{last}}.parquet",
+        f"{RESULTS}/realisations/{{scene}}/batch-{{batch}}.parquet",
     log:
-        f"{RESULTS}/logs/{{scene}}/{{more}}seeds-{{first}}-{{last}}.log",
+        f"{RESULTS}/logs/{{scene}}/batch-{{batch}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/{{more}}seeds-{{first}}-{{last}}.tsv"
+        f"{RESULTS}/benchmarks/{{scene}}/batch-{{batch}}.tsv"
     wildcard_constraints:
-        more=r"(more-\d+/)?",
-        first=r"\d+",
-        last=r"\d+",
+        batch=r"\d+",
     group:
         "batches"
     resources:
         mem_mb=memory,
         runtime=minutes,
     params:
+        code=code("simulate"),
         scene=scene,
         how=HOW,
         duration=duration,
+        first=lambda wildcards: seeds(wildcards)[0],
+        last=lambda wildcards: seeds(wildcards)[-1],
     message:
-        "Simulating {wildcards.scene}, seeds {wildcards.first} to {wildcards.last}"
+        "Simulating {wildcards.scene}, seeds {params.first} to {params.last}"
     shell:
-        "springblock simulate {params.scene} {params.how} {params.duration} "
-        "--prelude {input.prelude:q} --first-seed {wildcards.first} --last-seed {wildcards.last} "
+        "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
+        "--prelude {input.prelude:q} --first-seed {params.first} --last-seed {params.last} "
         "--output {output:q} > {log:q} 2>&1"
 
 
 rule simulate:
     input:
-        batches(ensembles("")),
+        batches(ENSEMBLE.values()),
     localrule: True
     message:
         "All realisations are simulated"
 
 
-rule aggregate_part:
+rule aggregate:
     input:
-        made_of("steps/aggregate", "springblock.cli.aggregate", configuration=CONFIGURATION),
-        batches=lambda wildcards: batches(ensembles(wildcards.part)),
+        batches(ENSEMBLE.values()),
     output:
-        f"{RESULTS}/tables/{{part}}realisations.parquet",
+        f"{RESULTS}/tables/realisations.parquet",
     log:
-        f"{RESULTS}/logs/{{part}}aggregate.log",
+        f"{RESULTS}/logs/aggregate.log",
     benchmark:
-        f"{RESULTS}/benchmarks/{{part}}aggregate.tsv"
+        f"{RESULTS}/benchmarks/aggregate.tsv"
     resources:
         mem_mb=600,
         runtime=5,
     params:
+        code=code("simulate"),
         configuration=CONFIGURATION,
+        realisations=sum(len(ensemble.seeds) for ensemble in ENSEMBLE.values()),
     message:
-        "Collecting realisations in one table: {wildcards.part}realisations"
+        "Collecting realisations in one table"
     shell:
-        "springblock aggregate {input.batches:q} --configuration {params.configuration} "
-        "--output {output:q} > {log:q} 2>&1"
+        "springblock --code {params.code} aggregate {input:q} --configuration {params.configuration} "
+        "--realisations {params.realisations} --output {output:q} > {log:q} 2>&1"
 
 
-rule aggregate:
-    input:
-        f"{RESULTS}/tables/realisations.parquet",
+rule repair:
+    log:
+        f"{RESULTS}/logs/repair.log",
     localrule: True
+    params:
+        results=RESULTS,
     message:
-        "All realisations are in one table"
+        "Setting aside what cannot be used"
+    shell:
+        "springblock repair {params.results:q} 2>&1 | tee {log:q}"

@@ -63,5 +63,6 @@ class _LazyGroup(click.Group):
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="springblock")
-def main() -> None:
+@click.option("--code", hidden=True, help="Digest of the code, where the workflow has taken it.")
+def main(code: str | None) -> None:
     """Spring-block model of the onset of sliding on patterned surfaces."""

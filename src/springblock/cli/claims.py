@@ -12,14 +12,13 @@ from springblock.claims import CLAIMS
 from springblock.claims.page import page
 from springblock.claims.rule import Evidence, enough
 from springblock.claims.table import SCHEMA, rows
-from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
 from springblock.model.direction import heading
 from springblock.model.scene import Scene
-from springblock.provenance import code_version
 from springblock.simulation.prelude import Prelude, surface
 from springblock.simulation.run import Array
 
@@ -76,7 +75,7 @@ def _files(option: str, what: str, **more: Any) -> Callable[..., Any]:
 @_files("--correlation", "Table of correlation functions.")
 @_files("--correlation-length", "Table of correlation lengths.")
 @_files("--prelude", "Prelude of a scene of the realisations.")
-@_files("--precision", "Table of work and precision.")
+@_files("--work-precision", "Table of work and precision.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 @click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
@@ -86,7 +85,7 @@ def claims(
     correlation: tuple[Path, ...],
     correlation_length: tuple[Path, ...],
     prelude: tuple[Path, ...],
-    precision: tuple[Path, ...],
+    work_precision: tuple[Path, ...],
     configuration: str,
     output: Path,
     text: Path,
@@ -102,11 +101,10 @@ def claims(
             correlation=enough(_tables(correlation, records)),
             correlation_length=enough(_tables(correlation_length, records)),
             stress=_stress(prelude, records),
-            precision=[row for table in precision for row in load(table).to_pylist()],
+            precision=[row for table in work_precision for row in load(table).to_pylist()],
         )
         table = rows(CLAIMS, evidence)
-        origin = {"code_version": code_version(__name__), "configuration_digest": configuration}
-        inputs = *batches, *tables, *prelude, *precision
-        write(rows_to_table(table, SCHEMA), output, origin, inputs)
+        origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
+        write(rows_to_table(table, SCHEMA), output, origin)
         with whole_file(text) as partial:
             partial.write_text(page(table), encoding="utf-8")

@@ -19,4 +19,4 @@ def collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -
         metadata = {"code_version": origin_of(first)["code_version"]}
         if configuration is not None:
             metadata["configuration_digest"] = configuration
-        write(read(tables, first.schema.remove_metadata()), output, metadata, tables)
+        write(read(tables, first.schema.remove_metadata()), output, metadata)

@@ -14,12 +14,11 @@ from springblock.analysis.correlation import (
     groove_times,
     side_times,
 )
-from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.io.parquet import load, origin_of, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
-from springblock.provenance import code_version
 
 
 @click.command("correlation")
@@ -37,9 +36,9 @@ def correlation(batches: tuple[Path, ...], output_correlation: Path, output_leng
             curves += [side | row for row in _curve(found, length)]
             lengths.append(side | _length(length) | {"design_effect": design_effect(times)})
         digest = origin_of(load(batches[0], []))["configuration_digest"]
-        metadata = {"code_version": code_version(__name__), "configuration_digest": digest}
-        write(rows_to_table(curves, CORRELATION), output_correlation, metadata, batches)
-        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata, batches)
+        metadata = {"code_version": code_version("analyse"), "configuration_digest": digest}
+        write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
+        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
 
 
 def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:

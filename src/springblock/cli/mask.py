@@ -1,13 +1,12 @@
 """springblock mask: a contact mask from a measured surface."""
 
-import io
 from pathlib import Path
 
 import click
 import numpy as np
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
-from springblock.files import BLANK, write_sealed
+from springblock.files import whole_file
 from springblock.model.blockmap import Cut
 from springblock.model.material import Material
 
@@ -26,8 +25,7 @@ def mask(
     """Cut TOPOGRAPHY at a bearing area or a height: the blocks in contact, for --mask."""
     with one_sentence():
         contact = Cut(topography, spacing, bearing_area, height).mask()
-        content = io.BytesIO()
-        np.save(content, contact)
-        write_sealed(output, content.getvalue() + BLANK)
+        with whole_file(output) as partial, partial.open("wb") as file:
+            np.save(file, contact)
         rows, columns = contact.shape
         click.echo(f"{output}: {rows} x {columns} blocks, {contact.mean():.1%} in contact")

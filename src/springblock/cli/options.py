@@ -4,11 +4,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from functools import wraps
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import click
 
+from springblock import provenance
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
 from springblock.model.scene import EDGES, Scene, Varied, in_order
@@ -112,6 +114,16 @@ def with_options(
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def code_version(step: str) -> str:
+    """Return the version of the code of a step, with the digest given as `springblock --code`.
+
+    The workflow takes it once for all jobs; without the option it is taken here.
+    """
+    context = click.get_current_context(silent=True)
+    given = context.find_root().params.get("code") if context else None
+    return f"{version('springblock')}+{given}" if given else provenance.code_version(step)
 
 
 @contextmanager

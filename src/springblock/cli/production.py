@@ -6,9 +6,8 @@ import click
 
 from springblock.accuracy.conventions import SCENES
 from springblock.accuracy.production import SCHEMA, production_rows
-from springblock.cli.options import OUTPUT, one_sentence
+from springblock.cli.options import OUTPUT, code_version, one_sentence
 from springblock.io.parquet import rows_to_table, write
-from springblock.provenance import code_version
 
 
 @click.command("production")
@@ -19,4 +18,4 @@ def production(scene: str, output: Path) -> None:
     with one_sentence():
         table = rows_to_table(list(production_rows(scene)), SCHEMA)
         # there is nothing to configure
-        write(table, output, {"code_version": code_version(__name__)})
+        write(table, output, {"code_version": code_version("accuracy")})

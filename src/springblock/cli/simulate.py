@@ -5,6 +5,7 @@ import shutil
 from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import partial, wraps
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -17,18 +18,20 @@ from tqdm.contrib.logging import logging_redirect_tqdm
 from springblock.cli.options import (
     INPUT,
     OUTPUT,
+    code_version,
     one_sentence,
     scene_options,
     with_options,
 )
+from springblock.files import MENDING
 from springblock.io.parquet import load, rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.asperities import draw_friction
 from springblock.model.defaults import SAMPLE_INTERVAL, STEP
-from springblock.model.material import Material
+from springblock.model.material import LAWS, Material
 from springblock.model.scene import TEXTS, Scene
-from springblock.provenance import code_version, configuration_digest
+from springblock.provenance import configuration_digest, same_code
 from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
@@ -143,7 +146,7 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
         known = scene.mu_static_field and scene.mu_static_field.values
         how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
         loaded = compute_prelude(scene.contact, direction=scene.direction, **how)
-        replace(loaded, scene=scene.folder, code_version=code_version(__name__)).save(output)
+        replace(loaded, code_version=code_version("simulate")).save(output)
 
 
 @click.command("simulate")
@@ -189,7 +192,7 @@ def simulate_batch(
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
     with one_sentence():
-        loaded = None if prelude is None else Prelude.read(prelude)
+        loaded = None if prelude is None else _prelude(prelude)
         row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
         metadata = _metadata(setup.conditions(duration) | asked)
         folder = output.with_name(f"{output.name}.checkpoint")
@@ -204,6 +207,14 @@ def simulate_batch(
         click.echo(_in_words(rows))
         if minutes is not None:
             shutil.rmtree(folder)
+
+
+def _prelude(file: Path) -> Prelude:
+    """Read a prelude, which must come from the code that goes on from there."""
+    loaded = Prelude.read(file)
+    if not same_code(loaded.code_version, code_version("simulate")):
+        raise ValueError(f"{file} was made by other code, {loaded.code_version}; {MENDING}")
+    return loaded
 
 
 def _in_words(rows: list[Row]) -> str:
@@ -251,17 +262,21 @@ def _table(rows: list[Row]) -> pa.Table:
 
 def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
     return {
-        "code_version": code_version(__name__),
+        "code_version": code_version("simulate"),
         "configuration": json.dumps(configuration, sort_keys=True),
         "configuration_digest": configuration_digest(configuration),
     }
 
 
 @click.command("compile")
-@click.option("--integrator", type=click.Choice(list(INTEGRATORS)), default="leapfrog")
-def compile_kernels(integrator: str) -> None:
-    """Compile an integrator once, so that no job has to."""
-    surface = Scene(n_blocks=4).pattern.contact
-    prelude = compute_prelude(surface, integrator=integrator)
-    simulate(surface, *draw_friction(4, 0), integrator=integrator, prelude=prelude)
-    click.echo(f"{integrator} is compiled")
+@click.option("--integrator", "integrators", type=click.Choice(list(INTEGRATORS)), multiple=True)
+@click.option("--law", "laws", type=click.Choice(LAWS), multiple=True)
+def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
+    """Compile integrators once, with laws of friction, so that no job has to."""
+    surface = Scene(n_blocks=4).contact
+    for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
+        constants = {LAWS[law]: 1.0} if LAWS[law] else {}
+        how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
+        loaded = compute_prelude(surface, **how)
+        simulate(surface, *draw_friction(4, 0), prelude=loaded, **how)
+        click.echo(f"{integrator} is compiled with the law {law}")

@@ -6,9 +6,8 @@ import click
 from tqdm import tqdm
 
 from springblock.accuracy.stability.table import SCHEMA, all_cases, row
-from springblock.cli.options import OUTPUT
+from springblock.cli.options import OUTPUT, code_version
 from springblock.io.parquet import rows_to_table, write
-from springblock.provenance import code_version
 
 
 @click.command("try")
@@ -27,4 +26,4 @@ def try_cases(output: Path) -> None:
     if wrong:
         raise click.ClickException("\n".join(wrong))
     # there is nothing to configure
-    write(rows_to_table(rows, SCHEMA), output, {"code_version": code_version(__name__)})
+    write(rows_to_table(rows, SCHEMA), output, {"code_version": code_version("accuracy")})

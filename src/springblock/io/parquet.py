@@ -1,8 +1,5 @@
 """Tables as Parquet files: written whole or not at all, read back, and never mixed."""
 
-import json
-import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,18 +9,13 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from springblock.files import BLANK, MENDING, read_sealed, seal, write_sealed
-from springblock.io.origin import check_origin, results_of
+from springblock.files import BLANK, MENDING, read_sealed, write_sealed
 from springblock.io.schemas import SCENE, SETUP
 from springblock.model.scene import Scene
 
 
-def write(
-    table: pa.Table, path: Path, metadata: Mapping[str, str], inputs: Iterable[Path] = ()
-) -> None:
+def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
-
-    Of `inputs`, the files that it was computed from, it keeps the places and the checksums.
 
     Raises
     ------
@@ -32,12 +24,7 @@ def write(
     """
     if not table.num_rows:
         raise ValueError(f"there is nothing to write to {path}")
-    own = {"checksum": BLANK.decode()}
-    if inputs:
-        own["inputs"] = json.dumps(
-            {os.path.relpath(file, path.parent): seal(file) for file in inputs}
-        )
-    described = table.replace_schema_metadata({**metadata, **own})
+    described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})
     # curves and fields: their numbers hardly repeat, but their leading bytes do
     split = [
         f"{field.name}.list.element"
@@ -52,7 +39,7 @@ def write(
         use_dictionary=not split,
         use_byte_stream_split=split,
     )
-    write_sealed(path, memoryview(content.getvalue()))
+    write_sealed(path, content.getvalue().to_pybytes())
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
@@ -85,8 +72,7 @@ def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     Raises
     ------
     ValueError
-        With one sentence, where it is not as it was written, lacks a column, or is not the file of
-        its scene, its seeds, its study's configuration and code that its place says.
+        With one sentence, where it is not as it was written, or lacks a column.
     """
     content = read_sealed(path)
     try:
@@ -97,30 +83,12 @@ def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     missing = [name for name in columns or () if name not in present]
     if missing:
         raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
-    table = file.read(columns)
-    _check_place(path, table)
-    return table
+    return file.read(columns)
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
     """What made a table: its metadata as text."""
     return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
-
-
-def _check_place(path: Path, table: pa.Table) -> None:
-    """Refuse a file of a scene that lies where another belongs."""
-    if not set(SCENE.names) <= set(table.column_names):
-        return
-    first, last = re.fullmatch(r"seeds-(\d+)-(\d+)|.*", path.stem).groups()  # type: ignore[union-attr]
-    for row in table.group_by(SCENE.names).aggregate([]).to_pylist():
-        scene = Scene.from_row(row).folder
-        results = results_of(path, f"{scene}/{path.name}")
-        if results is None:
-            return
-        if first is not None:
-            check_origin(path, results, scene, origin_of(table))
-    if first is not None and table["seed"].to_pylist() != [*range(int(first), int(last) + 1)]:
-        raise ValueError(f"{path} does not hold the seeds {first} to {last}; {MENDING}")
 
 
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
@@ -129,26 +97,43 @@ def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
     Raises
     ------
     ValueError
-        As `load` does; or where two were computed differently, or by different code.
+        As `load` does; or where two files were computed with different constants, by different
+        code, or hold the same realisation.
     """
     paths = list(paths)
     tables = [load(path, schema.names) for path in paths]
     refuse_mixture(zip(paths, tables, strict=True))
-    _refuse_mixed_code(zip(paths, tables, strict=True))
+    _refuse_mixed_code(paths, tables)
+    _refuse_repetition(paths, tables)
     return pa.concat_tables([table.cast(schema) for table in tables])
 
 
-def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
     known: dict[str, Path] = {}
-    for path, table in tables:
+    for path, table in zip(paths, tables, strict=True):
         version = origin_of(table).get("code_version", "")
         known.setdefault(version.rpartition("+")[2], path)
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(
-            f"{first} and {second} must be made by the same code; theirs is {one} and {other}; "
+            f"{first} and {second} were made by different code, {one} and {other}; "
             f"of the older one, {MENDING}"
         )
+
+
+def _refuse_repetition(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
+    known: dict[tuple[Any, ...], Path] = {}
+    for path, table in zip(paths, tables, strict=True):
+        keys = [*SCENE.names, "seed"]
+        if not set(keys) <= set(table.column_names):
+            return
+        for row in table.select(keys).to_pylist():
+            before = known.setdefault(tuple(row.values()), path)
+            if before is not path:
+                scene = Scene.from_row(row)
+                raise ValueError(
+                    f"{before} and {path} both hold seed {row['seed']} of {scene}; {MENDING}"
+                )
 
 
 def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:

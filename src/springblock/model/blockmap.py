@@ -11,13 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.files import MENDING, read_sealed, seal
+from springblock.files import MENDING
 
 Array = NDArray[Any]
 
 _SHOWN = 5  #: values that a refusal lists
 _MOST = 2**24  #: blocks that are read, as many as the solver takes
-_IS_NAMED = re.compile(r".*-[0-9a-f]{8}")  #: with the digest that a study puts there
+_IS_NAMED = re.compile(
+    r".*-[0-9a-f]{8}"
+)  #: with the digest that a study puts into the name of a mask it cuts
 _POINTS, _BYTES = 2**26, 2**28  #: of a measurement, 8192 x 8192 and some 260 MB
 #: Of images. Pillow knows more; one of them, PostScript, it has another program run.
 _FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
@@ -110,8 +112,8 @@ class BlockMap:
         if not found.any():
             raise ValueError(f"{file} must have a block in contact: it is zero, or black, all over")
         name = _name(file, values != 0)
-        if seal(file) and _IS_NAMED.fullmatch(file.stem) and name != file.stem:
-            raise ValueError(f"{file} holds another mask, {name}; {MENDING}")
+        if _IS_NAMED.fullmatch(file.stem) and name != file.stem:
+            raise ValueError(f"{file} holds {name}, not the mask of its name; {MENDING}")
         return cls(name, values != 0, file)
 
     @classmethod
@@ -149,8 +151,6 @@ def _array(file: Path) -> Array:
     """Read an array of two dimensions; anything but plain numbers is never loaded."""
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
-    if seal(file):  # cut from a topography
-        read_sealed(file)
     try:
         with np.errstate(over="ignore"):  # of a size that no file has
             values = np.load(file, mmap_mode="r", allow_pickle=False)

@@ -30,7 +30,7 @@ def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[
         "scene or setup": _digest(surface.encode()),
         "friction coefficients": _digest(coefficients),
         **{name: repr(value) for name, value in asked.items()},
-        "code": digest("springblock.simulation.simulate"),
+        "code": digest("simulate"),
     }
 
 

@@ -7,10 +7,8 @@ contact, which rest. A realisation may start from the latest state whose maxima 
 its own thresholds: it is then, to the last bit, where it would have come from zero.
 """
 
-import io
 import json
 import math
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,8 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springblock.files import BLANK, MENDING, read_arrays, read_sealed, write_sealed
-from springblock.io.origin import check_origin, results_of
+from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.direction import heading
@@ -57,8 +54,7 @@ class Prelude:
     peak: Array  #: (k, blocks in contact) running maximum of |F_mot|²
     ledger: Array  #: (k, 3)
     force: Array  #: (2, samples of the last state) components of ΣF_s
-    scene: str = ""  #: folder of its scene, where a command has computed it
-    code_version: str = ""  #: that made it, the same
+    code_version: str = ""  #: that made it, where a command has computed it
 
     @property
     def surface(self) -> str:
@@ -73,11 +69,8 @@ class Prelude:
     def save(self, path: Path) -> None:
         """Write whole or not at all, as .npz."""
         parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}
-        content = io.BytesIO()
-        np.savez_compressed(content, **parts)
-        with zipfile.ZipFile(content, "a") as archive:
-            archive.comment = BLANK
-        write_sealed(path, content.getbuffer())
+        with whole_file(path) as partial, partial.open("wb") as file:
+            np.savez_compressed(file, **parts)
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
@@ -86,17 +79,12 @@ class Prelude:
         Raises
         ------
         ValueError
-            With one sentence, where it is not as it was written, is none, or is not that of the
-            scene and the code that its place in a study says.
+            With one sentence, where it is not as it was written, or is none.
         """
-        content = io.BytesIO(read_sealed(path))
         try:
-            loaded = cls(**{name: _together(part) for name, part in read_arrays(content).items()})
+            return cls(**{name: _together(part) for name, part in read_arrays(path).items()})
         except (TypeError, ValueError):
-            raise ValueError(f"{path} is no prelude; {MENDING}") from None
-        if results := results_of(path, f"{loaded.scene or 'no study'}.npz"):
-            check_origin(path, results, loaded.scene, vars(loaded))
-        return loaded
+            raise ValueError(f"{path} is no prelude, or damaged; {MENDING}") from None
 
     def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
         """Move `state`, at rest so far, on to the latest stored state that is valid for it.

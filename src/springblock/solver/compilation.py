@@ -37,7 +37,7 @@ def _caches() -> Path:
 
 #: Where machine code is kept. A function inlined from another file may change: each state of the
 #: sources has a folder of its own. Unlike nodes share it.
-FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / digest("springblock.solver")
+FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / digest("compile")
 
 #: What machine code depends on besides its source, the types and the processor.
 _TOOLS = (

@@ -1,37 +1,34 @@
-"""A results folder, held against what its files, its manifest and the code of today say."""
+"""A results folder, held against what its files say and against the code of today."""
 
-import hashlib
-import json
-from collections.abc import Container, Iterator, Mapping
-from functools import cache
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from springblock.files import MENDING, read_sealed, seal, whole_file
+from springblock.files import MENDING
 from springblock.io.parquet import load, origin_of
+from springblock.io.rows import Row
 from springblock.model.blockmap import BlockMap
-from springblock.provenance import code_version, configuration_digest, digest
+from springblock.model.material import Material
+from springblock.model.scene import Scene
+from springblock.provenance import code_version, same_code
 from springblock.simulation.prelude import Prelude
+from springblock.simulation.setup import Setup
+from springblock.study.record import read
 
-#: Files that carry a checksum, and the command that makes them; the first that fits counts.
-#: What is computed from others comes after them.
-_SEALED = {
+#: Files that say what made them, and the step that makes them; the first pattern that fits counts.
+_MADE_BY = {
     "realisations/**/*.parquet": "simulate",
     "preludes/**/*.npz": "simulate",
     "surfaces/*.npy": "mask",
-    "correlations/**/*.parquet": "correlation",
-    "accuracy/production/*.parquet": "production",
-    "accuracy/*.parquet": "measure",
-    "tables/**/correlation*.parquet": "correlation",
-    "tables/**/realisations.parquet": "aggregate",
-    "tables/work_precision.parquet": "measure",
-    "tables/production.parquet": "production",
-    "tables/stability.parquet": "stability",
+    "correlations/**/*.parquet": "analyse",
+    "accuracy/**/*.parquet": "accuracy",
+    "tables/correlation*.parquet": "analyse",
+    "tables/realisations.parquet": "simulate",
     "tables/claims.parquet": "claims",
+    "tables/work_precision.parquet": "accuracy",
+    "tables/production.parquet": "accuracy",
+    "tables/stability.parquet": "accuracy",
 }
-#: Files that carry none.
-_OTHERS = ("figures/*", "*.md")
-_MANIFEST = "manifest.json"
 _ASIDE = "set-aside"
 
 
@@ -43,39 +40,15 @@ class Fault(NamedTuple):
 
 
 def faults(results: Path) -> Iterator[Fault]:
-    """Files that are not whole, not in their place, or outdated, as they tell themselves."""
-    unusable: set[Path] = set()
-    for file, command in _sealed(results).items():
-        try:
-            _check(file, command, unusable)
-        except (OSError, ValueError) as error:
-            unusable.add(file.resolve())
-            yield Fault(file, str(error))
-
-
-def changes(results: Path) -> Iterator[Fault]:
-    """What is not as it was when the study last came to an end here, by its manifest."""
-    manifest, now = _read_manifest(results), _files(results)
-    for name, before in manifest["files"].items():
-        if name not in now:
-            yield Fault(results / name, f"{results / name} is missing")
-        elif now[name] != before:
-            yield Fault(results / name, f"{results / name} is another than the study has written")
-
-
-def other_origin(results: Path, lock: Path | None) -> Iterator[str]:
-    """In what the manifest differs from the code of today, and from a lock file if one is given."""
-    manifest = _read_manifest(results)
-    for command, before in manifest["code"].items():
-        if before != (now := _code(command)):
-            yield f"springblock {command} was {before} and is {now}"
-    if lock is not None and manifest["lock"] != (now := _digest(lock)):
-        yield f"{lock} was {manifest['lock']} and is {now}"
-    ours = configuration_digest(manifest["configuration"])
-    for file in sorted((results / "tables").rglob("*.parquet")):
-        theirs = origin_of(load(file, [])).get("configuration_digest", ours)
-        if theirs != ours:
-            yield f"the configuration is {ours}, and that of {file} {theirs}"
+    """Files that are damaged, not in their place, or of other code, as they tell themselves."""
+    constants, seen = _constants(results), set[Path]()
+    for pattern, step in _MADE_BY.items():
+        for file in sorted({*results.glob(pattern)} - seen):
+            seen.add(file)
+            try:
+                _check(file, results, step, constants)
+            except (OSError, ValueError) as error:
+                yield Fault(file, str(error))
 
 
 def set_aside(results: Path) -> Iterator[Fault]:
@@ -89,76 +62,39 @@ def set_aside(results: Path) -> Iterator[Fault]:
         yield fault
 
 
-def write_manifest(results: Path, configuration: Mapping[str, Any], lock: Path) -> None:
-    """Write down what a study that came to an end consists of, and what it was made with."""
-    manifest = {
-        "version": code_version("springblock.cli").partition("+")[0],
-        "code": {command: _code(command) for command in sorted(set(_SEALED.values()))},
-        "lock": _digest(lock) if lock.is_file() else "",
-        "configuration": configuration,
-        "files": _files(results),
-    }
-    with whole_file(results / _MANIFEST) as partial:
-        partial.write_text(json.dumps(manifest, indent=1), encoding="utf-8")
+def _constants(results: Path) -> dict[str, Any]:
+    """Return the constants of the study, as its record has them; none without a record."""
+    record = read(results)
+    if record is None:
+        return {}
+    last = record["made"][-1]["configuration"]
+    times = {key: last[key] for key in ("integrator", "step", "sample_interval")}
+    return Setup(Material(**last["material"]), **times).constants
 
 
-def _read_manifest(results: Path) -> dict[str, Any]:
-    try:
-        manifest: dict[str, Any] = json.loads((results / _MANIFEST).read_text(encoding="utf-8"))
-        return {key: manifest[key] for key in ("code", "lock", "configuration", "files")}
-    except FileNotFoundError:
-        raise ValueError(f"{results} has no {_MANIFEST}: no study has ended here") from None
-    except (KeyError, TypeError, ValueError):
-        raise ValueError(
-            f"{results / _MANIFEST} is damaged; remove it, and the next study that ends writes it"
-        ) from None
-
-
-def _sealed(results: Path) -> dict[Path, str]:
-    """Files that carry a checksum, with the command that makes them."""
-    found: dict[Path, str] = {}
-    for pattern, command in _SEALED.items():
-        for file in sorted(results.glob(pattern)):
-            found.setdefault(file, command)
-    return found
-
-
-def _files(results: Path) -> dict[str, str]:
-    """Checksum of each file, by its place."""
-    digests = {file: seal(file) for file in _sealed(results)}
-    digests |= {file: _digest(file) for each in _OTHERS for file in sorted(results.glob(each))}
-    return {file.relative_to(results).as_posix(): digest for file, digest in digests.items()}
-
-
-def _check(file: Path, command: str, unusable: Container[Path]) -> None:
+def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> None:
     """Raise ValueError, in one sentence, for a file that cannot be used."""
-    if command == "mask":
-        read_sealed(file)
+    if step == "mask":
         BlockMap.mask(file)
         return
     if file.suffix == ".npz":
         version = Prelude.read(file).code_version
     else:
-        made_by = origin_of(load(file))
-        version = made_by.get("code_version", "")
-        for name, before in json.loads(made_by.get("inputs", "{}")).items():
-            _check_input(file, (file.parent / name).resolve(), before, unusable)
-    if version.rpartition("+")[2] != _code(command):
+        table = load(file)
+        version = origin_of(table).get("code_version", "")
+        if file.is_relative_to(results / "realisations"):
+            _check_batch(file, results, table.slice(0, 1).to_pylist()[0], constants)
+    if not same_code(version, code_version(step)):
         raise ValueError(f"{file} was made by other code, {version}; {MENDING}")
 
 
-def _check_input(file: Path, source: Path, before: str, unusable: Container[Path]) -> None:
-    """Refuse a table whose input has changed or cannot be used; inputs may be missing."""
-    if source in unusable:
-        raise ValueError(f"{file} was computed from {source}, which cannot be used; {MENDING}")
-    if source.exists() and seal(source) != before:
-        raise ValueError(f"{file} was computed from another {source}; {MENDING}")
-
-
-@cache
-def _code(command: str) -> str:
-    return digest(f"springblock.cli.{command}")
-
-
-def _digest(file: Path) -> str:
-    return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+def _check_batch(file: Path, results: Path, row: Row, constants: dict[str, Any]) -> None:
+    """Refuse realisations that are not of the scene and the study that they lie in."""
+    scene = Scene.from_row(row)
+    if file.parent != results / "realisations" / scene.folder:
+        raise ValueError(f"{file} holds {scene}; {MENDING}")
+    for name, value in (constants | dict(scene.varied)).items():
+        if row[name] != value:
+            raise ValueError(
+                f"{name} is {row[name]!r} in {file}, {value!r} in its study; {MENDING}"
+            )

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -24,9 +24,6 @@ Configuration = Mapping[str, Any]
 
 #: What YAML means by these words.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
-#: Parts of a configuration that hold groups of scenes: the study, maps and sweeps beyond it, and
-#: more of what statements rest on.
-PARTS = ("scenes", "beyond", "more")
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
 #: Realisations below which a correlation has no interval.
@@ -41,14 +38,17 @@ class Ensemble:
     seeds: range
     duration: float | None  #: s; None until the scene has shown its peak
 
-    def batches(self, size: int) -> Iterator[range]:
-        """Split the seeds into whole batches of `size` and the rest one by one.
+    def batches(self, size: int) -> dict[int, range]:
+        """Return the seeds of each batch by its number: batch i has those from i·size on.
 
-        A larger ensemble then contains the smaller one's batches, as long as both are whole.
+        Where batches begin does not depend on the number of seeds: a study that grows has each
+        seed in one batch alone.
         """
-        whole = self.seeds[: len(self.seeds) // size * size]
-        yield from (whole[i : i + size] for i in range(0, len(whole), size))
-        yield from (range(seed, seed + 1) for seed in self.seeds[len(whole) :])
+        first, last = self.seeds[0], self.seeds[-1]
+        return {
+            i: range(max(first, i * size), min(last + 1, (i + 1) * size))
+            for i in range(first // size, last // size + 1)
+        }
 
 
 def completed(configuration: Configuration) -> dict[str, Any]:
@@ -95,38 +95,32 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
-    setup = Setup(Material(**configuration["material"]), **times)
+    usual = setup(configuration)
     for group, members in ensembles(configuration).items():
         for ensemble in members:
-            with _named(configuration, group):
-                _check_ensemble(ensemble, group, setup)
+            with _named(group):
+                _check_ensemble(ensemble, group, usual)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
 
 @contextmanager
-def _named(configuration: Configuration, group: str) -> Iterator[None]:
+def _named(group: str) -> Iterator[None]:
     """Put the key of a group of scenes before what is wrong with it."""
-    part = _part(configuration, group)
     try:
         yield
     except ValueError as reason:
-        raise ValueError(f"{part}.{group}: {reason}") from reason
-
-
-def _part(configuration: Configuration, group: str) -> str:
-    """The first part of the configuration that has a group of this name."""
-    return next(part for part in PARTS if group in configuration[part])
+        raise ValueError(f"scenes.{group}: {reason}") from reason
 
 
 def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
-    known = [group for part in PARTS for group in configuration[part]]
+    known = ", ".join(configuration["scenes"])
     for group in sweep["groups"]:
-        if group not in known:
-            raise ValueError(f"{key}.groups has {group!r}, which is none of {', '.join(known)}")
+        if group not in configuration["scenes"]:
+            raise ValueError(f"{key}.groups: unknown group {group!r}; choose from {known}")
     if sweep["over"] not in AXES:
-        raise ValueError(f"{key}.over is {sweep['over']!r}; it may be {', '.join(AXES)}")
+        axes = ", ".join(AXES)
+        raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {axes}")
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
@@ -177,42 +171,33 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 
 
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
-    """Expand each group of scenes into its grids, by the group's name, part by part.
+    """Expand each group of scenes into its grids, by the group's name.
 
-    A scene that several of them hold is one ensemble, with the largest number of seeds. A later
-    part may pull a scene of an earlier one more often, never less, and changes nothing in it.
+    A scene that several groups hold is one ensemble, with the largest number of seeds.
 
     Raises
     ------
     ValueError
         With the name of the group, where its lists do not fit together.
     """
-    found: dict[str, list[Ensemble]] = {}
+    groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
-    for part in PARTS:
-        study, groups = dict(largest), dict[str, list[Ensemble]]()
-        for group, grids in configuration[part].items():
-            if group in found:
-                owner = _part(configuration, group)
-                raise ValueError(f"{part}.{group}: {owner} has a group of this name")
-            with _named(configuration, group):
-                parts = grids if isinstance(grids, list) else [grids or {}]
-                groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
+    for group, grids in configuration["scenes"].items():
+        with _named(group):
+            parts = grids if isinstance(grids, list) else [grids or {}]
+            groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
             for ensemble in groups[group]:
-                _keep_largest(largest, ensemble, study)
-        for group, members in groups.items():
-            found[group] = list(dict.fromkeys(largest[each.scene] for each in members))
-    return found
+                _keep_largest(largest, ensemble)
+    return {
+        group: list(dict.fromkeys(largest[each.scene] for each in members))
+        for group, members in groups.items()
+    }
 
 
-def conditions(configuration: Configuration, ensemble: Ensemble) -> dict[str, Any]:
-    """What the realisations of an ensemble depend on besides scene, seed and code.
-
-    Batches keep the same, as `configuration` of their metadata.
-    """
+def setup(configuration: Configuration) -> Setup:
+    """Return how scenes are computed that have nothing of their own."""
     times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
-    setup = Setup(Material(**configuration["material"]), **times)
-    return setup.vary(dict(ensemble.scene.varied)).conditions(ensemble.duration)
+    return Setup(Material(**configuration["material"]), **times)
 
 
 def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
@@ -226,19 +211,15 @@ def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble
     }
 
 
-def _keep_largest(
-    largest: dict[Scene, Ensemble], ensemble: Ensemble, study: Mapping[Scene, Ensemble]
-) -> None:
+def _keep_largest(largest: dict[Scene, Ensemble], ensemble: Ensemble) -> None:
     scene = ensemble.scene
-    if scene in study:
-        ensemble = replace(ensemble, duration=study[scene].duration)
     known = largest.setdefault(scene, ensemble)
     for key in MAPS:
         one, other = getattr(known.scene, key), getattr(scene, key)
         if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
-            raise ValueError(f"scenes: {one.file} and {other.file} are both called {one}")
+            raise ValueError(f"{one.file} and {other.file} are both called {one}")
     if known.duration != ensemble.duration:
-        raise ValueError(f"scenes: {scene.folder} is given two durations")
+        raise ValueError(f"{scene} is given two durations")
     largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
 
 
