@@ -7,7 +7,8 @@
 #               on Debian, a quarter of an hour
 # make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some two and a half minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
-# make verify   hold results/ against its checksums, its manifest, the code and the lock file of today
+# make full     the whole study, on which the pages in docs rest: an hour and a quarter on two cores
+# make verify   hold results/ against its checksums and the code of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same
 # make docs     bring the pages in docs up to date with the study
 # make archive  pack the study, code and results, into one file to deposit
@@ -26,14 +27,16 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick test browser test-slurm verify soak bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick full test browser test-slurm verify soak bench bench-release docs archive redraw setup lock clean
 
-# Why each job runs would be most of what is said: all the files that a figure is drawn from.
 all: setup
-	$(BIN)/snakemake --quiet reason
+	$(BIN)/snakemake
 
 quick: setup
-	$(BIN)/snakemake --quiet reason --configfile config/quick.yaml
+	$(BIN)/snakemake --configfile config/quick.yaml
+
+full: setup
+	$(BIN)/snakemake --configfile config/full.yaml
 
 test: setup $(if $(CI),browser)
 	$(BIN)/ruff check
@@ -52,7 +55,7 @@ browser:
 	  apt-get install --yes --quiet --no-install-recommends chromium; }
 
 verify: setup
-	$(BIN)/springblock verify results --lock environment.lock
+	$(BIN)/springblock verify results
 
 soak: setup
 	$(BIN)/python tests/soak.py
@@ -65,11 +68,7 @@ bench bench-release: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
 	$(BIN)/python -m benchmarks $(if $(filter bench-release,$@),--release)
 
-# The pages on errors and on statements take up what they find of the first two.
-docs: setup
-	$(BIN)/snakemake production more
-	$(BIN)/snakemake beyond
-	$(BIN)/snakemake accuracy claims figure_6
+docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
 	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
@@ -78,8 +77,9 @@ docs: setup
 archive: setup
 	$(BIN)/springblock archive results --output springblock-study.zip
 
-# Unpacked files have the times at which they were unpacked: --touch says that nothing is out of date.
-redraw: setup
+# Unpacked files have the times at which they were unpacked: once every file is compared with what it
+# says of itself, --touch says that nothing is out of date.
+redraw: verify
 	$(BIN)/snakemake --touch
 	rm -rf results/figures results/*.md results/report.html
 	$(BIN)/snakemake

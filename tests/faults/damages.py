@@ -3,14 +3,15 @@
 import os
 import shutil
 
+import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.io.parquet import load, origin_of, write
 from springblock.simulation.prelude import Prelude
 
 FLAT, PILLARS = "n_blocks-12/level-0/direction-x", "n_blocks-12/level-1/n_p-6/n_s-6/direction-x"
-BATCH = f"realisations/{FLAT}/seeds-0-1.parquet"
-OTHER = f"realisations/{PILLARS}/seeds-0-1.parquet"
+BATCH = f"realisations/{FLAT}/batch-0.parquet"
+OTHER = f"realisations/{PILLARS}/batch-0.parquet"
 PRELUDE, OTHER_PRELUDE = f"preludes/{FLAT}.npz", f"preludes/{PILLARS}.npz"
 TABLE = "tables/realisations.parquet"
 CORRELATION = f"correlations/{PILLARS}/correlation.parquet"
@@ -61,21 +62,15 @@ def replaced(by):
     return damaged
 
 
-def seed_missing(file, study):
-    table = load(file)
-    write(table.slice(0, 1), file, origin_of(table))
-
-
 def with_constant(name, value):
     """The same realisations, as if computed with another constant."""
 
     def damaged(file, study):
         table = load(file)
-        made_by = origin_of(table)
-        made_by["configuration"] = made_by["configuration"].replace(*value)
-        write(table, file, made_by)
+        place = table.column_names.index(name)
+        other = pa.array([value] * len(table))
+        write(table.set_column(place, table.schema.field(name), other), file, origin_of(table))
 
-    damaged.__name__ = name
     return damaged
 
 
@@ -87,10 +82,3 @@ def older_code(file, study):
         return
     table = load(file)
     write(table, file, origin_of(table) | {"code_version": "0.0.9+0123456789abcdef"})
-
-
-def outdated(file, study):
-    """Whole, but of realisations that have been computed again since."""
-    batch = study.results / BATCH
-    table = load(batch)
-    write(table.slice(0), batch, origin_of(table) | {"again": "and differently"})

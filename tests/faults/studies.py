@@ -31,8 +31,6 @@ TINY = {
             "seeds": 1,
         },
     },
-    "beyond": dict.fromkeys(PAPER["beyond"]),
-    "more": dict.fromkeys(PAPER["more"]),
 }
 TARGETS = ("aggregate", "correlations")
 
@@ -92,11 +90,13 @@ class Study(NamedTuple):
     def configuration(self) -> dict:
         return yaml.safe_load((self.folder / "tiny.yaml").read_text())
 
-    def edit(self, module: str) -> None:
-        """Change the code."""
-        shutil.copytree(ROOT / "src", self.folder / "src")
-        with (self.folder / "src/springblock" / module).open("a") as file:
-            file.write("\n# another line\n")
+    def edit(self, module: str, old: str = "", new: str = "# another line\n") -> None:
+        """Change the code: replace a piece of a module, or add a comment."""
+        shutil.copytree(ROOT / "src", self.folder / "src", dirs_exist_ok=True)
+        file = self.folder / "src/springblock" / module
+        content = file.read_text()
+        assert old in content
+        file.write_text(content.replace(old, new, 1) if old else content + new)
 
     @property
     def tables(self) -> dict[str, str]:

@@ -11,9 +11,10 @@ import sys
 import time
 
 import psutil
+import pyarrow.parquet as pq
 import pytest
 
-from faults.damages import BATCH, FLAT, OTHER, PILLARS, PRELUDE, TABLE, flipped, outdated, truncated
+from faults.damages import BATCH, FLAT, OTHER, PRELUDE, TABLE, flipped, truncated
 from faults.studies import ROOT, copy
 from springblock.study.audit import faults
 
@@ -56,10 +57,6 @@ def jobs(study):
     ]
 
 
-def locked(study):
-    return any((study.folder / ".snakemake/locks").glob("*"))
-
-
 def forget(study):
     """Lose what Snakemake remembers of a study."""
     shutil.rmtree(study.folder / ".snakemake")
@@ -85,14 +82,18 @@ def test_a_killed_job_is_done_again(study, undisturbed):
     assert study.tables == undisturbed.tables
 
 
-def test_a_killed_run_goes_on_without_a_word_about_its_lock(study, undisturbed):
+def unlock(study):
+    subprocess.run(study.command("--unlock"), cwd=study.folder, env=study.environment, check=True)
+
+
+def test_a_killed_run_goes_on_once_it_is_unlocked(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
     os.killpg(run.pid, signal.SIGKILL)
     run.communicate()
-    assert locked(study)
+    assert "--unlock" in study.run(refused=True)
+    unlock(study)
     study.run()
-    assert not locked(study)
     assert study.tables == undisturbed.tables
 
 
@@ -101,6 +102,7 @@ def test_a_job_that_outlives_its_run_does_no_harm(study, undisturbed):
     run = begin(study)
     until(lambda: jobs(study))
     os.kill(run.pid, signal.SIGKILL)
+    unlock(study)
     study.run()
     run.communicate()
     until(lambda: not processes(study))
@@ -118,19 +120,6 @@ def test_two_runs_in_one_folder_are_refused(study, undisturbed):
     run.communicate()
     assert run.returncode == 0
     assert study.tables == undisturbed.tables
-
-
-def test_a_lock_of_another_machine_is_left_alone(study):
-    """Whose runs cannot be seen from here; `snakemake --unlock` is for those who know."""
-    without(study, BATCH, TABLE)
-    (study.folder / ".snakemake/alive").write_text("another machine")
-    lock = study.folder / ".snakemake/locks/0.output.lock"
-    lock.parent.mkdir(exist_ok=True)
-    lock.write_text(f"results/{BATCH}\n")
-    assert "locked" in study.run(refused=True).lower()
-    subprocess.run(study.command("--unlock"), cwd=study.folder, env=study.environment, check=True)
-    study.run("--dry-run")
-    assert not locked(study)
 
 
 def test_a_full_disk_stops_the_study_and_leaves_no_half_file(study, undisturbed):
@@ -185,17 +174,14 @@ def test_a_missing_file_is_made_again(study, undisturbed):
     assert study.tables == undisturbed.tables
 
 
-@pytest.mark.parametrize("damages", ["damaged", "foreign", "outdated"])
+@pytest.mark.parametrize("damages", ["damaged", "foreign"])
 def test_what_was_set_aside_is_made_again(study, undisturbed, damages):
     if damages == "damaged":
         truncated(study.results / BATCH, study)
-        flipped(study.results / OTHER, study)
-    elif damages == "foreign":
-        shutil.copy(study.results / OTHER, study.results / BATCH)
-        shutil.copy(study.results / f"preludes/{PILLARS}.npz", study.results / PRELUDE)
+        flipped(study.results / PRELUDE, study)
     else:
-        outdated(study.results / BATCH, study)
-    said = study.run(targets=("repair",))
+        shutil.copy(study.results / OTHER, study.results / BATCH)
+    said = study.run("--quiet", "host", targets=("repair",))
     assert "set aside in results/set-aside" in said
     study.run()
     assert study.tables == undisturbed.tables
@@ -206,7 +192,7 @@ def test_a_damaged_file_stops_the_study_with_one_sentence(study):
     flipped(study.results / BATCH, study)
     without(study, TABLE)
     said = study.run(refused=True)
-    assert re.search(rf"{FLAT}/seeds-0-1.parquet is damaged.*`snakemake repair`", said)
+    assert re.search(rf"{FLAT}/batch-0.parquet is damaged.*`snakemake repair`", said)
     assert "Traceback" not in said
 
 
@@ -215,38 +201,107 @@ def planned(study):
     return set(re.findall(r"^(\w+) +\d+$", study.run("--dry-run"), re.MULTILINE)) - {"total"}
 
 
-def test_lost_metadata_alone_changes_nothing(study):
+def state(study):
+    """Every file of a study's folder with its time and size, but for Snakemake's own."""
+    return {
+        file: (file.stat().st_mtime_ns, file.stat().st_size)
+        for file in study.folder.rglob("*")
+        if ".snakemake" not in file.parts and "__pycache__" not in file.parts
+    }
+
+
+@pytest.mark.parametrize("results", ["results", "elsewhere"])
+def test_a_dry_run_writes_nothing(study, results):
+    study.configure(results=results, step=1e-8)
+    before = state(study)
+    study.run("--dry-run")
+    assert state(study) == before
+
+
+def test_lost_memory_alone_changes_nothing(study):
     forget(study)
+    assert planned(study) == set()
+    study.run()
     assert planned(study) == set()
 
 
-@pytest.mark.parametrize("clock", ["right", "set back"])
-def test_a_changed_configuration_is_seen_without_metadata(study, clock):
-    """Whatever time stamps say: results copied anew, or from the future."""
+@pytest.mark.parametrize("times", ["as they were", "new", "from the future"])
+def test_results_of_another_configuration_are_refused_without_memory(study, times):
+    """Also after a run under the old one, which leaves Snakemake with a memory of nothing."""
     forget(study)
-    if clock == "set back":
+    if times == "new":
+        for file in study.results.rglob("*"):
+            file.touch()
+    elif times == "from the future":
         date_back(study)
     study.configure(step=1e-8)
-    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
+    for options in (["--dry-run"], [], ["--touch"]):
+        said = study.run(*options, refused=True)
+        assert "another configuration (step)" in said
+        assert "Traceback" not in said
     study.configure()
+    if times == "as they were":
+        assert planned(study) == set()
+
+
+def test_results_of_other_code_are_refused_without_memory(study):
+    forget(study)
+    study.edit("solver/friction.py", "0.0", "0.5")
+    assert "another code (compile, simulate, accuracy)" in study.run("--dry-run", refused=True)
+
+
+def test_touch_does_not_bless_results_of_another_configuration(study):
+    study.configure(step=1e-8)
+    assert "--touch does not compare them" in study.run("--touch", refused=True)
+    assert {"prelude", "simulate_batch", "aggregate"} <= planned(study)
+
+
+def test_results_without_their_record_are_refused(study):
+    (study.results / "study.json").unlink()
+    assert "without study.json" in study.run("--dry-run", refused=True)
+
+
+def test_batches_of_another_size_are_refused(study):
+    study.configure(realisations_per_job=3)
+    said = study.run("--dry-run", refused=True)
+    assert "realisations_per_job: results was made with 2" in said
+
+
+def test_a_growing_study_has_each_seed_once(study):
+    scenes = study.configuration["scenes"]
+    for seeds in (3, 4, 5):
+        study.configure(scenes=scenes | {"flat": {"seeds": seeds, "duration": 2e-5}})
+        study.run()
+    found = pq.read_table(study.results / f"realisations/{FLAT}")
+    assert found["seed"].to_pylist() == [0, 1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    "module", ["solver/springs.py", "simulation/run.py", "cli/simulate.py", "io/schemas.py"]
+)
+def test_a_comment_runs_nothing_again(study, module):
+    study.edit(module)
     assert planned(study) == set()
 
 
-def test_a_changed_duration_runs_its_own_scene_again(study):
-    forget(study)
-    flat = {"seeds": 2, "duration": 1e-5}
-    study.configure(scenes=study.configuration["scenes"] | {"flat": flat})
-    said = study.run("--dry-run")
-    assert re.search(r"simulate_batch +1$", said, re.MULTILINE)
-
-
-@pytest.mark.parametrize("clock", ["right", "set back"])
-def test_results_of_older_code_are_made_again_without_metadata(study, clock):
-    forget(study)
-    if clock == "set back":
-        date_back(study)
-    study.edit("solver/leapfrog.py")
-    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
+@pytest.mark.parametrize(
+    ("module", "old", "new", "again"),
+    [
+        ("solver/springs.py", "0.5 * (nex", "0.4 * (nex", {"compile", "prelude", "simulate_batch"}),
+        (
+            "analysis/correlation.py",
+            "1000.0, 922",
+            "1000.0, 900",
+            {"correlation", "correlations_table"},
+        ),
+        ("plotting/style.py", "=", "=  ", set()),
+    ],
+)
+def test_a_changed_formula_runs_again_what_depends_on_it(study, module, old, new, again):
+    study.edit(module, old, new)
+    assert again <= planned(study)
+    if "simulate_batch" not in again:
+        assert "simulate_batch" not in planned(study)
 
 
 def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):
@@ -259,13 +314,6 @@ def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, un
     subprocess.run(command, shell=True, cwd=study.folder, check=True)
     study.run()
     assert study.tables == undisturbed.tables
-
-
-def test_results_without_their_origins_are_made_again(study):
-    """Such as those of a version that wrote none."""
-    forget(study)
-    shutil.rmtree(study.results / "origin")
-    assert {"origins", "prelude_scene", "simulate_batch", "aggregate_part"} <= planned(study)
 
 
 def test_an_interrupted_setup_is_done_again(tmp_path):

@@ -53,7 +53,7 @@ def test_constants_of_its_own_belong_to_a_scene():
     assert fast.varied == (("gamma", 0.0), ("step", 1e-8))
     assert fast == Scene.from_row(fast.row) == Scene(9, varied=(("step", 1e-8), ("gamma", 0.0)))
     assert fast.folder == "n_blocks-9/level-0/gamma-0.0/step-1e-08/direction-x"
-    assert fast.arguments.endswith("--vary gamma=0.0 --vary step=1e-08")
+    assert fast.arguments.endswith("--vary gamma=0.0 --vary step=1e-08 --direction x")
     assert fast != Scene(9)
 
 
@@ -61,7 +61,9 @@ def test_a_law_is_text_among_the_constants():
     weak = Scene(9, varied={"slip_distance": "1e-7", "law": "slip_weakening"})
     assert weak == Scene.from_row(weak.row)
     assert weak.folder == ("n_blocks-9/level-0/law-slip_weakening/slip_distance-1e-07/direction-x")
-    assert weak.arguments.endswith("--vary law=slip_weakening --vary slip_distance=1e-07")
+    assert weak.arguments.endswith(
+        "--vary law=slip_weakening --vary slip_distance=1e-07 --direction x"
+    )
 
 
 def test_folders_and_options_name_every_level():
@@ -87,7 +89,7 @@ def test_a_mask_takes_the_place_of_the_pattern():
 
 def test_a_surface_of_ones_own_is_named_by_its_contents_and_read_from_its_file():
     assert OWN.folder == ("n_blocks-3/n_rows-2/mask-corner-1a2b3c4d/edges-periodic/direction-x")
-    assert OWN.arguments == "--edges periodic --direction x --mask 'a corner.npy'"
+    assert OWN.arguments == "--mask 'a corner.npy' --edges periodic --direction x"
     strong = Scene(2, mu_static_field=field(np.ones((2, 2))), varied={"distribution": "weibull"})
     assert strong.folder == (
         "n_blocks-2/level-0/mu_static_field-strong-00000000/distribution-weibull/direction-x"

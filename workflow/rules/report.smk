@@ -36,7 +36,6 @@ rule report:
         ),
         production=rules.production_table.output if config["production"] else [],
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
-        reliability=workflow.source_path("../../docs/reliability.md"),
         films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
         runs=[batches([shown])[0] for shown in FILMS.values()],
     output:

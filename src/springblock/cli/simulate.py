@@ -275,7 +275,7 @@ def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None
     """Compile integrators once, with laws of friction, so that no job has to."""
     surface = Scene(n_blocks=4).contact
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
-        constants = {LAWS[law]: 1.0} if LAWS[law] else {}
+        constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS[law] else {}
         how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
         loaded = compute_prelude(surface, **how)
         simulate(surface, *draw_friction(4, 0), prelude=loaded, **how)

@@ -208,9 +208,15 @@ class Scene:
     @property
     def named(self) -> dict[str, str]:
         """All that tells it from other scenes, by name."""
-        named = {**self._size, **({} if self.mask else {"level": self.level}), **self.names}
-        named |= {key: getattr(self, key) for key in MAPS if getattr(self, key)}
-        named |= {**self._edges, **dict(self.varied), "direction": self.direction}
+        named: dict[str, Any] = {"n_blocks": self.n_blocks}
+        if self.n_rows:
+            named["n_rows"] = self.n_rows
+        if not self.mask:
+            named["level"] = self.level
+        named |= self.names | {key: getattr(self, key) for key in MAPS if getattr(self, key)}
+        if self.is_periodic:
+            named["edges"] = self.edges
+        named |= {**dict(self.varied), "direction": self.direction}
         return {key: str(value) for key, value in named.items()}
 
     @property
@@ -228,25 +234,21 @@ class Scene:
     @property
     def arguments(self) -> str:
         """The scene as options of `springblock simulate`; its maps as the files they come from."""
-        size = {} if self.mask else self._size
-        named = {**size, **self.names, **self._edges, "direction": self.direction}
-        options = [f"--{key.replace('_', '-')} {value}" for key, value in named.items()]
-        options += [f"{MAPS[key]} {quote(str(file))}" for key, file in self.files.items()]
-        return " ".join(options + [f"--vary {name}={value}" for name, value in self.varied])
+        varied, files, options = dict(self.varied), self.files, []
+        for name, value in self.named.items():
+            if name in varied:
+                options.append(f"--vary {name}={value}")
+            elif name in files:
+                options.append(f"{MAPS[name]} {quote(str(files[name]))}")
+            elif name != "level" and not (self.mask and name in ("n_blocks", "n_rows")):
+                options.append(f"--{name.replace('_', '-')} {value}")
+        return " ".join(options)
 
     @property
     def files(self) -> dict[str, Path]:
         """Files that its maps are read from, by column."""
         maps = {key: getattr(self, key) for key in MAPS}
         return {key: each.file for key, each in maps.items() if each and each.file}
-
-    @property
-    def _size(self) -> dict[str, int]:
-        return {"n_blocks": self.n_blocks} | ({"n_rows": self.n_rows} if self.n_rows else {})
-
-    @property
-    def _edges(self) -> dict[str, str]:
-        return {"edges": self.edges} if self.is_periodic else {}
 
 
 def in_order(constants: Mapping[str, Any]) -> Varied:
