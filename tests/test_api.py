@@ -16,9 +16,9 @@ import yaml
 
 import springblock
 from springblock.cli import COMMANDS, main
-from springblock.io.dictionary import tables
 from springblock.io.records import Record
 from springblock.model.material import Material
+from springblock.report.dictionary import tables
 
 ROOT = Path(__file__).parents[1]
 RECORDS = ROOT / "tests/api"

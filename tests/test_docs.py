@@ -15,9 +15,9 @@ from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
-from springblock.io.dictionary import page as dictionary
-from springblock.io.dictionary import tables
 from springblock.io.schemas import SETUP
+from springblock.report.dictionary import page as dictionary
+from springblock.report.dictionary import tables
 
 DOCS = Path(__file__).parents[1] / "docs"
 

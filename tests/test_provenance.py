@@ -1,4 +1,4 @@
-"""Which sources a result depends on."""
+"""What a step's digest depends on, and which way data moves through the package."""
 
 import ast
 import re
@@ -7,78 +7,94 @@ from pathlib import Path
 import pytest
 
 import springblock
-from springblock.provenance import code_version, digest, files
-from springblock.provenance import imports as imported
+from springblock import provenance
 
 ROOT = Path(springblock.__file__).parent
+SOURCE = '''"""A module."""
+
+def force(x):
+    """Return a force."""
+    if x < 0.0:
+        raise ValueError(f"x is {x}")
+    return 2.0 * x  # linear
+'''
 
 
-def names(*modules):
-    return {file.name for file in files(*modules)}
+def digest_of(tmp_path, monkeypatch, source):
+    folder = tmp_path / "solver"
+    folder.mkdir(exist_ok=True)
+    (folder / "law.py").write_text(source)
+    monkeypatch.setattr(provenance, "_ROOT", tmp_path)
+    provenance._of_folder.cache_clear()
+    provenance.digest.cache_clear()
+    try:
+        return provenance.digest("compile")
+    finally:
+        provenance._of_folder.cache_clear()
+        provenance.digest.cache_clear()
 
 
-def test_a_simulation_depends_on_the_solver_and_on_no_figure():
-    found = names("springblock.cli.simulate")
-    assert {"leapfrog.py", "rk4.py", "friction.py", "springs.py", "pattern.py"} <= found
-    assert not any(name.startswith("figure_") for name in found)
-
-
-def test_a_figure_depends_on_itself_and_not_on_the_solver():
-    found = names("springblock.cli.figure", "springblock.plotting.figure_3")
-    assert {"figure_3.py", "style.py", "tables.py"} <= found
-    assert not {"figure_2.py", "leapfrog.py", "realisation.py"} & found
-
-
-def test_the_error_study_depends_on_each_of_its_own_modules():
-    kinds = names("springblock.cli.stability")
-    assert {"block.py", "cases.py", "load.py", "overflow.py", "pull.py", "reference.py"} <= kinds
-    assert {"rest.py", "schemes.py", "size.py", "step.py", "surface.py", "table.py"} <= kinds
-    compared = names("springblock.cli.measure")
-    assert {"work_precision.py", "reference.py", "plain_rk4.py", "leapfrog.py"} <= compared
-    assert not {"page.py", "block.py"} & compared
-
-
-def test_the_report_depends_on_its_template():
-    found = names("springblock.cli.report")
-    assert {"page.html", "page.css", "page.js", "findings.py"} <= found
-    assert "page.html" not in names("springblock.cli.claims")
-
-
-def test_the_digest_tells_modules_apart_and_is_part_of_the_version():
-    assert digest("springblock.model.material") != digest("springblock.model.pattern")
-    assert code_version("springblock.model.material").endswith(
-        "+" + digest("springblock.model.material")
-    )
-
-
-@pytest.mark.parametrize("file", sorted(ROOT.rglob("*.py")), ids=lambda file: file.stem)
-def test_imports_are_those_that_python_sees(file):
-    statements = list(ast.walk(ast.parse(file.read_bytes())))
-    plain = {
-        alias.name for node in statements if isinstance(node, ast.Import) for alias in node.names
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("  # linear", "  # Hooke"),
+        ("Return a force.", "Return another description."),
+        ("x is {x}", "x must not be negative"),
+        ("2.0 * x", "(2.0\n            * x)"),
+    ],
+)
+def test_comments_layout_and_messages_do_not_change_a_digest(tmp_path, monkeypatch, old, new):
+    assert old in SOURCE
+    digests = {
+        digest_of(tmp_path, monkeypatch, text) for text in (SOURCE, SOURCE.replace(old, new))
     }
-    froms = [node for node in statements if isinstance(node, ast.ImportFrom) and node.module]
-    members = {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
-    seen = plain | members | {node.module for node in froms}
-    assert imported(file) == {name for name in seen if name.split(".")[0] == "springblock"}
+    assert len(digests) == 1
 
 
-def rooms():
-    """Place of each room in the map of CONTRIBUTING.md, and all rooms of the package."""
-    text = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text()
-    rows = re.findall(r"^\| (`.+) \| .+ \|$", text, re.MULTILINE)
-    places = {name: i for i, row in enumerate(rows) for name in re.findall(r"`(\w+)/?`", row)}
-    return places, {path.stem for path in ROOT.glob("[a-z]*") if path.name != "__pycache__"}
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("2.0", "2.5"), ("x < 0.0", "x <= 0.0"), ("* x", "* -x"), ("force(x)", "force(x, y=0)")],
+)
+def test_a_formula_changes_it(tmp_path, monkeypatch, old, new):
+    digests = {
+        digest_of(tmp_path, monkeypatch, text) for text in (SOURCE, SOURCE.replace(old, new))
+    }
+    assert len(digests) == 2
 
 
-def test_the_map_names_every_room():
-    places, found = rooms()
-    assert places.keys() == found
+def test_versions_are_compared_by_their_digests():
+    version = provenance.code_version("simulate")
+    assert version.endswith("+" + provenance.digest("simulate"))
+    assert provenance.same_code(version, "0.1.0+" + provenance.digest("simulate"))
+    assert not provenance.same_code(version, provenance.code_version("analyse"))
 
 
-def test_no_room_imports_what_comes_after_it():
-    places, _ = rooms()
-    for path in ROOT.rglob("*.py"):
-        room = path.relative_to(ROOT).parts[0].removesuffix(".py")
-        used = {name.split(".")[1] for name in imported(path) if name.count(".")} & places.keys()
-        assert all(places[name] <= places[room] for name in used if room in places), (path, used)
+def imports(file):
+    """Modules of this package that a source file imports, at its top or inside a function."""
+    for node in ast.walk(ast.parse(file.read_bytes())):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("springblock"):
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+        if isinstance(node, ast.Import):
+            yield from (each.name for each in node.names if each.name.startswith("springblock"))
+
+
+def floors():
+    """Folders and modules of the package, in the order of the map in CONTRIBUTING.md."""
+    text = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (`[a-z].+?) \| ", text, re.MULTILINE)
+    return {name: i for i, row in enumerate(rows) for name in re.findall(r"`(\w+)(?:/|\.py)`", row)}
+
+
+def test_the_map_of_the_package_has_every_folder():
+    found = {path.stem for path in ROOT.iterdir() if path.is_dir() or path.suffix == ".py"}
+    assert floors().keys() == found - {"__init__", "__main__", "__pycache__"}
+
+
+@pytest.mark.parametrize("file", sorted(ROOT.rglob("*/*.py")), ids=str)
+def test_data_moves_one_way(file):
+    """No folder imports from one below it in the map."""
+    places = floors()
+    here = places[file.relative_to(ROOT).parts[0]]
+    for name in imports(file):
+        part = name.split(".")[1]
+        assert part not in places or places[part] <= here, f"{file} imports {name}"

@@ -5,8 +5,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock.analysis.comparison import compare
-from springblock.io.dictionary import tables
 from springblock.io.parquet import write
+from springblock.report.dictionary import tables
 
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):

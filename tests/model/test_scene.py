@@ -94,7 +94,7 @@ def test_a_surface_of_ones_own_is_named_by_its_contents_and_read_from_its_file()
     assert strong.folder == (
         "n_blocks-2/level-0/mu_static_field-strong-00000000/distribution-weibull/direction-x"
     )
-    assert "--n-blocks 2 --direction x --mu-static strong.npy --vary dis" in strong.arguments
+    assert "--n-blocks 2 --mu-static strong.npy --vary distribution=weibull" in strong.arguments
     assert strong.files == {"mu_static_field": Path("strong.npy")}
 
 

@@ -10,9 +10,9 @@ import pyarrow as pa
 from springblock.analysis import comparison
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
-from springblock.io.dictionary import columns, page, tables
 from springblock.io.parquet import load, origin_of
 from springblock.model.scene import Scene
+from springblock.report.dictionary import columns, page, tables
 from springblock.simulation.prelude import Prelude
 
 _SHOWN = 12  #: scenes that are named
