@@ -31,7 +31,7 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
     """
     record = read(results)
     if record is None:
-        if any((results / part).exists() for part in ("realisations", "tables")):
+        if any((results / part).exists() for part in ("preludes", "realisations")):
             raise ValueError(
                 f"{results} holds results without {RECORD}, which says how they were made; remove "
                 "them, or choose another folder: results"
