@@ -47,21 +47,21 @@ def test_any_processor_finds_the_same_run_up_to_its_peak(generic):
     np.testing.assert_allclose(generic["t_det"][before], here.t_det[before], rtol=TOLERANCE)
 
 
-WIDE = """if True:
-    import llvmlite.binding as llvm
-    has = {"avx512f": True, "avx512vl": True}
-    llvm.get_host_cpu_name = lambda: "skylake-avx512"
-    llvm.get_host_cpu_features = lambda: llvm.targets.FeatureMap(has)
-    from numba import float64
-    from springblock.solver.compilation import kernel
+WIDE = """
+import llvmlite.binding as llvm
+has = {"avx512f": True, "avx512vl": True}
+llvm.get_host_cpu_name = lambda: "skylake-avx512"
+llvm.get_host_cpu_features = lambda: llvm.targets.FeatureMap(has)
+from numba import float64
+from springblock.solver.compilation import kernel
 
-    @kernel
-    def doubled(x):
-        for i in range(len(x)):
-            x[i] = 2.0 * x[i]
+@kernel
+def doubled(x):
+    for i in range(len(x)):
+        x[i] = 2.0 * x[i]
 
-    doubled.compile((float64[::1],))
-    print(*("zmm" in code for code in doubled.inspect_asm().values()))
+doubled.compile((float64[::1],))
+print(*("zmm" in code for code in doubled.inspect_asm().values()))
 """
 
 
@@ -72,6 +72,8 @@ WIDE = """if True:
 def test_vectors_are_as_wide_as_the_processor_has_them(chosen, wide, tmp_path):
     """512 bits with AVX-512, unless the user has chosen a processor."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), **chosen}
-    command = [sys.executable, "-c", WIDE]
+    script = tmp_path / "wide.py"
+    script.write_text(WIDE)
+    command = [sys.executable, str(script)]
     found = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
     assert found.stdout.split() == [wide]
