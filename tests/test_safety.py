@@ -457,13 +457,12 @@ def test_preludes_and_checkpoints_are_read_that_way(tmp_path, monkeypatch):
 def test_nothing_that_is_read_can_run():
     """Neither pickles nor texts become code, and no shell is between this package and others.
 
-    Machine code of its own, in the user's cache, is what alone is meant to run.
+    Numba's cache of machine code is in a folder that only the user can write to.
     """
-    kept = ROOT / "src/springblock/solver/compilation.py"
     for file in (ROOT / "src").rglob("*.py"):
         text = file.read_text()
         pickles = re.search(r"\b(pickle|marshal|shelve|dill|joblib|read_pickle)\b", text)
-        assert not pickles or file == kept, file
+        assert not pickles, file
         assert not re.search(r"(?<![.\w])(eval|exec)\(|os\.(system|popen)|shell=True", text), file
         for call in re.findall(r"np\.load\([^)]*\)", text):
             assert "allow_pickle=False" in call, file

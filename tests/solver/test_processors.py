@@ -1,6 +1,7 @@
 """The same answer on any processor: vectors and fused operations change the last bits alone."""
 
 import os
+import platform
 import subprocess
 import sys
 
@@ -46,13 +47,33 @@ def test_any_processor_finds_the_same_run_up_to_its_peak(generic):
     np.testing.assert_allclose(generic["t_det"][before], here.t_det[before], rtol=TOLERANCE)
 
 
-def test_vectors_do_not_depend_on_what_is_imported_first():
-    """Numba looks at the features of the processor once: when the first function is declared."""
-    chosen = "from numba.core.registry import cpu_target as cpu; import springblock.solver; "
-    chosen += "print(cpu.target_context.codegen().magic_tuple())"
-    first = ("springblock.solver", "springblock.accuracy.plain_rk4")
-    found = {
-        subprocess.check_output([sys.executable, "-c", f"import {module}; {chosen}"])
-        for module in first
-    }
-    assert len(found) == 1
+WIDE = """
+import llvmlite.binding as llvm
+has = {"avx512f": True, "avx512vl": True}
+llvm.get_host_cpu_name = lambda: "skylake-avx512"
+llvm.get_host_cpu_features = lambda: llvm.targets.FeatureMap(has)
+from numba import float64
+from springblock.solver.compilation import kernel
+
+@kernel
+def doubled(x):
+    for i in range(len(x)):
+        x[i] = 2.0 * x[i]
+
+doubled.compile((float64[::1],))
+print(*("zmm" in code for code in doubled.inspect_asm().values()))
+"""
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="vectors of these processors")
+@pytest.mark.parametrize(
+    ("chosen", "wide"), [({}, "True"), ({"NUMBA_CPU_NAME": "skylake-avx512"}, "False")]
+)
+def test_vectors_are_as_wide_as_the_processor_has_them(chosen, wide, tmp_path):
+    """512 bits with AVX-512, unless the user has chosen a processor."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), **chosen}
+    script = tmp_path / "wide.py"
+    script.write_text(WIDE)
+    command = [sys.executable, str(script)]
+    found = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    assert found.stdout.split() == [wide]

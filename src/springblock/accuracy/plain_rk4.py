@@ -8,11 +8,10 @@ to rest. SI units throughout, one force evaluation per stage, no thought given t
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
-from springblock.solver.compilation import keep
+from springblock.solver.compilation import cached_njit
 
 Array = NDArray[np.float64]
 
@@ -30,8 +29,7 @@ class Solution:
     steps: int
 
 
-@keep
-@njit
+@cached_njit
 def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
     n_y, n_x = contact.shape
     k_int, k_s, mass, length, gamma, speed = c
@@ -62,8 +60,7 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
             a[y, x, 1] = (fy / mass - gamma * v[y, x, 1]) if moves else 0.0
 
 
-@keep
-@njit
+@cached_njit
 def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det):
     n_y, n_x = contact.shape
     r, v = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2))

@@ -3,8 +3,7 @@
 import atexit
 import gc
 import os
-from functools import cache
-from importlib import import_module
+from pkgutil import resolve_name
 
 import click
 
@@ -36,17 +35,11 @@ COMMANDS = {
 }
 
 
-@cache
 def _start_lightly() -> None:
-    """Leave out what costs a short job half of its time and is of no use to it.
-
-    Garbage would be looked for among all that imports leave some hundred times while they run,
-    and twice at the end, when the memory goes back as a whole. NumPy's linear algebra would start
-    a thread for each core, which then waits by counting.
-    """
-    gc.set_threshold(100_000)
-    atexit.register(gc.freeze)
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    """Leave out what takes a short job a quarter of its CPU time."""
+    gc.set_threshold(100_000)  # imports leave nothing to collect
+    atexit.register(gc.freeze)  # nor does what the system frees at the end
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would spin
 
 
 class _LazyGroup(click.Group):
@@ -57,8 +50,8 @@ class _LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         _start_lightly()
-        module, name = COMMANDS[cmd_name].split(":")
-        return getattr(import_module(module), name)
+        command: click.Command = resolve_name(COMMANDS[cmd_name])
+        return command
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

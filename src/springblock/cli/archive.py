@@ -5,7 +5,6 @@ from pathlib import Path
 import click
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
-from springblock.study.archive import archive
 
 
 @click.command("archive")
@@ -20,6 +19,8 @@ from springblock.study.archive import archive
 @click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
 def archive_study(results: Path, configuration: Path, output: Path) -> None:
     """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
+    from springblock.study.archive import archive  # needs what the study needs
+
     study = Path.cwd()
     with one_sentence():
         number = archive(study, results.absolute(), configuration.absolute(), output)

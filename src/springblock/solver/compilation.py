@@ -1,62 +1,48 @@
-"""How the kernels are compiled, and where their machine code is kept."""
+"""How the kernels are compiled, and where numba caches their machine code.
 
+Machine code is cached in `springblock/<digest>` of `$NUMBA_CACHE_DIR`, or else of the user's cache
+folder, where the digest stands for the sources of the solver, the release of numba and the
+processor. Numba's settings are the same after an import of this module as before.
+"""
+
+import contextlib
+import fcntl
 import hashlib
-import inspect
 import logging
 import os
-import pickle
-import sysconfig
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import llvmlite.binding
 import numba
-import numpy as np
 from numba import njit, types
-from numba.core import caching
-from numba.core.compiler import Compiler, CompileResult
-from numba.core.serialize import dumps
 from numba.extending import intrinsic
-
-from springblock.files import BLANK, read_sealed, write_sealed
-from springblock.provenance import digest
 
 _LOG = logging.getLogger(__name__)
 
 
-def _caches() -> Path:
-    """Folder for what can be made again."""
+@contextlib.contextmanager
+def _setting(name: str, value: object) -> Iterator[None]:
+    """Change one of numba's settings for a while."""
+    before = getattr(numba.config, name)
+    setattr(numba.config, name, value)
     try:
-        home = Path.home()
-    except RuntimeError:  # a user who has none, as in some containers; a stranger's folder won't do
-        home = Path(os.devnull)
-    return Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache") / "springblock"
+        yield
+    finally:
+        setattr(numba.config, name, before)
 
 
-#: Where machine code is kept. A function inlined from another file may change: each state of the
-#: sources has a folder of its own. Unlike nodes share it.
-FOLDER = Path(os.environ.get("NUMBA_CACHE_DIR") or _caches()) / digest("compile")
+def _processor_features() -> str | None:
+    """Features of the processor that numba is to use; None leaves the choice to numba.
 
-#: What machine code depends on besides its source, the types and the processor.
-_TOOLS = (
-    sysconfig.get_config_var("EXT_SUFFIX"),
-    numba.__version__,
-    np.__version__,
-    *(
-        os.environ.get(f"NUMBA_{setting}")
-        for setting in ("OPT", "BOUNDSCHECK", "DEBUGINFO", "LOOP_VECTORIZE", "SLP_VECTORIZE")
-    ),
-)
-
-
-def _wide_vectors() -> str | None:
-    """Features of a processor with AVX-512, of which vectors of 512 bits are to be made use of.
-
-    LLVM prefers half of that, lest the clock slows down, as it did on the first of them. None
-    leaves the choice to numba.
+    With AVX-512, vectors of 512 bits are used. LLVM prefers half of that because the first of these
+    processors then lowered their clock. NUMBA_CPU_NAME or NUMBA_CPU_FEATURES overrule this.
     """
+    config = numba.config
+    if config.CPU_NAME is not None or config.CPU_FEATURES is not None:
+        return config.CPU_FEATURES
     try:
         features = llvmlite.binding.get_host_cpu_features()
     except RuntimeError:  # LLVM does not know this processor
@@ -64,99 +50,126 @@ def _wide_vectors() -> str | None:
     return f"{features.flatten()},-prefer-256-bit" if features.get("avx512f") else None
 
 
-if not (numba.config.CPU_NAME or numba.config.CPU_FEATURES):
-    numba.config.CPU_FEATURES = _wide_vectors()
+_FEATURES = _processor_features()
+
+# Numba reads the features once in a process, when the first function is declared: this one.
+with _setting("CPU_FEATURES", _FEATURES):
+    njit(lambda: None)
 
 
-class _Restrict(Compiler):  # type: ignore[misc]
-    """Promises that the arrays handed to a function do not overlap, as `restrict` does in C.
+def _digest() -> str:
+    """Digest of what the machine code of all kernels depends on; 16 hexadecimal digits."""
+    name = numba.config.CPU_NAME or llvmlite.binding.get_host_cpu_name()
+    content = hashlib.sha256(repr((numba.__version__, name, _FEATURES)).encode())
+    for file in sorted(Path(__file__).parent.glob("*.py")):
+        content.update(file.name.encode() + file.read_bytes())
+    return content.hexdigest()[:16]
 
-    Every row would otherwise begin with a check of each array against all others.
+
+def _cache_folder() -> Path:
+    """Return the folder for machine code, which nobody but this user can write to.
+
+    Numba runs what it finds there.
+
+    Raises
+    ------
+    OSError, RuntimeError
+        If there is no such folder and none can be made.
     """
-
-    def define_pipelines(self):
-        self.state.flags.noalias = True
-        return super().define_pipelines()
-
-
-class _Kept(caching.NullCache):  # type: ignore[misc]
-    """Machine code of one function, a file for each kind of processor and of arguments.
-
-    Unlike numba's own, it is known to be whole, no two processes mistake each other's for theirs,
-    and it is loaded as it is: numba makes ready to compile first, which takes a quarter of a short
-    job. Where it cannot be kept, each process compiles what it needs.
-    """
-
-    def __init__(self, compiled: Any) -> None:
-        function = compiled.py_func
-        self._name = f"{function.__module__}.{function.__qualname__}"
-        self._source = _content(inspect.getfile(function)), function.__code__.co_firstlineno
-        self._depends_on_more = bool(function.__closure__)
-        self._makes_arrays = compiled.targetoptions.get("_nrt", True)
-
-    def _file(self, types_given: object, codegen: Any) -> Path:
-        made_for = (self._source, types_given, codegen.magic_tuple(), _TOOLS)
-        return FOLDER / f"{self._name}-{hashlib.sha256(repr(made_for).encode()).hexdigest()[:32]}"
-
-    def load_overload(self, sig: object, target_context: Any) -> Any:
-        try:
-            kept = read_sealed(self._file(sig, target_context.codegen()))
-        except (OSError, ValueError):  # not there, or damaged
-            _say_compiling()
-            return None
-        if self._makes_arrays:
-            target_context.refresh()
-        return CompileResult._rebuild(target_context, *pickle.loads(kept))
-
-    def save_overload(self, sig: object, result: Any) -> None:
-        code = result._asdict()["library"]
-        if self._depends_on_more or code.has_dynamic_globals:  # addresses of this process
-            return
-        try:
-            made = dumps(result._reduce()) + BLANK
-            write_sealed(self._file(sig, code.codegen), made)
-        except OSError as error:
-            _say_not_kept(error.strerror)
+    home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
+    shared = Path(home or Path.home() / ".cache") / "springblock"
+    for folder in (shared, shared / _digest()):
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        status = folder.stat()
+        if status.st_uid != os.getuid() or status.st_mode & 0o022:
+            raise PermissionError(f"others can write to {folder}")
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(f"{folder} is read-only")
+    return folder
 
 
-@cache
-def _content(source: str) -> str:
-    """Digest of a source file as it is when it is imported."""
-    return hashlib.sha256(Path(source).read_bytes()).hexdigest()
+try:
+    FOLDER: Path | None = _cache_folder()
+    _COMPILING = "compiling once for this processor and this kind of run, some 15 s"
+except (OSError, RuntimeError) as error:
+    FOLDER = None
+    _COMPILING = f"compiling for this process alone, some 15 s, because nothing is cached: {error}"
 
 
 @cache
 def _say_compiling() -> None:
-    _LOG.warning("compiling once for this processor and this kind of run, some 15 s")
+    _LOG.warning(_COMPILING)
 
 
-@cache
-def _say_not_kept(error: str) -> None:
-    _LOG.warning("machine code cannot be kept for the next time in %s: %s", FOLDER, error)
+try:  # parts that numba may move or change without notice
+    from numba.core.compiler import Compiler
+    from numba.core.cpu import CPUTargetOptions
+    from numba.core.event import Listener, register
+except ImportError:
+    Compiler = Listener = CPUTargetOptions = object
+
+#: Whether numba has them: without, kernels are slower, and may differ in the last bits.
+HAS_PRIVATE_PARTS = hasattr(CPUTargetOptions, "_nrt")
 
 
-def keep(compiled: Any) -> Any:
-    """Let machine code of what numba compiles be kept."""
-    if not numba.config.DISABLE_JIT:  # and left it a function of Python's
-        compiled._cache = _Kept(compiled)
-    return compiled
+class _Restrict(Compiler):  # type: ignore[misc]
+    """Compiler that assumes that the arrays handed to a function do not overlap.
+
+    Every row would otherwise begin with a check of each array against all others. With `_nrt`
+    false, references to arrays are not counted, which takes an atomic operation for each array in
+    each call: kernels make no arrays.
+    """
+
+    def define_pipelines(self):
+        _say_compiling()
+        self.state.flags.noalias = True
+        return super().define_pipelines()
 
 
-#: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum. References to
-#: arrays are not counted, which costs an atomic operation for each array in each call: kernels
-#: make no arrays.
-_OPTIONS = {
-    "nogil": True,
-    "error_model": "numpy",
-    "fastmath": {"contract", "nsz"},
-    "pipeline_class": _Restrict,
-    "_nrt": False,
-}
+class _OneCompiler(Listener):  # type: ignore[misc]
+    """Lock that lets one process at a time compile and write to the cache.
+
+    Of two that add code for other types to one kernel at once, numba would confuse the files.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file, self._depth, self._lock = file, 0, -1
+
+    def on_start(self, event):
+        self._depth += 1
+        if self._depth == 1:
+            self._lock = os.open(self._file, os.O_RDWR | os.O_CREAT, 0o600)
+            with contextlib.suppress(OSError):  # a file system without locks
+                fcntl.flock(self._lock, fcntl.LOCK_EX)
+
+    def on_end(self, event):
+        self._depth -= 1
+        if self._depth == 0:
+            os.close(self._lock)
+
+
+if FOLDER and HAS_PRIVATE_PARTS:
+    register("numba:compiler_lock", _OneCompiler(FOLDER / "lock"))
+
+
+def cached_njit(function: Callable[..., Any], **options: Any) -> Any:
+    """`numba.njit` with machine code in the cache folder; each process compiles if there is none.
+
+    Where a function is cached is settled when it is declared.
+    """
+    with _setting("CACHE_DIR", str(FOLDER)):
+        return njit(cache=FOLDER is not None, **options)(function)
+
+
+#: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.
+_OPTIONS = {"nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}}
+if HAS_PRIVATE_PARTS:
+    _OPTIONS |= {"pipeline_class": _Restrict, "_nrt": False}
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile a function for the types that it is called with, and keep its machine code."""
-    return keep(njit(**_OPTIONS)(function))
+    """Compile a function for the types that it is called with, and cache its machine code."""
+    return cached_njit(function, **_OPTIONS)
 
 
 @intrinsic
