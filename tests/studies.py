@@ -49,6 +49,7 @@ class Study:
     @classmethod
     def begun(cls, folder: Path, **changes: Any) -> "Study":
         """Copy the workflow into a folder, and configure it; nothing is run."""
+        folder.mkdir(parents=True, exist_ok=True)
         for part in PARTS:
             copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
             copy(ROOT / part, folder / part)
