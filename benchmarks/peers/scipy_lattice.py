@@ -37,6 +37,7 @@ class ScipyLattice:
         self._slider = np.array([m.slider_velocity * UNIT / m.spacing, 0.0])[:, None, None]
         start = np.concatenate([np.zeros(velocity.size), velocity.ravel()])
         scale = float(np.abs(velocity).std())
+        self._end = 0.0
         self._solver = DOP853(self.rate, 0.0, start, np.inf, rtol=RTOL, atol=RTOL * scale)
 
     def rate(self, t: float, state: np.ndarray) -> np.ndarray:
@@ -55,11 +56,7 @@ class ScipyLattice:
         return np.concatenate([v.ravel(), acceleration.ravel()])
 
     def advance(self, steps: int) -> None:
-        """Take so many steps of DOP853's own choice."""
-        for _ in range(steps):
+        """Go on by so many UNIT, and to the end of the step of DOP853's own choice there."""
+        self._end += steps
+        while self._solver.t < self._end:
             self._solver.step()
-
-    @property
-    def progress(self) -> np.ndarray:
-        """Time gone by, in UNIT, and force evaluations so far."""
-        return np.array([self._solver.t, self._solver.nfev])
