@@ -1,7 +1,7 @@
 """Where the CPU time of the whole study goes, from the benchmark files that Snakemake leaves."""
 
 import csv
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -16,7 +16,7 @@ FOLDER = Path(__file__).parents[1] / "results/benchmarks"
 
 def rows() -> Iterator[Row]:
     """Total CPU time by kind of job, and the largest memory of a job."""
-    seconds: Counter[str] = Counter()
+    seconds: dict[str, float] = defaultdict(float)
     jobs: Counter[str] = Counter()
     memory = 0.0
     for file in FOLDER.rglob("*.tsv"):
@@ -30,11 +30,11 @@ def rows() -> Iterator[Row]:
     if not jobs:
         yield Row("study", "all jobs", "s", np.nan, note="the study has not been run")
         return
-    total = seconds.total()
+    total = sum(seconds.values())
     here = partial(Row, "study", unit="s", reference=total)
     sampled = f"{jobs.total()} jobs; Snakemake's samples miss the last seconds of a job"
     yield here("all jobs", values=total, note=sampled)
-    for kind, each in seconds.most_common():
+    for kind, each in sorted(seconds.items(), key=lambda item: -item[1]):
         yield here(kind, values=each, note=f"jobs: {jobs[kind]}")
     yield Row("study", "largest memory of a job", "MB", memory)
 
