@@ -1,8 +1,8 @@
 """How fast, printed as one table.
 
 kernel       ns per block and step where all blocks move: both integrators, the same leapfrog in C,
-             LAMMPS, Runge-Kutta as one would first write it, and SciPy's DOP853; and the share of
-             the core's peak that those reach whose operations are counted
+             LAMMPS and Runge-Kutta as one would first write it; and the share of the core's peak
+             that those reach whose operations are counted
 realisation  CPU seconds of whole runs, from zero and with the prelude
 scaling      the leapfrog over the size of the surface, and over the share of blocks that move
 cores        the leapfrog on one core and on all, by the clock on the wall
@@ -35,9 +35,16 @@ from benchmarks import history, study_cost
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.peers.c_loop import CLoop, Peak
 from benchmarks.peers.lammps_lattice import LammpsLattice
-from benchmarks.peers.missing import Missing
-from benchmarks.peers.scipy_lattice import RTOL, ScipyLattice
-from benchmarks.timing import BLOCK_STEP, WITH_PRELUDE, Array, Row, Runs, interleaved, printed
+from benchmarks.timing import (
+    BLOCK_STEP,
+    WITH_PRELUDE,
+    Array,
+    Missing,
+    Row,
+    Runs,
+    interleaved,
+    printed,
+)
 from springblock import compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
@@ -186,11 +193,6 @@ CONTENDERS = {
     ),
     "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, "all blocks move", RK4),
     "plain rk4": Contender(PlainRungeKutta, STEPS // 30, "numba, as one would first write it"),
-    "DOP853": Contender(
-        lambda n: ScipyLattice(in_motion(n)[3]),
-        STEPS // 5,
-        f"SciPy with NumPy, rtol {RTOL:g}; no friction; per 1e-8 s",
-    ),
 }
 
 
@@ -329,10 +331,7 @@ def machine() -> dict[str, str]:
         "cpu": models[0] if models else platform.processor() or platform.machine(),
         "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
         "python": platform.python_version(),
-        **{name: metadata.version(name) for name in ("numba", "numpy", "scipy")},
-        "llvm": ".".join(map(str, llvmlite.binding.llvm_version_info)),
-        "gcc": c_loop.compiler_version(),
-        "lammps": lammps_lattice.version(),
+        **{name: metadata.version(name) for name in ("numba", "llvmlite", "numpy")},
         "code_version": code_version("springblock.simulation.simulate"),
     }
 

@@ -17,6 +17,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Runs = dict[str, Callable[[], object]]  #: what is timed in turn, by its name
 
+
+class Missing(Exception):
+    """A peer cannot be timed here; the message says why."""
+
+
 #: Names that history.csv finds its rows by.
 BLOCK_STEP = "ns per block and step"
 WITH_PRELUDE = "with the prelude"

@@ -9,11 +9,7 @@ from click.testing import CliRunner
 
 from benchmarks import history, load, speed, study_cost
 from benchmarks.peers import c_loop, lammps_lattice
-from benchmarks.peers.missing import Missing
-from benchmarks.peers.scipy_lattice import UNIT, ScipyLattice
-from benchmarks.timing import BLOCK_STEP, Row, interleaved, printed
-from springblock import Material
-from springblock.accuracy.kernels import spring_forces
+from benchmarks.timing import BLOCK_STEP, Missing, Row, interleaved, printed
 from springblock.model.scene import Scene
 from studies import ROOT
 
@@ -58,15 +54,6 @@ def test_lammps_moves_as_the_solver():
         pytest.skip(str(why))
 
 
-def test_scipy_lattice_has_the_springs_of_the_solver(rng):
-    material, displacement = Material(), 1e-2 * rng.standard_normal((2, 7, 7))
-    lattice = ScipyLattice(displacement, material)  # any velocity
-    state = np.concatenate([displacement.ravel(), np.zeros(displacement.size)])
-    acceleration = lattice.rate(0.0, state)[displacement.size :].reshape(displacement.shape)
-    expected = material.k_int * spring_forces(displacement) - material.k_s * displacement
-    np.testing.assert_allclose(acceleration, expected * UNIT**2 / material.mass, atol=1e-13)
-
-
 def test_operations_are_those_of_the_c_loop():
     springs = operators("springs") + 4 * operators("pull")
     assert springs == speed.SPRINGS
@@ -91,7 +78,11 @@ def test_ratios_are_taken_within_repetitions():
 
 def test_the_benchmark_prints_its_table_and_adds_its_line(in_small, monkeypatch):
     """Of moments, so that numbers mean nothing; LAMMPS is not there."""
-    monkeypatch.setattr(lammps_lattice, "version", lambda: "missing")
+
+    def absent():
+        raise Missing("not installed")
+
+    monkeypatch.setattr(lammps_lattice, "require", absent)
     outcome = CliRunner().invoke(speed.main, ["--release"], catch_exceptions=False)
     assert outcome.exit_code == 0, outcome.output
     for part in speed.PARTS:
