@@ -5,7 +5,7 @@
 #               Ubuntu); without one they leave that out, where CI is set they fail
 # make test-slurm  run the quick study through a Slurm of one node, which it installs and starts: root
 #               on Debian, a quarter of an hour
-# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some two and a half minutes;
+# make bench    measure how fast it is, against C and LAMMPS: one table in some two and a half minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make verify   hold results/ against its checksums, its manifest, the code and the lock file of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same

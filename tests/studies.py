@@ -103,19 +103,15 @@ class Study:
         self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",), **how: Any
     ) -> subprocess.Popen[str]:
         """Start Snakemake, in a process group of its own; `how` goes to Popen."""
-        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        usual = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
+        command = self.command(*options, configuration=configuration)
         return subprocess.Popen(
-            self.command(*options, configuration=configuration),
-            cwd=self.folder,
-            env=self.environment,
-            text=True,
-            start_new_session=True,
-            **{**streams, **how},
+            command, cwd=self.folder, env=self.environment, text=True, **{**usual, **how}
         )
 
     def run(self, *options: str, refused: bool = False, **how: Any) -> str:
         """Run Snakemake to its end, which is success unless `refused`; returns what it says."""
-        process = self.start(*options, **how)
+        process = self.start(*options, start_new_session=False, **how)
         said, _ = process.communicate()
         assert (process.returncode != 0) == refused, said
         return said
