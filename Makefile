@@ -5,7 +5,7 @@
 #               Ubuntu); without one they leave that out, where CI is set they fail
 # make test-slurm  run the quick study through a Slurm of one node, which it installs and starts: root
 #               on Debian, a quarter of an hour
-# make bench    measure how fast it is, against C, LAMMPS and SciPy: one table in some two and a half minutes;
+# make bench    measure how fast it is, against C and LAMMPS: one table in some two and a half minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
 # make full     the whole study, on which the pages in docs rest: an hour and a quarter on two cores
 # make verify   hold results/ against its checksums and the code of today

@@ -11,8 +11,6 @@ flat_to_c, ...     a whole realisation with its prelude, over all its steps in C
 All times are CPU times. What could not be measured is left empty.
 """
 
-import csv
-import io
 import re
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
@@ -24,51 +22,32 @@ from benchmarks.timing import BLOCK_STEP, WITH_PRELUDE, Row
 
 FILE = Path(__file__).with_name("history.csv")
 PARTS = ("kernel", "realisation")  #: of the measurement, which a line is made from
-#: What tells one line from another.
-_KEYS = ("version", "cpu", "vectors")
 #: What the name of a processor says besides its name.
-_NO_NAME = re.compile(r"\((R|TM)\)|\b\d+-Core\b|\bCPU\b|\bProcessor\b|@.*")
-
-Line = dict[str, str]
+_NO_NAME = re.compile(r"\((R|TM)\)|\b\d+-Core\b|\bCPU\b|\bProcessor\b|@.*|,")
 
 
-def release(machine: Mapping[str, str]) -> Line:
-    """Return what a line begins with: which code, when, and on what."""
+def line(machine: Mapping[str, str], rows: Iterable[Row], n: int) -> str:
+    """Return the line of a release, from the rows of its parts on surfaces of N = n."""
+    found = {(row.name, row.unit, row.scene): row for row in rows if row.n_blocks == n}
+    absent = Row("", "", "", np.nan)
+
+    def step(name: str) -> Row:
+        return found.get((name, BLOCK_STEP, "flat"), absent)
+
+    kernels = ("LAMMPS", "rk4", "plain rk4")
+    scenes = ("flat", "pillars", "grooves")
+    numbers = [
+        step("leapfrog").value,
+        step("C loop").value,
+        1.0 / step("C loop").ratio,
+        *(step(name).value for name in kernels),
+        100.0 * step("leapfrog").of_peak,
+        *(found.get((WITH_PRELUDE, "s", scene), absent).ratio for scene in scenes),
+    ]
     version, _, code = machine["code_version"].partition("+")
-    return {
-        "version": version,
-        "date": datetime.now(UTC).date().isoformat(),
-        "code": code,
-        "cpu": " ".join(_NO_NAME.sub(" ", machine["cpu"]).split()),
-        "vectors": machine["vectors"],
-    }
-
-
-def measured(rows: Iterable[Row], n: int) -> Line:
-    """Return what a line goes on with, from the rows of its parts on surfaces of N = n."""
-    found = {
-        (each["name"], each["unit"], each["scene"]): each
-        for each in rows
-        if each["part"] in PARTS and each["n_blocks"] == n
-    }
-
-    def step(name: str, key: str = "value") -> float:
-        return found.get((name, BLOCK_STEP, "flat"), {}).get(key, np.nan)
-
-    def run(scene: str) -> float:
-        return found.get((WITH_PRELUDE, "s", scene), {}).get("ratio", np.nan)
-
-    numbers = {
-        "leapfrog_ns": step("leapfrog"),
-        "c_loop_ns": step("C loop"),
-        "leapfrog_to_c": 1.0 / step("C loop", "ratio"),
-        "lammps_ns": step("LAMMPS"),
-        "rk4_ns": step("rk4"),
-        "plain_rk4_ns": step("plain rk4"),
-        "percent_of_peak": 100.0 * step("leapfrog", "of_peak"),
-        **{f"{scene}_to_c": run(scene) for scene in ("flat", "pillars", "grooves")},
-    }
-    return {name: _three_digits(number) for name, number in numbers.items()}
+    day = datetime.now(UTC).date().isoformat()
+    cpu = " ".join(_NO_NAME.sub(" ", machine["cpu"]).split())
+    return ",".join([version, day, code, cpu, machine["vectors"], *map(_three_digits, numbers)])
 
 
 def _three_digits(number: float) -> str:
@@ -78,26 +57,7 @@ def _three_digits(number: float) -> str:
     return np.format_float_positional(number, 3, fractional=False, trim="-")
 
 
-def refuse_second(line: Line) -> None:
-    """Raise ValueError where the file has a line for this version on this processor."""
-    with FILE.open(newline="", encoding="utf-8") as file:
-        known = {tuple(each[key] for key in _KEYS) for each in csv.DictReader(file)}
-    if tuple(line[key] for key in _KEYS) in known:
-        raise ValueError(
-            f"version is {line['version']} and {FILE.name} has its line for {line['cpu']} with "
-            f"{line['vectors']} already: it may have one for each version and processor"
-        )
-
-
-def text(line: Line) -> str:
-    """Return a line as it stands in the file."""
-    out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerow(line.values())
-    return out.getvalue()
-
-
-def append(line: Line) -> None:
-    """Add a line to the file; raises ValueError where it would be the second of its kind."""
-    refuse_second(line)
-    with FILE.open("a", newline="", encoding="utf-8") as file:
-        file.write(text(line))
+def append(line: str) -> None:
+    """Add a line to the file."""
+    with FILE.open("a", encoding="utf-8") as file:
+        file.write(f"{line}\n")

@@ -1,13 +1,12 @@
-"""How fast: the rows of results/tables/benchmark.parquet, printed as one table.
+"""How fast, printed as one table.
 
 kernel       ns per block and step where all blocks move: both integrators, the same leapfrog in C,
-             LAMMPS, Runge-Kutta as one would first write it, and SciPy's DOP853; and the share of
-             the core's peak that those reach whose operations are counted
+             LAMMPS and Runge-Kutta as one would first write it; and the share of the core's peak
+             that those reach whose operations are counted
 realisation  CPU seconds of whole runs, from zero and with the prelude
 scaling      the leapfrog over the size of the surface, and over the share of blocks that move
 cores        the leapfrog on one core and on all, by the clock on the wall
-peak         what that is a share of: the multiply-adds of one core, and the operations counted
-study        where the CPU time of the whole study goes, and what the pipeline adds to it
+study        where the CPU time of the whole study goes
 
 No part but cores uses threads. Peers that are not there, or fail, make rows that say so. What
 history.csv keeps of a release is printed at the end.
@@ -24,7 +23,7 @@ from dataclasses import dataclass
 from functools import partial
 from importlib import metadata
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 import click
 import llvmlite.binding
@@ -36,24 +35,19 @@ from benchmarks import history, study_cost
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.peers.c_loop import CLoop, Peak
 from benchmarks.peers.lammps_lattice import LammpsLattice
-from benchmarks.peers.missing import Missing
-from benchmarks.peers.scipy_lattice import RTOL, ScipyLattice
 from benchmarks.timing import (
     BLOCK_STEP,
-    SCHEMA,
     WITH_PRELUDE,
     Array,
+    Missing,
     Row,
+    Runs,
     interleaved,
-    missing,
     printed,
-    row,
 )
-from springblock import Realisation, compute_prelude, draw_friction, simulate
+from springblock import compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
-from springblock.cli.options import one_sentence
-from springblock.io.parquet import rows_to_table, write
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.scene import Scene
 from springblock.provenance import code_version
@@ -80,7 +74,6 @@ SCENES = {
 }
 #: The plain Runge-Kutta method would need minutes on the full size.
 PLAIN_N = 40
-FINE_STEP = 2.5e-9
 
 SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
@@ -93,32 +86,16 @@ SHARES = (0.0, 0.25, 0.5, 0.75)
 #: What the solver does on top, its energy balance above all, does not count.
 SPRINGS = 2 * (2 + 5 + 13 + 3) + 2 * (2 + 6 + 13 + 4)  #: ends, q, polynomial, two components
 GATHER = 2 * (9 + 3)  #: eight springs and the slider, two components
-OPERATIONS = {
-    "leapfrog": {
-        "springs": SPRINGS,
-        "gather": GATHER,
-        # trial, |w|², turned, held, stops, mean velocity, friction over its length, velocity
-        "friction": 4 + 3 + 3 + 4 + 1 + 2 + 5 + 4,
-        "drift": 4,  # new displacement, and its sum
-    },
-    "rk4": {
-        "springs": 4 * SPRINGS,
-        "gather": 4 * GATHER,
-        "stages": 4 * (8 + 2 * 4 + 2 * 4),  # acceleration, sums over stages, the next stage
-        "friction": 6 + 21 + 3,  # direction, that in the middle of the step, turned
-        "drift": 2 + 4,  # new velocity, new displacement and its sum
-    },
-}
-COUNTS = {name: sum(counted.values()) for name, counted in OPERATIONS.items()}
+#: Trial, |w|², turned, held, stops, mean velocity, friction over its length, velocity; drift.
+LEAPFROG = SPRINGS + GATHER + (4 + 3 + 3 + 4 + 1 + 2 + 5 + 4) + 4
+#: Acceleration, sums over stages, the next stage; direction, that in mid-step, turned; drift.
+RK4 = 4 * (SPRINGS + GATHER) + 4 * (8 + 2 * 4 + 2 * 4) + (6 + 21 + 3) + (2 + 4)
 
 STEPS = 300  #: of a kernel in one repetition, some 50 ms
 ROUNDS = 10_000_000  #: of multiply-adds
 MULTIPLY_ADDS = "multiply-adds"
-BLOCK_EVALUATION = "ns per block and evaluation"
-
 
 Flags = NDArray[np.bool_]
-Runs = dict[str, Callable[[], object]]  #: what is timed in turn, by its name
 
 
 class Lattice(Protocol):
@@ -152,8 +129,7 @@ class Solver:
     @property
     def velocity(self) -> tuple[Array, Array]:
         """Both components, (N, N) each, views."""
-        blocks = self.state.blocks
-        grid = self.constants.grid
+        blocks, grid = self.state.blocks, self.constants.grid
         return unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)
 
     @property
@@ -168,7 +144,6 @@ class PlainRungeKutta:
 
     def __init__(self, n: int) -> None:
         self.surface = in_motion(n)[:3]
-        self.advance(WARM_UP)
 
     def advance(self, steps: int) -> None:
         """Take so many steps."""
@@ -184,28 +159,18 @@ def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
 
 
 def c_loop_in_motion(n: int) -> CLoop:
-    """The same in C; raises Missing."""
+    """The leapfrog in C; raises Missing."""
     c_loop.require()
     contact, mu_static, mu_dynamic, velocity = in_motion(n)
     loop = CLoop(contact, mu_static, mu_dynamic, PAPER_STEP)
     loop.velocity[:] = velocity
-    loop.advance(WARM_UP)
     return loop
 
 
 def lammps_in_motion(n: int) -> LammpsLattice:
     """The frictionless lattice in LAMMPS, from strained springs; raises Missing."""
     lammps_lattice.require()
-    lattice = LammpsLattice(in_motion(n)[3], PAPER_STEP)
-    lattice.advance(WARM_UP)
-    return lattice
-
-
-def scipy_in_motion(n: int) -> ScipyLattice:
-    """The frictionless lattice for DOP853, which has found its step."""
-    lattice = ScipyLattice(in_motion(n)[3])
-    lattice.advance(5)
-    return lattice
+    return LammpsLattice(in_motion(n)[3], PAPER_STEP)
 
 
 @dataclass(frozen=True)
@@ -214,45 +179,35 @@ class Contender:
 
     make: Callable[[int], Lattice]  #: from N; raises Missing
     steps: int  #: per repetition
-    evaluations: int  #: of the force, per step
     note: str
-    operations: int = 0  #: per block and step; 0 where nobody has counted them
+    operations: float = np.nan  #: per block and step; NaN where nobody has counted them
 
 
-#: What DOP853 does in a step is counted while it runs.
 CONTENDERS = {
-    "leapfrog": Contender(partial(Solver, "leapfrog"), STEPS, 1, "", COUNTS["leapfrog"]),
+    "leapfrog": Contender(partial(Solver, "leapfrog"), STEPS, "all blocks move", LEAPFROG),
     "C loop": Contender(
-        c_loop_in_motion,
-        STEPS,
-        1,
-        "leapfrog without energy balance and watch over strains",
-        COUNTS["leapfrog"],
+        c_loop_in_motion, STEPS, "leapfrog without energy balance and watch over strains", LEAPFROG
     ),
     "LAMMPS": Contender(
-        lammps_in_motion, STEPS // 5, 1, "bonds, tethers, velocity Verlet; no friction"
+        lammps_in_motion, STEPS // 5, "bonds, tethers, velocity Verlet; no friction"
     ),
-    "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, 4, "", COUNTS["rk4"]),
-    "plain rk4": Contender(PlainRungeKutta, STEPS // 30, 5, "numba, as one would first write it"),
-    "DOP853": Contender(
-        scipy_in_motion, 1, 12, f"SciPy with NumPy, rtol {RTOL:g}; no friction; per 1e-8 s"
-    ),
+    "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, "all blocks move", RK4),
+    "plain rk4": Contender(PlainRungeKutta, STEPS // 30, "numba, as one would first write it"),
 }
 
 
 def kernel() -> Iterator[Row]:
     """Both integrators and their peers, step by step, all blocks in motion."""
-    made: dict[str, Any] = {}
+    runs: Runs = {}
     absent: dict[str, Missing] = {}
     for name, contender in CONTENDERS.items():
         try:
-            made[name] = contender.make(N)
+            lattice = contender.make(N)
         except Missing as why:
             absent[name] = why
-    before = made["DOP853"].progress
-    runs: Runs = {
-        name: partial(peer.advance, CONTENDERS[name].steps) for name, peer in made.items()
-    }
+            continue
+        lattice.advance(min(WARM_UP, contender.steps))
+        runs[name] = partial(lattice.advance, contender.steps)
     multiply_adds = None
     with suppress(Missing):
         multiply_adds = Peak(ROUNDS)
@@ -260,74 +215,56 @@ def kernel() -> Iterator[Row]:
     seconds = interleaved(runs, REPETITIONS)
     operation: Array | float = np.nan  # at the core's peak, ns
     if multiply_adds:
-        operation = 1e9 * seconds.pop(MULTIPLY_ADDS) / multiply_adds.operations
-    cost = {name: 1e9 * each / N**2 for name, each in seconds.items()}
-    leapfrog = cost["leapfrog"] / CONTENDERS["leapfrog"].steps
+        rate = 1e-9 * multiply_adds.operations / seconds[MULTIPLY_ADDS]
+        operation = 1.0 / rate
+        yield Row("kernel", MULTIPLY_ADDS, "Gflop/s", rate, note="the peak of one core")
+    steps = {name: contender.steps for name, contender in CONTENDERS.items()}
+    cost = {name: 1e9 * seconds[name] / steps[name] / N**2 for name in runs if name in steps}
     for name, contender in CONTENDERS.items():
+        here = partial(Row, "kernel", name, BLOCK_STEP, scene="flat", n_blocks=N)
         if name in absent:
-            yield missing("kernel", name, BLOCK_STEP, absent[name], "flat", N)
+            yield here(np.nan, note=str(absent[name]))
             continue
-        steps: float = contender.steps
-        evaluations: float = steps * contender.evaluations
-        if name == "DOP853":
-            steps, evaluations = (made[name].progress - before) / REPETITIONS
-        here = partial(row, "kernel", name, scene="flat", n_blocks=N, reference=leapfrog)
-        note = "; ".join(filter(None, [contender.note, getattr(made[name], "moving", "")]))
-        at_peak = contender.operations * operation if contender.operations else None
-        yield here(BLOCK_STEP, cost[name] / steps, note=note, at_peak=at_peak)
-        if evaluations > steps:
-            yield here(BLOCK_EVALUATION, cost[name] / evaluations)
+        yield here(
+            cost[name],
+            reference=cost["leapfrog"],
+            at_peak=contender.operations * operation,
+            note=contender.note,
+        )
 
 
 def realisation() -> Iterator[Row]:
-    """Whole runs of the paper's scenes, and what the plain method would need."""
+    """Whole runs of the paper's scenes, and of a small surface by the plain method as well."""
     for name, scene in SCENES.items():
         contact, mu = scene.pattern.contact, draw_friction(N, seed=0)
-        prelude = compute_prelude(contact)
-        run = partial(simulate, contact, *mu)
+        run = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
         runs: Runs = {
-            "from zero": run,
-            WITH_PRELUDE: partial(run, prelude=prelude),
+            "from zero": partial(simulate, contact, *mu),
+            WITH_PRELUDE: run,
             "prelude, once for all seeds": partial(compute_prelude, contact),
         }
-        yield from against_c(name, N, runs, run(prelude=prelude))
-    yield from plain_realisation()
-
-
-def plain_realisation() -> Iterator[Row]:
-    """A flat realisation by the plain method, and by the solver: time and error."""
+        yield from against_c(name, N, runs, float(run().time[-1]))
     contact, mu = Scene(PLAIN_N).pattern.contact, draw_friction(PLAIN_N, seed=0)
-    solve = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
-    solved = solve()
-    fine = simulate(contact, *mu, step=FINE_STEP).static_friction
-    plain = partial(
-        plain_rk4.solve, contact, *mu, float(solved.time[-1]), PAPER_STEP, SAMPLE_INTERVAL
+    run = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
+    duration = float(run().time[-1])
+    plain = partial(plain_rk4.solve, contact, *mu, duration, PAPER_STEP, SAMPLE_INTERVAL)
+    plain()
+    yield from against_c(
+        "flat", PLAIN_N, {WITH_PRELUDE: run, "plain rk4, from zero": plain}, duration
     )
-    plain_friction = plain().static_friction
-    runs: Runs = {WITH_PRELUDE: solve, "plain rk4, from zero": plain}
-    yield from against_c("flat", PLAIN_N, runs, solved)
-    note = f"against a step of {FINE_STEP:g} s; one seed"
-    for name, friction in (
-        (WITH_PRELUDE, solved.static_friction),
-        ("plain rk4, from zero", plain_friction),
-    ):
-        error = f"{name}: error of static friction"
-        yield row("realisation", error, "1", friction / fine - 1.0, "flat", PLAIN_N, note=note)
 
 
-def against_c(scene: str, n: int, runs: Runs, run: Realisation) -> Iterator[Row]:
+def against_c(scene: str, n: int, runs: Runs, duration: float) -> Iterator[Row]:
     """Rows of these runs; the ratio is to the C loop from zero, as long, at the paper's step."""
-    bound, steps = None, round(run.time[-1] / PAPER_STEP)
-    try:
+    bound: Array | float = np.nan
+    with suppress(Missing):
         loop = c_loop_in_motion(n)
-    except Missing:
-        seconds = interleaved(runs, FEW)
-    else:
-        seconds = interleaved({**runs, "C": partial(loop.advance, STEPS)}, FEW)
-        bound = seconds.pop("C") / STEPS * steps
+        runs = {**runs, "C": partial(loop.advance, STEPS)}
+    seconds = interleaved(runs, FEW)
+    if "C" in seconds:
+        bound = seconds.pop("C") / STEPS * round(duration / PAPER_STEP)
     for name, each in seconds.items():
-        note = f"{run.steps} steps from zero; of C {steps}"
-        yield row("realisation", name, "s", each, scene, n, bound, note)
+        yield Row("realisation", name, "s", each, scene, n, bound)
 
 
 def scaling() -> Iterator[Row]:
@@ -349,7 +286,7 @@ def scaling() -> Iterator[Row]:
     }
     for name, each in cost.items():
         here, note = ("flat", solvers[name].n), solvers[name].moving
-        yield row("scaling", name, BLOCK_STEP, each, *here, cost[reference], note)
+        yield Row("scaling", name, BLOCK_STEP, each, *here, cost[reference], note=note)
 
 
 def cores() -> Iterator[Row]:
@@ -361,24 +298,10 @@ def cores() -> Iterator[Row]:
             f"leapfrog, N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers
         }
         seconds = interleaved(runs, FEW, time.perf_counter)
-        alone = next(iter(seconds.values()))
-        for name, each in seconds.items():
-            cost = 1e9 * each / steps / n**2
-            yield row("cores", name, BLOCK_STEP, cost, "flat", n, 1e9 * alone / steps / n**2)
-
-
-def peak() -> Iterator[Row]:
-    """The most operations that one core does in a second, and those that the methods ask for."""
-    for name, counted in OPERATIONS.items():
-        listed = ", ".join(f"{what} {number}" for what, number in counted.items())
-        yield row("peak", f"{name}: operations per block and step", "1", COUNTS[name], note=listed)
-    try:
-        multiply_adds = Peak(ROUNDS)
-    except Missing as why:
-        yield missing("peak", MULTIPLY_ADDS, "Gflop/s", why)
-        return
-    seconds = interleaved({MULTIPLY_ADDS: multiply_adds.run}, REPETITIONS)[MULTIPLY_ADDS]
-    yield row("peak", MULTIPLY_ADDS, "Gflop/s", 1e-9 * multiply_adds.operations / seconds)
+        cost = {name: 1e9 * each / steps / n**2 for name, each in seconds.items()}
+        alone = next(iter(cost.values()))
+        for name, each in cost.items():
+            yield Row("cores", name, BLOCK_STEP, each, "flat", n, alone)
 
 
 PARTS: dict[str, Callable[[], Iterator[Row]]] = {
@@ -386,9 +309,13 @@ PARTS: dict[str, Callable[[], Iterator[Row]]] = {
     "realisation": realisation,
     "scaling": scaling,
     "cores": cores,
-    "peak": peak,
     "study": study_cost.rows,
 }
+LEGEND = """
+ratio: kernel, to a step of the leapfrog; realisation, to all steps by the C loop; scaling, to
+N = 120, all moving; cores, to one core; study, to the whole. of peak: share of the multiply-adds
+that one core can do. Times are CPU times but for those of cores.
+"""
 
 
 def machine() -> dict[str, str]:
@@ -404,10 +331,7 @@ def machine() -> dict[str, str]:
         "cpu": models[0] if models else platform.processor() or platform.machine(),
         "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
         "python": platform.python_version(),
-        **{name: metadata.version(name) for name in ("numba", "numpy", "scipy")},
-        "llvm": ".".join(map(str, llvmlite.binding.llvm_version_info)),
-        "gcc": c_loop.compiler_version(),
-        "lammps": lammps_lattice.version(),
+        **{name: metadata.version(name) for name in ("numba", "llvmlite", "numpy")},
         "code_version": code_version("springblock.simulation.simulate"),
     }
 
@@ -421,34 +345,18 @@ def machine() -> dict[str, str]:
     default=list(PARTS),
     help="Measure only this; may be repeated.",
 )
-@click.option(
-    "--output",
-    type=click.Path(dir_okay=False, path_type=Path),
-    default=study_cost.RESULTS / "tables" / "benchmark.parquet",
-    show_default=True,
-    help="Parquet file.",
-)
 @click.option("--release", is_flag=True, help="Add a line to benchmarks/history.csv.")
-def main(parts: tuple[str, ...], output: Path, release: bool) -> None:
+def main(parts: tuple[str, ...], release: bool) -> None:
     """Measure how fast the solver and the study are."""
-    here = machine()
     whole = set(history.PARTS) <= set(parts)
-    if release:
-        if not whole:
-            raise click.UsageError(
-                f"--part is {', '.join(parts)}, and --release needs {' and '.join(history.PARTS)}"
-            )
-        with one_sentence():
-            history.refuse_second(history.release(here))
+    if release and not whole:
+        raise click.UsageError(f"--release needs the parts {' and '.join(history.PARTS)}")
+    here = machine()
     rows = [each for part in tqdm(parts) for each in PARTS[part]()]
-    write(rows_to_table(rows, SCHEMA), output, here)
-    click.echo(printed(rows))
-    click.echo(f"\nratio: {SCHEMA.field('ratio').metadata[b'meaning'].decode()}")
-    click.echo(f"of peak: {SCHEMA.field('of_peak').metadata[b'meaning'].decode()}")
+    click.echo(f"{printed(rows)}\n{LEGEND}")
     click.echo(", ".join(f"{name} {what}" for name, what in here.items()))
     if whole:
-        line = {**history.release(here), **history.measured(rows, N)}
-        click.echo(f"\n{'added to' if release else 'as a line of'} benchmarks/history.csv:")
-        click.echo(history.text(line), nl=False)
-        if release:
-            history.append(line)
+        line = history.line(here, rows, N)
+        click.echo(f"\n{'added to' if release else 'as a line of'} benchmarks/history.csv:\n{line}")
+    if release:
+        history.append(line)

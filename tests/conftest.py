@@ -1,10 +1,11 @@
 """What every test may ask for."""
 
-from pathlib import Path
+import shutil
 
 import numpy as np
 import pytest
-import yaml
+
+from studies import ROOT, Study
 
 
 @pytest.fixture
@@ -14,12 +15,9 @@ def rng():
 
 
 @pytest.fixture(scope="session")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A finished tiny study in a folder of its own."""
-    from test_workflow import TINY, copied, snakemake
-
-    folder = copied(tmp_path_factory.mktemp("study"))
-    (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY))
-    outcome = snakemake(folder)
-    assert outcome.returncode == 0, outcome.stderr
-    return folder
+def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    """A finished tiny study, with sources that a test may edit."""
+    study = Study.begun(tmp_path_factory.mktemp("study"))
+    shutil.copytree(ROOT / "src", study / "src")
+    study.run()
+    return study

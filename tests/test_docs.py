@@ -1,10 +1,13 @@
-"""The pages in docs are those that the code writes today, but for what was measured."""
+"""What the pages say is what the code writes, knows and has computed."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
+import click
 import pytest
 
+import springblock
 from precision import precision_rows, production_rows
 from springblock import Material, Realisation
 from springblock.accuracy.page import page as accuracy_page
@@ -15,11 +18,16 @@ from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
+from springblock.cli import main
 from springblock.io.schemas import SETUP
 from springblock.report.dictionary import page as dictionary
 from springblock.report.dictionary import tables
 
-DOCS = Path(__file__).parents[1] / "docs"
+ROOT = Path(__file__).parents[1]
+PAGES = {
+    file.stem: file.read_text(encoding="utf-8")
+    for file in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/*.md")]
+}
 
 
 def numberless(text):
@@ -31,50 +39,44 @@ def numberless(text):
     return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]\d+)?", "#", measured).splitlines()
 
 
-def unmeasured(text):
-    """Lines of the page on statements that hold for any study."""
-    measured = ("|", "Verdict: ", "Rests on", "- preludes/", "- realisations/", "- tables/")
+def unmeasured(text, measured):
+    """Lines that hold for any study."""
     return [line for line in text.splitlines() if line and not line.startswith(measured)]
-
-
-def unanswered(text):
-    """Lines of the page beyond the paper that hold for any study."""
-    return [line for line in text.splitlines() if line and not line.startswith(("|", "**"))]
 
 
 def test_the_page_on_errors_is_what_the_code_writes():
     stability = [{"family": case.family, "expected": "", "outcome": ""} for case in all_cases()]
     text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}], production_rows())
-    assert numberless((DOCS / "accuracy.md").read_text()) == numberless(text)
+    assert numberless(PAGES["accuracy"]) == numberless(text)
 
 
 def test_the_page_on_statements_is_what_the_code_writes():
     text = claims_page(rows(CLAIMS, Evidence()))
-    assert unmeasured((DOCS / "claims.md").read_text()) == unmeasured(text)
+    measured = ("|", "Verdict: ", "Rests on", "- preludes/", "- realisations/", "- tables/")
+    assert unmeasured(PAGES["claims"], measured) == unmeasured(text, measured)
 
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
-    text = (DOCS / "beyond.md").read_text()
-    assert unanswered(text) == unanswered(beyond_page(QUESTIONS, {}))
-    assert "**Not answered**" not in text
+    text = beyond_page(QUESTIONS, {})
+    assert unmeasured(PAGES["beyond"], ("|", "**")) == unmeasured(text, ("|", "**"))
+    assert "**Not answered**" not in PAGES["beyond"]
 
 
 def test_the_dictionary_of_tables_is_what_the_code_writes():
-    assert (DOCS / "tables.md").read_text() == dictionary(tables())
+    assert PAGES["tables"] == dictionary(tables())
 
 
-def symbols(heading, text):
+def symbols(heading):
     """Rows of the tables of symbols below a heading: the name in the code, and what follows it."""
-    section = text.split(f"## {heading}\n")[1].split("\n## ")[0]
+    section = PAGES["model"].split(f"## {heading}\n")[1].split("\n## ")[0]
     return re.findall(r"^\| .*? \| `(\w+)` \| (\S+) \| (.*?) \|$", section, re.MULTILINE)
 
 
 def test_the_symbols_of_the_model_are_those_of_the_code():
     """Every constant with its unit and the paper's value, and all that follows from them."""
-    rows = symbols("Symbols", (DOCS / "model.md").read_text(encoding="utf-8"))
     constants, paper = dict(Material().items()), Material()
     units = {column.name: column.metadata[b"unit"].decode() for column in SETUP}
-    given, derived = rows[: len(constants)], rows[len(constants) :]
+    given, derived = symbols("Symbols")[: len(constants)], symbols("Symbols")[len(constants) :]
     assert [name for name, _, _ in given] == list(constants)
     for name, unit, value in given:
         assert unit == units[name]
@@ -84,32 +86,43 @@ def test_the_symbols_of_the_model_are_those_of_the_code():
     assert {name for name, _, _ in derived} == properties
     for name, _, value in derived:
         assert float(value.rpartition("|")[2]) == pytest.approx(getattr(paper, name), rel=5e-4)
-
-
-def test_the_observables_of_the_model_are_those_of_a_run():
-    rows = symbols("Observables", (DOCS / "model.md").read_text(encoding="utf-8"))
-    assert len(rows) == 7
-    for name, _, _ in rows:
+    for name, _, _ in symbols("Observables"):
         assert hasattr(Realisation, name) or name in Realisation.__dataclass_fields__
 
 
-def test_numbers_of_the_model_are_those_of_the_pages_that_it_names():
-    """In what depends on a choice; where tables are named beside a page, no page has them all."""
-    text = (
-        (DOCS / "model.md").read_text(encoding="utf-8").split("## What the paper leaves open\n")[1]
-    )
-    rows = [
-        row
-        for row in text.splitlines()
-        if re.search(r"\(`(beyond|accuracy)\.md`(, \d)?\) \|$", row)
-    ]
-    found = 0
-    for row in rows:
-        if "tables `realisations`" in row:
-            continue
-        page = re.search(r"`(beyond|accuracy)\.md`", row)[1]
-        numbers = (DOCS / f"{page}.md").read_text(encoding="utf-8").replace("+", "")
-        for value in re.findall(r"-?[\d.]+ \[-?[\d.]+, -?[\d.]+\]", row):
-            assert value in numbers
-            found += 1
-    assert found == 10
+def test_findings_that_are_quoted_stand_in_a_page_of_results():
+    """Values with intervals: of the README, and of the model where it names a page alone."""
+    computed = "".join(PAGES[name] for name in ("accuracy", "beyond", "claims")).replace("+", "")
+    rows = re.findall(r"^\|.*\(`(?:beyond|accuracy)\.md`(?:, \d)?\) \|$", PAGES["model"], re.M)
+    rows = [row for row in rows if "tables `realisations`" not in row]
+    quoted = re.findall(r"-?[\d.]+ \[-?[\d.]+, +-?[\d.]+\]", "".join([PAGES["README"], *rows]))
+    assert len(quoted) > 20
+    assert [value for value in quoted if value not in computed] == []
+
+
+def test_verdicts_are_as_many_as_the_readme_says():
+    summary = re.findall(r"^\| \[\d+\. .*? \| \*\*([a-z ]+)\*\*", PAGES["claims"], re.MULTILINE)
+    counts = Counter(summary)
+    sentence = re.search(r"Of \d+ statements[^.]*\.", PAGES["README"])[0]
+    names = ("reproduced", "depends on", "not reproduced", "not settled")
+    expected = [counts.total(), *(counts[name] for name in names)]
+    assert [int(number) for number in re.findall(r"\d+", sentence)] == expected
+
+
+def test_commands_that_pages_show_are_known_with_their_options():
+    """Those of the README, the howto and the lesson are run as well."""
+    context, shown = click.Context(main), 0
+    for text in PAGES.values():
+        lines = text.replace("\\\n", " ")
+        for name, words in re.findall(r"(?:^ *|`)springblock (\w+)([^`\n]*)", lines, re.MULTILINE):
+            command = main.get_command(context, name)
+            assert command, name
+            known = {option for each in command.params for option in each.opts} | {"--help"}
+            assert set(re.findall(r"(?<!\S)--[\w-]+", words)) <= known, name
+            shown += 1
+    assert shown > 20
+
+
+def test_public_names_explain_themselves():
+    for name in springblock.__all__:
+        assert getattr(springblock, name).__doc__, name

@@ -13,7 +13,6 @@ from benchmarks.verification.problems import PROBLEMS
 from benchmarks.verification.tables import (
     SCALARS,
     Answer,
-    read_answer,
     read_reference,
     read_surface,
     read_table,
@@ -26,18 +25,6 @@ ENTRIES = (PROBLEMS["flat"].folder.parent / "ENTRIES.md").read_text(encoding="ut
 @pytest.fixture(params=PROBLEMS)
 def problem(request):
     return PROBLEMS[request.param]
-
-
-@pytest.fixture
-def table(tmp_path):
-    """Write a table of text; returns its path."""
-
-    def written(text, name="table.csv"):
-        path = tmp_path / name
-        path.write_text(text)
-        return path
-
-    return written
 
 
 def test_surfaces_are_those_of_their_seeds(problem):
@@ -74,18 +61,6 @@ def test_checks_agree_within_the_uncertainty(problem):
     tolerance, coarse, fine = agreement
     assert (tolerance < 1e-7).all()
     assert (fine <= coarse / 2).all()
-
-
-def test_the_files_are_small():
-    files = [path for problem in PROBLEMS.values() for path in problem.folder.iterdir()]
-    assert len(files) == 5 * len(PROBLEMS)
-    assert sum(path.stat().st_size for path in files) < 200_000
-
-
-def test_the_reference_itself_is_off_by_nothing(problem):
-    t_det, force = (problem.folder / f"{name}.csv" for name in ("t_det", "force"))
-    answer = read_answer(problem, t_det, force)
-    assert errors(problem, answer, read_reference(problem)) == (0.0, 0.0, 0.0, 0)
 
 
 def test_errors_are_those_that_were_made(problem):
@@ -134,7 +109,8 @@ def test_the_command_prints_a_line_per_metric(problem):
     assert alone.output.count("0 ± ") == 2
 
 
-WHOLE = (PROBLEMS["flat"].folder / "t_det.csv").read_text(encoding="utf-8")
+FLAT, GROOVED = PROBLEMS["flat"].folder, PROBLEMS["grooved"].folder
+WHOLE, FORCE = ((FLAT / f"{name}.csv").read_text() for name in ("t_det", "force"))
 HEADER, FIRST, *REST = WHOLE.splitlines(keepends=True)
 
 
@@ -150,44 +126,39 @@ HEADER, FIRST, *REST = WHOLE.splitlines(keepends=True)
         (WHOLE + FIRST, "must give block (y, x) = (0, 0) once"),
         (HEADER + "".join(REST), "up to the horizon; it is nan at (y, x) = (0, 0)"),
         (HEADER + "0,0\n" + "".join(REST), "up to the horizon; it is nan at (y, x) = (0, 0)"),
+        (bytes(range(256)).decode("latin-1"), "must be comma-separated text"),
     ],
 )
-def test_a_malformed_table_is_refused(text, refusal, table):
-    outcome = compare("flat", table(text))
+def test_a_malformed_table_is_refused(text, refusal, tmp_path):
+    (tmp_path / "table.csv").write_text(text, encoding="latin-1")
+    outcome = compare("flat", tmp_path / "table.csv")
     assert outcome.exit_code == 1
-    assert outcome.output.startswith("Error: ")
     assert refusal in outcome.output
-    assert outcome.output.count("\n") == 1
-
-
-def test_a_table_that_is_no_text_is_refused(tmp_path):
-    path = tmp_path / "table.csv"
-    path.write_bytes(bytes(range(256)))
-    outcome = compare("flat", path)
-    assert outcome.exit_code == 1
-    assert "must be comma-separated text" in outcome.output
-
-
-def test_blocks_without_contact_do_not_let_go(table):
-    whole = (PROBLEMS["grooved"].folder / "t_det.csv").read_text(encoding="utf-8")
-    outcome = compare("grooved", table(whole + "5,5,1e-4,0\n"))
-    assert outcome.exit_code == 1
-    assert "of blocks in contact; it is 0.0001 at (y, x) = (5, 5)" in outcome.output
-    assert compare("grooved", table(whole + "5,5,nan,0\n")).exit_code == 0
+    assert re.fullmatch(r"Error: .*\n", outcome.output)
 
 
 @pytest.mark.parametrize(
-    ("change", "refusal"),
+    ("text", "refusal"),
     [
-        (("time", "t"), "must have the columns time, force"),
-        (("2e-07,", "3e-07,"), "time must be the multiples of 2e-07 s from 0 to 0.00013 s"),
-        (("2e-07,", "2e-07,-"), "force must be finite and not negative"),
-        (("2e-07,", "2e-07,nan,"), "force must be finite and not negative"),
+        (FORCE.replace("time", "t", 1), "must have the columns time, force"),
+        (
+            FORCE.replace("2e-07,", "3e-07,", 1),
+            "must be the multiples of 2e-07 s from 0 to 0.00013",
+        ),
+        (FORCE.replace("2e-07,", "2e-07,-", 1), "force must be finite and not negative"),
+        (FORCE.replace("2e-07,", "2e-07,nan,", 1), "force must be finite and not negative"),
     ],
 )
-def test_a_malformed_force_is_refused(change, refusal, table):
-    folder = PROBLEMS["flat"].folder
-    text = (folder / "force.csv").read_text(encoding="utf-8").replace(*change, 1)
-    outcome = compare("flat", folder / "t_det.csv", "--force", table(text))
+def test_a_malformed_force_is_refused(text, refusal, tmp_path):
+    (tmp_path / "force.csv").write_text(text)
+    outcome = compare("flat", FLAT / "t_det.csv", "--force", tmp_path / "force.csv")
     assert outcome.exit_code == 1
     assert refusal in outcome.output
+
+
+def test_blocks_without_contact_do_not_let_go(tmp_path):
+    table, whole = tmp_path / "table.csv", (GROOVED / "t_det.csv").read_text()
+    table.write_text(whole + "5,5,1e-4,0\n")
+    assert "in contact; it is 0.0001 at (y, x) = (5, 5)" in compare("grooved", table).output
+    table.write_text(whole + "5,5,nan,0\n")
+    assert compare("grooved", table).exit_code == 0

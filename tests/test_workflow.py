@@ -1,11 +1,7 @@
 """A tiny study from end to end, and when the workflow runs what again."""
 
-import os
 import re
-import shutil
 import subprocess
-import sys
-from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
@@ -15,32 +11,10 @@ from springblock import Material
 from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.plotting import declarations
 from springblock.solver import INTEGRATORS
+from studies import PAPER, ROOT, TINY
 
-ROOT = Path(__file__).parents[1]
-
-PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
 WHOLE = {"configuration": ("config/config.yaml",)}
 FULL = {"configuration": ("config/full.yaml",)}
-
-GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
-TINY = {
-    "n_blocks": 12,
-    "realisations_per_job": 2,
-    "accuracy": False,
-    "scenes": dict.fromkeys(PAPER["scenes"])  # null leaves the other groups out
-    | {
-        "flat": {"seeds": 3},
-        "pillars": {"n_p": [3, 6], "seeds": [2, 3]},
-        "again": {"n_p": [6], "n_s": [6], "direction": ["x"], "seeds": 1},
-        "grooves": GROOVES | {"direction": ["x", "y"], "seeds": 1},
-    },
-    "figures": {
-        "figure_4": {"n_p": 3, "n_s": 3},
-        "figure_5": {"n_p": 3},
-        "figure_7": {"n_p": 6},
-        "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
-    },
-}
 
 #: Those of the study without its optional groups of scenes and without its tables of errors.
 FIGURES = {
@@ -51,43 +25,6 @@ FIGURES = {
 
 
 FILMS = {"film_flat", "film_pillars", "film_grooves"}
-
-
-def with_sources(study: Path) -> dict[str, str]:
-    """Environment in which the copy's own package comes first."""
-    paths = [str(study / "src"), os.environ.get("PYTHONPATH", "")]
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
-
-
-def snakemake(
-    study: Path, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)
-) -> subprocess.CompletedProcess[str]:
-    """Run Snakemake on a copy of the study with the copy's own package."""
-    return subprocess.run(
-        [sys.executable, "-m", "snakemake", "--configfile", *configuration, *options],
-        cwd=study,
-        env=with_sources(study),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
-def planned(study: Path, *options: str, **configuration: tuple[str, ...]) -> dict[str, int]:
-    """Jobs that a dry run announces, by rule."""
-    outcome = snakemake(study, "--dry-run", *options, **configuration)
-    assert outcome.returncode == 0, outcome.stderr
-    table = re.search(r"job +count\n-+  -+\n(.*?)\n\n", outcome.stdout + outcome.stderr, re.DOTALL)
-    rows = table.group(1).splitlines() if table else []
-    return {name: int(count) for name, count in map(str.split, rows) if name != "total"}
-
-
-def copied(folder: Path) -> Path:
-    """Copy all that the study consists of into a folder."""
-    for part in ("src", "workflow", "config", "profiles"):
-        shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "Snakefile", folder)
-    return folder
 
 
 def test_every_figure_is_drawn_in_both_formats(study):
@@ -149,8 +86,8 @@ def test_the_configuration_alone_decides_what_is_planned(study):
     beyond = {name for name, figure in known.items() if figure.category == "Beyond"}
     further = {*beyond, "beyond", "production_table", "total_error"}
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
-    papers = planned(study, "--config", "results=elsewhere", **WHOLE)
-    full = planned(study, "--config", "results=elsewhere", **FULL)
+    papers = study.planned("--config", "results=elsewhere", **WHOLE)
+    full = study.planned("--config", "results=elsewhere", **FULL)
     assert {*tables, *known} - further - {"surfaces"} <= set(papers)
     assert not further & set(papers)
     assert set(papers) | further <= set(full)  # surfaces are a user's own
@@ -159,24 +96,23 @@ def test_the_configuration_alone_decides_what_is_planned(study):
 
 
 def test_a_dry_run_is_a_page(study):
-    said = snakemake(study, "--dry-run", "--config", "results=elsewhere", "--", "figure_6", **WHOLE)
-    lines = (said.stdout + said.stderr).splitlines()
+    said = study.run("--dry-run", "--config", "results=elsewhere", "--", "figure_6", **WHOLE)
+    lines = said.splitlines()
     assert len(lines) < 50
     assert max(map(len, lines)) < 300
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
     options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
-    assert "figure_6" in planned(study, *options, "figure_6", **WHOLE)
-    refused = snakemake(study, "--dry-run", *options, "figure_5", **WHOLE)
-    assert refused.returncode != 0
-    assert "figures.figure_5: no scene of pillars has n_p = 7." in refused.stdout
+    assert "figure_6" in study.planned(*options, "figure_6", **WHOLE)
+    refused = study.run("--dry-run", *options, "figure_5", refused=True, **WHOLE)
+    assert "figures.figure_5: no scene of pillars has n_p = 7." in refused
 
 
 def test_every_step_can_be_planned_by_its_name(study):
     """And README names those that are neither figures nor films."""
-    steps = set(snakemake(study, "--list-target-rules", **FULL).stdout.split())
-    jobs = planned(study, "--config", "results=elsewhere", "--", *steps, **FULL)
+    steps = set(re.findall(r"^\w+$", study.run("--list-target-rules", **FULL), re.MULTILINE))
+    jobs = study.planned("--config", "results=elsewhere", "--", *steps, **FULL)
     assert steps <= set(jobs)
     named = set(re.findall(r"`(\w+)`", (ROOT / "README.md").read_text()))
     drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
@@ -184,27 +120,23 @@ def test_every_step_can_be_planned_by_its_name(study):
 
 
 def test_the_linter_finds_nothing(study):
-    outcome = snakemake(study, "--lint", **WHOLE)
-    assert outcome.returncode == 0
-    assert not re.findall(r"^ +\* (.+):$", outcome.stderr, re.MULTILINE)
+    said = study.run("--lint", **WHOLE)
+    assert not re.findall(r"^ +\* (.+):$", said, re.MULTILINE)
 
 
 def test_a_printed_command_runs_by_hand(study):
     """As in an activated environment, and with the sources that the study selects."""
     drawn = study / "results/figures/figure_1.pdf"
-    outcome = snakemake(
-        study, "--dry-run", "--printshellcmds", "--quiet", "host", "--force", "--", "figure_1"
-    )
-    (command,) = re.findall(r"^Shell command: (.+)$", outcome.stdout, re.MULTILINE)
+    shown = ("--dry-run", "--printshellcmds", "--quiet", "host", "--force")
+    said = study.run(*shown, "--", "figure_1")
+    (command,) = re.findall(r"^Shell command: (.+)$", said, re.MULTILINE)
     drawn.unlink()
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    by_hand = {**with_sources(study), "PATH": path}
-    subprocess.run(command, shell=True, cwd=study, env=by_hand, check=True)
+    subprocess.run(command, shell=True, cwd=study, env=study.environment, check=True)
     assert drawn.exists()
 
 
 def test_a_finished_study_has_nothing_to_do(study):
-    assert planned(study) == {}
+    assert study.planned() == {}
 
 
 @pytest.mark.parametrize(
@@ -212,26 +144,26 @@ def test_a_finished_study_has_nothing_to_do(study):
     [("figure_3", 1, 1), ("figure_5", 1, 1), ("figure_6", 3, 5), ("figure_9", 2, 2)],
 )
 def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simulations):
-    jobs = planned(study, "--config", "results=elsewhere", "--", figure)
+    jobs = study.planned("--config", "results=elsewhere", "--", figure)
     needed = {"compile": 1, "prelude": preludes, "simulate_batch": simulations}
     assert jobs == {**needed, figure: 1}
 
 
 def test_figure_7_needs_only_pillars_with_sides(study):
-    jobs = planned(study, "--config", "results=elsewhere", "--", "figure_7")
+    jobs = study.planned("--config", "results=elsewhere", "--", "figure_7")
     needed = {"compile": 1, "prelude": 1, "simulate_batch": 2}
     assert jobs == {**needed, "correlation": 1, "figure_7": 1}
 
 
 def test_the_quick_study_leaves_the_optional_groups_out(study):
-    jobs = planned(study, configuration=("config/quick.yaml",))
+    jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
 
 
 def test_a_changed_constant_runs_the_simulations_again(study):
     material = dict(Material().items()) | {"gamma": 4e3}
-    (study / "damped.yaml").write_text(yaml.safe_dump({"material": material}))
-    assert planned(study, configuration=("tiny.yaml", "damped.yaml"))["simulate_batch"] == 7
+    damped = ("tiny.yaml", study.write("damped.yaml", {"material": material}))
+    assert study.planned(configuration=damped)["simulate_batch"] == 7
 
 
 @pytest.mark.parametrize(
@@ -252,9 +184,7 @@ def test_a_changed_constant_runs_the_simulations_again(study):
     ],
 )
 def test_a_wrong_configuration_is_refused_in_one_sentence(study, change, sentence):
-    (study / "wrong.yaml").write_text(yaml.safe_dump(change))
-    outcome = snakemake(study, "--dry-run", configuration=("tiny.yaml", "wrong.yaml"))
-    message = outcome.stdout + outcome.stderr
-    assert outcome.returncode == 1
-    assert re.search(sentence, message), message
-    assert "Traceback" not in message
+    wrong = ("tiny.yaml", study.write("wrong.yaml", change))
+    said = study.run("--dry-run", refused=True, configuration=wrong)
+    assert re.search(sentence, said), said
+    assert "Traceback" not in said

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.peers.missing import Missing
+from benchmarks.timing import Missing
 from springblock import Material, Pattern, draw_friction
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
@@ -39,15 +39,6 @@ def compiled(name: str) -> ctypes.CDLL:
         return ctypes.CDLL(str(library))
 
 
-def compiler_version() -> str:
-    """Version of gcc, or that there is none."""
-    compiler = shutil.which("gcc")
-    if compiler is None:
-        return "missing"
-    command = [compiler, "-dumpfullversion"]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
-
-
 def _address(array: np.ndarray) -> ctypes.c_void_p:
     return array.ctypes.data_as(ctypes.c_void_p)
 
@@ -72,6 +63,8 @@ class CLoop:
         self._fields[4] = np.inf
         self._fields[5, :, :-1] = np.where(contact, mu_static * load, 0.0)
         self._fields[6, :, :-1] = np.where(contact, mu_dynamic * load, 0.0)
+        self.displacement, self.velocity = self._fields[0:2, :, :-1], self._fields[2:4, :, :-1]
+        self.t_det = self._fields[4, :, :-1]  #: (N, N) steps, infinite before
         series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
         number = ctypes.c_double
         self._constants = (
@@ -93,21 +86,6 @@ class CLoop:
         self._advance(*self._constants, self.taken, steps, _address(force))
         self.taken += steps
         return force
-
-    @property
-    def displacement(self) -> np.ndarray:
-        """(2, N, N), a view."""
-        return self._fields[0:2, :, :-1]
-
-    @property
-    def velocity(self) -> np.ndarray:
-        """(2, N, N), a view."""
-        return self._fields[2:4, :, :-1]
-
-    @property
-    def t_det(self) -> np.ndarray:
-        """(N, N) steps, infinite before."""
-        return self._fields[4, :, :-1]
 
 
 def differences(step: float = 1e-8) -> dict[str, float]:

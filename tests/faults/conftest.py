@@ -1,23 +1,16 @@
 """A finished tiny study, and a copy of it for each fault to be tried on."""
 
-import shutil
-
 import pytest
 from click.testing import CliRunner
 
-from faults.studies import ROOT, Study, copy
+from faults.studies import Study, copy
 from springblock.cli import main
 
 
 @pytest.fixture(scope="session")
 def undisturbed(tmp_path_factory) -> Study:
     """A finished study, which no test changes."""
-    study = Study(tmp_path_factory.mktemp("faults") / "study")
-    for part in ("workflow", "config", "profiles"):
-        shutil.copytree(ROOT / part, study.folder / part)
-    for file in ("Snakefile", "environment.lock"):
-        shutil.copy(ROOT / file, study.folder)
-    study.configure()
+    study = Study.begun(tmp_path_factory.mktemp("faults") / "study")
     study.run()
     return study
 

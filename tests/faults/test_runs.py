@@ -198,7 +198,7 @@ def test_a_damaged_file_stops_the_study_with_one_sentence(study):
 
 def planned(study):
     """Rules that a dry run announces."""
-    return set(re.findall(r"^(\w+) +\d+$", study.run("--dry-run"), re.MULTILINE)) - {"total"}
+    return set(study.planned())
 
 
 def state(study):

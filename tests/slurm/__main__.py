@@ -3,7 +3,6 @@
 `make test-slurm` starts it.
 """
 
-import os
 import re
 import shutil
 import signal
@@ -11,132 +10,95 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
-from datetime import datetime
 from pathlib import Path
 
-import pyarrow.parquet as pq
-
 from tests.slurm.cluster import CannotStart, Cluster, one_node, wait
+from tests.studies import Study
 
-ROOT = Path(__file__).parents[2]
 LIMIT = 1800  #: s for all of it
-QUICK = ("--configfile", "config/quick.yaml")
 SLURM = ("--workflow-profile", "slurm")
 #: What is made through crashes: realisations and their table, in four submissions.
-PART = ("--", "aggregate")
-RESULTS = Path("results/quick")
-
-Tables = dict[str, str]
-STARTED: list[subprocess.Popen[bytes]] = []
+PART = (*SLURM, "--", "aggregate")
+RESULTS = "results/quick"
+STARTED: list[subprocess.Popen[str]] = []
 
 
 class Failed(Exception):
     """What a test has found."""
 
 
-def copied(folder: Path) -> Path:
-    """Copy all that the study consists of into a folder."""
-    for part in ("src", "workflow", "config", "profiles"):
-        shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "Snakefile", folder)
-    return folder
-
-
-def start(study: Path, *options: str) -> subprocess.Popen[bytes]:
-    """Start Snakemake in a copy of the study, with the copy's own package."""
-    paths = [str(study / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
-    running = subprocess.Popen(
-        [sys.executable, "-m", "snakemake", *QUICK, *options],
-        cwd=study,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
-        stdout=(study / "snakemake.log").open("ab"),
-        stderr=subprocess.STDOUT,
-    )
+def start(study: Study, *options: str) -> subprocess.Popen[str]:
+    """Start the quick study, whose words go to a file."""
+    log = (study / "snakemake.log").open("ab")
+    running = study.start(*options, configuration=("config/quick.yaml",), stdout=log)
     STARTED.append(running)
     return running
 
 
-def written(study: Path) -> str:
-    """All that Snakemake has said in a copy of the study."""
+def said(study: Study) -> str:
+    """All that Snakemake has said of a study."""
     return (study / "snakemake.log").read_text(errors="replace")
 
 
-def succeed(study: Path, running: subprocess.Popen[bytes]) -> None:
+def succeed(study: Study, running: subprocess.Popen[str]) -> None:
     """Wait until Snakemake ends, which must be with success."""
     if running.wait():
-        raise Failed(f"Snakemake fails:\n{written(study)[-3000:]}")
+        raise Failed(f"Snakemake fails:\n{said(study)[-3000:]}")
 
 
-def tables(study: Path) -> Tables:
-    """Every table and batch of a study, to the last bit of its numbers, without its metadata."""
-    files = sorted((study / RESULTS).rglob("*.parquet"))
-    return {str(file.relative_to(study)): repr(pq.read_table(file).to_pydict()) for file in files}
-
-
-def undisturbed(cluster: Cluster, study: Path) -> None:
-    """Run the whole study."""
-    begun = time.monotonic()
-    succeed(study, start(study, *SLURM))
-    seconds = time.monotonic() - begun
-    ended = [dict(re.findall(r"(\w+)=(\S*)", line)) for line in cluster.finished()]
-    held = sum(_elapsed(job) for job in ended)
-    files = list((study / RESULTS / "benchmarks").rglob("*.tsv"))
-    over = held - sum(float(file.read_text().splitlines()[1].split("\t")[0]) for file in files)
-    print(
-        f"  {len(files)} jobs in {len(ended)} submissions, {seconds:.0f} s of wall time; "
-        f"submissions ran for {held:.0f} s\n  overhead: {over:.0f} s, "
-        f"{over / len(ended):.1f} s a submission, {over / len(files):.1f} s a job",
-        flush=True,
+def start_batches(cluster: Cluster, study: Study) -> subprocess.Popen[str]:
+    """Start a study, and wait until Slurm runs a submission of batches."""
+    running, logs = start(study, *PART), study / RESULTS / "logs"
+    wait(
+        "a batch to run",
+        lambda: bool(cluster.jobs("--states=R") and any(logs.rglob("batch-*.log"))),
+        patience=600.0,
     )
+    return running
 
 
-def _elapsed(job: dict[str, str]) -> float:
-    begun, ended = (datetime.fromisoformat(job[key]) for key in ("StartTime", "EndTime"))
-    return (ended - begun).total_seconds()
+def undisturbed(cluster: Cluster, study: Study) -> None:
+    """Run the whole study."""
+    succeed(study, start(study, *SLURM))
 
 
-def killed_snakemake(cluster: Cluster, study: Path) -> None:
+def killed_snakemake(cluster: Cluster, study: Study) -> None:
     """Kill Snakemake while Slurm works for it; go on by the documented commands."""
-    running = start(study, *SLURM, *PART)
-    wait("a batch to run", in_a_batch(cluster, study), patience=600.0)
+    running = start_batches(cluster, study)
     running.kill()
     running.wait()
-    print(f"  left in Slurm: {len(cluster.jobs())} job", flush=True)
     succeed(study, start(study, "--unlock"))
-    if not start(study, *SLURM, *PART).wait():
+    if not start(study, *PART).wait():
         raise Failed("Snakemake starts although jobs of the killed run are left")
-    refusal = re.findall(r"cancel them: (scancel --name=\S+)", written(study))
+    refusal = re.findall(r"cancel them: (scancel --name=\S+)", said(study))
     if not refusal:
-        raise Failed(f"nothing is said of the jobs that are left:\n{written(study)[-3000:]}")
+        raise Failed(f"nothing is said of the jobs that are left:\n{said(study)[-3000:]}")
     print(f"  the next start is refused until: {refusal[-1]}", flush=True)
     subprocess.run(refusal[-1].split(), check=True)
     wait("jobs to end", lambda: not cluster.jobs())
-    succeed(study, start(study, *SLURM, *PART))
+    succeed(study, start(study, *PART))
 
 
-def killed_controller(cluster: Cluster, study: Path) -> None:
+def killed_controller(cluster: Cluster, study: Study) -> None:
     """Kill slurmctld, and start it again after forty seconds; the run goes on by itself."""
-    running = start(study, *SLURM, *PART)
-    wait("a batch to run", in_a_batch(cluster, study), patience=600.0)
+    running = start_batches(cluster, study)
     cluster.kill("slurmctld")
     time.sleep(40.0)
     cluster.start_controller()
     succeed(study, running)
 
 
-def in_a_batch(cluster: Cluster, study: Path) -> Callable[[], bool]:
-    """Whether the submission of batches runs."""
-    logs = study / RESULTS / "logs"
-    return lambda: bool(cluster.jobs("--states=R") and any(logs.rglob("seeds-*.log")))
+def numbers(study: Study) -> dict[str, str]:
+    """Every table and batch of a study, to the last bit of its numbers."""
+    return study.numbers(RESULTS, "**/*.parquet")
 
 
-def check(study: Path, local: Tables) -> None:
+def check(study: Study, local: dict[str, str]) -> None:
     """Compare what a study has left with the local run."""
-    found = tables(study)
-    if not found or found.items() - local.items():
-        names = ", ".join(name for name, _ in sorted(found.items() - local.items()))
-        raise Failed(f"These differ from the local run: {names or 'there are none'}")
+    found = numbers(study)
+    differing = sorted(name for name in found if found[name] != local.get(name))
+    if differing or not found:
+        raise Failed(f"These differ from the local run: {', '.join(differing) or 'there are none'}")
     print(f"  {len(found)} tables and batches are those of the local run, to the bit", flush=True)
 
 
@@ -147,13 +109,14 @@ def main() -> None:
     folder = Path(tempfile.mkdtemp(prefix="springblock-studies-"))
     try:
         with one_node() as cluster:
-            local = copied(folder / "local")
+            local = Study.begun(folder / "local")
             succeed(local, start(local, "--cores", "all"))
-            expected = tables(local)
+            expected = numbers(local)
             for way in (undisturbed, killed_snakemake, killed_controller):
-                print(f"{way.__doc__}", flush=True)
-                study = copied(folder / way.__name__)
+                print(way.__doc__, flush=True)
+                study, begun = Study.begun(folder / way.__name__), time.monotonic()
                 way(cluster, study)
+                print(f"  {time.monotonic() - begun:.0f} s", flush=True)
                 check(study, expected)
     except (CannotStart, Failed, TimeoutError) as reason:
         sys.exit(f"{reason}.")

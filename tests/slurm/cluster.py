@@ -30,8 +30,6 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core_Memory
 EnforcePartLimits=ALL
 AccountingStorageType=accounting_storage/none
-JobCompType=jobcomp/filetxt
-JobCompLoc={folder}/finished
 MinJobAge=3600
 ReturnToService=2
 MpiDefault=none
@@ -84,11 +82,6 @@ class Cluster:
     def jobs(self, *options: str) -> list[str]:
         """Lines of squeue."""
         return asked("squeue", "--noheader", *options).splitlines()
-
-    def finished(self) -> list[str]:
-        """A line for each job that has ended."""
-        file = self.folder / "finished"
-        return file.read_text().splitlines() if file.exists() else []
 
     def stop(self) -> None:
         """End all jobs and daemons."""

@@ -15,6 +15,7 @@ from springblock.study.configuration import Ensemble, check, completed, ensemble
 ROOT = Path(__file__).parents[2]
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+PAPER["figures"]["sweeps"] = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
 
 
 def changed(*path, to):
@@ -54,7 +55,7 @@ def test_a_group_is_a_grid_over_its_lists():
 
 def test_a_group_may_be_a_list_of_grids():
     grids = [{"n_p": [n_p], "n_s": [10 - n_p], "direction": ["x"], "seeds": 1} for n_p in (4, 6)]
-    members = ensembles(changed("beyond", "ten", to=grids))["ten"]
+    members = ensembles(changed("scenes", "ten", to=grids))["ten"]
     assert [(e.scene.n_p, e.scene.n_s) for e in members] == [(4, 6), (6, 4)]
 
 
@@ -125,19 +126,6 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
     assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
 
 
-def test_a_scene_of_the_study_may_be_pulled_more_often_beyond_it_and_never_less():
-    few = {"n_p": [10, 6], "n_s": [10], "direction": ["x"], "seeds": [3, 30], "duration": 3e-4}
-    many = {"n_p": [20, 10, 6], "n_s": [10], "direction": ["x"], "seeds": [5, 500, 4]}
-    most = {**many, "seeds": [9, 6, 7]}
-    parts = {"scenes": {"few": few}, "beyond": {"many": many}, "more": {"most": most}}
-    groups = ensembles(PAPER | parts)
-    assert [len(e.seeds) for e in groups["few"]] == [3, 30]  # whatever goes beyond
-    assert [len(e.seeds) for e in groups["many"]] == [5, 500, 30]
-    assert [len(e.seeds) for e in groups["most"]] == [9, 500, 30]
-    for later in ("many", "most"):
-        assert [e.duration for e in groups[later]] == [None, 3e-4, 3e-4]
-
-
 def test_a_group_may_be_left_out():
     left_out = changed("scenes", "spacing", to=None)
     check(left_out, SCHEMA)
@@ -171,14 +159,15 @@ def test_lists_can_be_continued_without_being_said_again():
 
 @pytest.mark.parametrize("count", [1, 4, 5, 7, 20])
 def test_batches_hold_each_seed_once(count):
-    batches = list(Ensemble(Scene(4), range(3, 3 + count), None).batches(5))
-    assert [seed for batch in batches for seed in batch] == list(range(3, 3 + count))
-    assert all(len(batch) in (1, 5) for batch in batches)
+    batches = Ensemble(Scene(4), range(3, 3 + count), None).batches(5)
+    assert [seed for batch in batches.values() for seed in batch] == list(range(3, 3 + count))
+    assert all({seed // 5 for seed in batch} == {i} for i, batch in batches.items())
 
 
 def test_a_larger_ensemble_keeps_the_whole_batches_of_a_smaller_one():
-    small, large = (list(Ensemble(Scene(4), range(n), None).batches(5)) for n in (10, 25))
-    assert large[: len(small)] == small
+    small, large = (Ensemble(Scene(4), range(n), None).batches(5) for n in (12, 25))
+    assert [i for i in small if small[i] == large[i]] == [0, 1]
+    assert small.keys() <= large.keys()
 
 
 def test_scenes_differ_in_folder_and_are_rebuilt_from_their_options():
@@ -297,7 +286,7 @@ def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
 def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
-    drawn = for_figures(ensembles(PAPER | {"scenes": groups, "beyond": {}, "more": {}}))
+    drawn = for_figures(ensembles(PAPER | {"scenes": groups}))
     assert {group: len(members) for group, members in drawn.items()} == {
         "flat": 1,
         "sizes": 0,
@@ -315,7 +304,7 @@ def test_the_papers_groups_hold_its_own_surfaces(surfaces):
 def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
     """As if their digests met, which they do once in four thousand million."""
     one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
-    both = PAPER | {"scenes": {"one": one, "other": other}, "beyond": {}, "more": {}}
+    both = PAPER | {"scenes": {"one": one, "other": other}}
     monkeypatch.setattr("springblock.model.blockmap._name", lambda file, values: "same-00000000")
     with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
         ensembles(both)
@@ -350,29 +339,38 @@ def test_any_change_changes_the_digest():
         (("scenes", "third_level", 0, "n_p3"), [9], "third_level: pawls of 9 .* do not fill"),
         (("scenes", "third_level", 0, "np"), [9], "third_level.0 has the unknown key 'np'"),
         (("scenes", "third_level", 1, "along_3"), "z", "third_level.1.along_3 is not valid: 'z'"),
-        (("beyond", "loading"), [], "beyond.loading is not valid"),
-        (("beyond", "loading", 0, "material", "speed"), [1.0], "material has the unknown key"),
-        (("beyond", "loading", 0, "step"), [1e-6], "loading: step = 1e-06 s is unstable"),
-        (("beyond", "loading", 4, "material", "gamma"), [-1.0], "loading: Material.gamma must be"),
-        (("beyond", "flat"), {"direction": ["x"], "seeds": 1}, "beyond.flat: scenes has a group"),
-        (("more", "layer"), {"direction": ["x"], "seeds": 1}, "more.layer: beyond has a group"),
+        (("scenes", "angles"), [], "scenes.angles is not valid"),
         (
-            ("more", "repetitions"),
-            {"n_p": [7], "n_s": [7], "direction": ["x"], "seeds": 3},
-            "more.repetitions: the period",
+            ("scenes", "loading"),
+            {"material": {"speed": [1.0]}, "direction": ["x"], "seeds": 1},
+            "material has the unknown key",
+        ),
+        (
+            ("scenes", "loading"),
+            {"step": [1e-6], "direction": ["x"], "seeds": 1},
+            "loading: step = 1e-06 s is unstable",
+        ),
+        (
+            ("scenes", "loading"),
+            {"material": {"gamma": [-1.0]}, "direction": ["x"], "seeds": 1},
+            "loading: Material.gamma must be",
         ),
         (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
         (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
-        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks-120.* is given two durations"),
+        (("scenes", "size_flat", "n_blocks"), [120], "n_blocks = 120.* is given two durations"),
         (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
         (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
         (("scenes", "pillars"), None, "scenes.pillars is not valid: None"),
         (
-            ("figures", "sweeps", "slider_velocity", "groups"),
+            ("figures", "sweeps", "angle", "groups"),
             ["flat", "speeds"],
-            "figures.sweeps.slider_velocity.groups has 'speeds', which is none of flat, pillars",
+            "figures.sweeps.angle.groups: unknown group 'speeds'; choose from flat, pillars",
         ),
-        (("figures", "sweeps", "scatter", "over"), "speed", "over is 'speed'; it may be .*n_p, "),
+        (
+            ("figures", "sweeps", "angle", "over"),
+            "speed",
+            "over: unknown axis 'speed'; choose .*n_p, ",
+        ),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
     ],

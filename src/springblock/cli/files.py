@@ -1,6 +1,5 @@
 """springblock info, compare and dictionary: what is in a file, and where two differ."""
 
-import json
 import zipfile
 from pathlib import Path
 
@@ -41,8 +40,6 @@ def _prelude(file: Path) -> list[str]:
 def _table(file: Path) -> list[str]:
     table = load(file)
     schema, origin = table.schema, origin_of(table)
-    if "inputs" in origin:
-        origin["inputs"] = f"{len(json.loads(origin['inputs']))} files"
     lines = [f"{file}: {table.num_rows} rows, {len(schema)} columns"]
     lines += [f"{key}: {value}" for key, value in origin.items()]
     lines += _scenes(table)

@@ -49,7 +49,7 @@ def tables() -> list[Described]:
         ("production", "an error at full size at one step", production.SCHEMA),
         ("stability", "a stiff or extreme case", stability.SCHEMA),
     ]
-    batches = "realisations/SCENE/seeds-FIRST-LAST.parquet"
+    batches = "realisations/SCENE/batch-NUMBER.parquet"
     return [
         Described("batches", batches, "a realisation, with its curves and fields", BATCH),
         *(Described(name, f"tables/{name}.parquet", row, schema) for name, row, schema in kinds),

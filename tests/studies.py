@@ -1,0 +1,132 @@
+"""A tiny study in a folder of its own: configured, run by Snakemake, and looked at."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import yaml
+
+ROOT = Path(__file__).parents[1]
+PARTS = ("Snakefile", "environment.lock", "workflow", "config", "profiles")
+PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
+#: Each kind of surface, in seven batches of at most two realisations; null leaves a group out.
+TINY = {
+    "n_blocks": 12,
+    "realisations_per_job": 2,
+    "accuracy": False,
+    "material": {**PAPER["material"], "slider_velocity": 5e-3},  # so that runs are short
+    "scenes": dict.fromkeys(PAPER["scenes"])
+    | {
+        "flat": {"seeds": 3, "duration": 2e-5},
+        "pillars": {"n_p": [3, 6], "seeds": [2, 3]},
+        "again": {"n_p": [6], "n_s": [6], "direction": ["x"], "seeds": 1},
+        "grooves": GROOVES | {"direction": ["x", "y"], "seeds": 1},
+    },
+    "figures": {
+        "figure_4": {"n_p": 3, "n_s": 3},
+        "figure_5": {"n_p": 3},
+        "figure_7": {"n_p": 6},
+        "figure_8": {"n_p": 5, "n_s": 7, "n_p2": 1, "n_s2": 1},
+    },
+}
+
+
+@dataclass(frozen=True)
+class Study:
+    """A folder with the workflow and a configuration, `tiny.yaml`."""
+
+    folder: Path
+
+    @classmethod
+    def begun(cls, folder: Path, **changes: Any) -> "Study":
+        """Copy the workflow into a folder, and configure it; nothing is run."""
+        folder.mkdir(parents=True, exist_ok=True)
+        for part in PARTS:
+            copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+            copy(ROOT / part, folder / part)
+        study = cls(folder)
+        study.configure(**changes)
+        return study
+
+    def __truediv__(self, path: str | Path) -> Path:
+        return self.folder / path
+
+    def __fspath__(self) -> str:
+        return str(self.folder)
+
+    def configure(self, **changes: Any) -> None:
+        """Write the tiny configuration, with other values of these keys."""
+        self.write("tiny.yaml", {**TINY, **changes})
+
+    def write(self, name: str, configuration: dict[str, Any]) -> str:
+        """Write a configuration; returns its name."""
+        (self / name).write_text(yaml.safe_dump(configuration))
+        return name
+
+    def program(self, name: str, text: str) -> None:
+        """Write a program that is found before all others of its name."""
+        (self / "bin").mkdir(exist_ok=True)
+        (self / "bin" / name).write_text(text)
+        (self / "bin" / name).chmod(0o755)
+
+    def edit(self, module: str, old: str = "", new: str = "\n# another line\n") -> None:
+        """Replace a piece of a module, or add a comment, in a package of the study's own."""
+        if not (self / "src").exists():
+            shutil.copytree(ROOT / "src", self / "src")
+        file = self / "src/springblock" / module
+        content = file.read_text()
+        assert old in content
+        file.write_text(content.replace(old, new, 1) if old else content + new)
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """As if activated, with the study's own package or else that of this repository."""
+        own = self / "src"
+        sources = [own if own.exists() else ROOT / "src", os.environ.get("PYTHONPATH")]
+        programs = [self / "bin", Path(sys.executable).parent, os.environ["PATH"]]
+        paths = {"PYTHONPATH": sources, "PATH": programs}
+        joined = {name: os.pathsep.join(map(str, filter(None, paths[name]))) for name in paths}
+        return {**os.environ, **joined}
+
+    def command(self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)) -> list[str]:
+        """Return the words that run Snakemake."""
+        return [sys.executable, "-m", "snakemake", "--configfile", *configuration, *options]
+
+    def start(
+        self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",), **how: Any
+    ) -> subprocess.Popen[str]:
+        """Start Snakemake, in a process group of its own; `how` goes to Popen."""
+        usual = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
+        command = self.command(*options, configuration=configuration)
+        return subprocess.Popen(
+            command, cwd=self.folder, env=self.environment, text=True, **{**usual, **how}
+        )
+
+    def run(self, *options: str, refused: bool = False, **how: Any) -> str:
+        """Run Snakemake to its end, which is success unless `refused`; returns what it says."""
+        process = self.start(*options, start_new_session=False, **how)
+        said, _ = process.communicate()
+        assert (process.returncode != 0) == refused, said
+        return said
+
+    def planned(self, *options: str, **how: Any) -> dict[str, int]:
+        """Jobs that a dry run announces, by rule."""
+        said = self.run("--dry-run", *options, **how)
+        table = re.search(r"job +count\n-+  -+\n(.*?)\n\n", said, re.DOTALL)
+        rows = [row.split() for row in table[1].splitlines()] if table else []
+        return {name: int(count) for name, count in rows if name != "total"}
+
+    def numbers(self, results: str = "results", files: str = "tables/*.parquet") -> dict[str, str]:
+        """All numbers of these files to the last bit, as text: NaN are alike."""
+        found = sorted((self / results).glob(files))
+        return {
+            str(file.relative_to(self / results)): repr(pq.read_table(file).to_pylist())
+            for file in found
+        }

@@ -1,0 +1,211 @@
+"""What the README, the pages and the notebook show runs as it stands there, with these answers.
+
+`python tests/test_examples.py` runs the notebook and keeps what it shows. Jupyter is not needed for
+that: what a cell shows is what it prints and its last expression.
+"""
+
+import ast
+import base64
+import io
+import os
+import re
+import shlex
+import textwrap
+from contextlib import redirect_stdout
+
+import nbformat
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from nbformat.v4 import new_output
+
+from springblock import Material, read, simulate
+from springblock.accuracy.residuals import ENERGY_TOLERANCE
+from springblock.cli import main
+from springblock.model.scene import Scene
+from springblock.plotting.runs import film
+from studies import ROOT, Study
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+NOTEBOOK = ROOT / "docs/tour.ipynb"
+#: A box and its language; one that says `skip` needs what a test does not have.
+BOX = re.compile(r"^```(sh|python|yaml)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+#: Single runs on patterned surfaces agree between processors to half a percent.
+SCATTER = 0.02
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """A folder with the workflow, to work in."""
+    monkeypatch.setattr(film, "FRAMES", 20)  # quicker
+    monkeypatch.chdir(tmp_path)
+    return Study.begun(tmp_path)
+
+
+def run_line(line, study):
+    """Run one command as in the activated environment; `springblock` without another Python."""
+    program, *words = shlex.split(line)
+    if program == "springblock":
+        main(words, standalone_mode=False)
+    else:
+        assert words[0] == "--configfile"
+        study.run(*words[1:], configuration=())  # which begin with its files
+
+
+def follow(page, study):
+    """Do all that a page shows: commands, files of a configuration, Python; returns its names."""
+    names = {}
+    for language, box in BOX.findall((ROOT / "docs" / page).read_text(encoding="utf-8")):
+        if language == "sh":
+            for line in box.replace("\\\n", " ").splitlines():
+                run_line(line, study)
+        elif language == "yaml":
+            (study / re.match(r"# (\w+\.yaml)\n", box)[1]).write_text(box, encoding="utf-8")
+        else:
+            exec(box, names)
+    return names
+
+
+def test_the_readme_can_be_followed(study):
+    commands = re.findall(r"^    (springblock (?:.* --output \S+|info .*))$", README, re.MULTILINE)
+    for line in commands:
+        run_line(line, study)
+    names = {}
+    for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
+        exec(example, names)
+    assert names["stored"].scene == Scene(60, 10, 10)
+    for file in ("surface.png", "run.parquet", "run.png", "run.gif", "velocity.png"):
+        assert (study / file).exists()
+    assert 0.5 < names["run"].static_friction < 1.0
+    assert abs(names["run"].energy.relative_residual) < ENERGY_TOLERANCE
+
+
+def test_what_the_readme_plans_can_be_planned(study):
+    grid = re.search(r"^    results: .*\n(    .*\n)+", README, re.MULTILINE)[0]
+    (study / "mine.yaml").write_text(textwrap.dedent(grid))
+    planned = re.findall(r"snakemake -n (\w+)", README)
+    assert planned
+    assert study.planned("--", *planned, configuration=("config/config.yaml",))
+    (line,) = re.findall(r"`snakemake (--configfile mine\.yaml) -- (\w+)`", README)
+    assert study.planned("--", line[1], configuration=("mine.yaml",))
+
+
+def test_the_howto_can_be_followed(study):
+    names = follow("howto.md", study)
+    made = {file.name for file in (study / "results/small/figures").iterdir()}
+    assert {"figure_6.png", "surfaces.png", "sweep_speed.pdf"} <= made
+    assert set(names["table"].n_p) == {0, 4, 10, 12}
+    assert (names["half"] > 0.0).all()
+    assert len(names["runs"]) == 3
+    assert max(names["early"]) < 0.5
+    assert names["run"].static_friction > 0.5
+    assert (study / "mine.pdf").exists()
+    assert not list(study.folder.glob("long*checkpoint"))
+    assert not (study / "long.npz").exists()
+
+
+def test_the_lesson_can_be_followed_and_its_answers_are_right(study):
+    """Numbers by hand are those of the runs: to a slip of 0.3 µs, a sample, or the scatter."""
+    names = follow("lesson.md", study)
+    one, force = names["one"], names["force"]
+    assert one.t_det[0, 0] == pytest.approx(400e-6 / 3, rel=1e-9)
+    assert force[one.time > one.t_det[0, 0]].min() == pytest.approx(0.2, abs=0.002)
+    assert force.max() == pytest.approx(1.0, abs=0.002)
+    assert names["along"] == pytest.approx([120e-6, 120.15e-6], abs=0.15e-6)
+    assert names["later"] == pytest.approx([120e-6, 133.33e-6], abs=0.3e-6)
+    pair, thick = names["pair"], Material(gamma=0.0, thickness=2e-5)
+    assert np.ptp(pair(1.37, thick)) < 0.5e-6 < np.ptp(pair(1.40, thick))
+    assert names["friction"] == pytest.approx([0.79, 0.93], abs=0.01)
+    assert names["precursors"] == pytest.approx([0.05, 0.005], abs=0.005)
+    pillar = names["pillar"]
+    assert pillar[names["edge"]].mean() < 0.9 * pillar[names["core"]].mean()
+    sizes = [np.mean([run.static_friction for run in read(f"p{n}.parquet")]) for n in (2, 6, 30)]
+    assert sizes == pytest.approx([0.82, 0.65, 0.70], abs=0.01)
+
+
+def slips(run):
+    """Times of drops of the force by more than a tenth of the load within two samples, s."""
+    force = run.force / run.normal_force
+    drops = np.flatnonzero(force[:-2] - force[2:] > 0.1)
+    return run.time[drops[np.diff(drops, prepend=-9) > 2]]
+
+
+@pytest.mark.parametrize(
+    ("changed", "first", "apart", "lowest"),
+    [
+        ({"pressure": 2.5e4}, 66.7e-6, 53.3e-6, 0.2),
+        ({"mu_dynamic": 0.8}, 133.3e-6, 53.3e-6, 0.6),
+        ({"gamma": 1.6e7}, 133.3e-6, None, 0.602),
+    ],
+)
+def test_the_answers_on_one_block_are_right(changed, first, apart, lowest):
+    """Samples are 0.2 µs apart, and a slip takes 0.4."""
+    material = Material(**changed)
+    run = simulate([[1]], material.mu_static, material.mu_dynamic, material, duration=4e-4)
+    times = slips(run)
+    assert run.t_first == pytest.approx(first, abs=0.05e-6)
+    assert (run.force / run.normal_force)[run.time > first].min() == pytest.approx(lowest, abs=2e-3)
+    if apart is None:
+        assert len(times) == 1
+    else:
+        assert np.diff(times) == pytest.approx(apart, abs=0.7e-6)
+
+
+def shown(value):
+    """Output that Jupyter would keep of a cell's last expression."""
+    data = {"text/plain": repr(value)}
+    if isinstance(value, Figure):
+        picture = io.BytesIO()
+        value.savefig(picture, format="png", dpi=80, metadata={"Software": None})
+        text = f"<Figure size {value.bbox.width:.0f}x{value.bbox.height:.0f}>"
+        data = {"image/png": base64.b64encode(picture.getvalue()).decode(), "text/plain": text}
+    return new_output("display_data", data=data)
+
+
+def run_cell(source, names):
+    """Run one cell, but for Jupyter's own commands; returns its outputs."""
+    tree = ast.parse(re.sub(r"^%.*$", "", source, flags=re.MULTILINE))
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    outputs, printed, value = [], io.StringIO(), None
+    with redirect_stdout(printed):
+        exec(compile(tree, "cell", "exec"), names)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
+    if printed.getvalue():
+        outputs.append(new_output("stream", name="stdout", text=printed.getvalue()))
+    return outputs if value is None else [*outputs, shown(value)]
+
+
+def run_notebook(notebook):
+    """Run all cells in order, and put what they show in the place of what they have shown."""
+    names = {}
+    for number, cell in enumerate(each for each in notebook.cells if each.cell_type == "code"):
+        cell.outputs = run_cell(cell.source, names)
+        cell.execution_count = number + 1
+
+
+def test_the_notebook_shows_what_it_has_shown(tmp_path, monkeypatch):
+    """Words to the letter; numbers within what processors tell apart, the smallest not at all."""
+    monkeypatch.chdir(tmp_path)  # where no study is
+    stored, now = (nbformat.read(NOTEBOOK, as_version=4) for _ in range(2))
+    nbformat.validate(stored)
+    run_notebook(now)
+    before, after = (
+        [output for cell in notebook.cells for output in cell.get("outputs", [])]
+        for notebook in (stored, now)
+    )
+    for one, other in zip(before, after, strict=True):
+        assert ("image/png" in one.get("data", {})) == ("image/png" in other.get("data", {}))
+        expected, found = (each.get("text") or each.data["text/plain"] for each in (one, other))
+        assert NUMBER.sub("#", found) == NUMBER.sub("#", expected)
+        numbers = [list(map(float, NUMBER.findall(text))) for text in (found, expected)]
+        assert numbers[0] == pytest.approx(numbers[1], rel=SCATTER, abs=5e-3)
+    assert NOTEBOOK.stat().st_size < 400_000
+
+
+if __name__ == "__main__":
+    page = nbformat.read(NOTEBOOK, as_version=4)
+    os.chdir("/")  # where no study is
+    run_notebook(page)
+    nbformat.write(page, NOTEBOOK)

@@ -1,0 +1,133 @@
+"""Surfaces of one's own in the study: planned as in the example, and from end to end."""
+
+import shutil
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from PIL import Image
+
+from springblock import draw_friction, simulate
+from springblock.io.records import read_records
+from springblock.model.blockmap import BlockMap
+from studies import GROOVES, PAPER, TINY, Study
+
+EXAMPLE = "config/examples/islands.yaml"
+ISLANDS = np.indices((12, 12)).sum(axis=0) % 5 > 1
+WEIBULL = {"distribution": ["weibull"], "correlation_length": [3e-5]}
+CORRELATED = {"correlation_length": [2e-5]}
+GROUP = [
+    {"mask": "islands.png", "direction": ["x"], "seeds": 3},
+    {"mask": "islands.png", "material": WEIBULL, "direction": ["x"], "seeds": 2},
+    {"mask": "islands.png", "mu_static": "mu.npy", "mu_dynamic": "weak mu.npy", "direction": ["y"]},
+    {"n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2, "material": CORRELATED},
+]
+
+#: Others must be there, too.
+FEWER = {
+    "flat": {"seeds": 1},
+    "pillars": {"n_p": [6], "seeds": 3},
+    "again": None,
+    "grooves": {**GROOVES, "direction": ["x"], "seeds": 1},
+}
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    """A tiny study with a group of one's own surfaces, its table and their figure made."""
+    study = Study.begun(
+        tmp_path_factory.mktemp("study"),
+        material=PAPER["material"],
+        scenes={**TINY["scenes"], **FEWER, "surfaces": GROUP},
+        figures=TINY["figures"] | {"figure_5": {"n_p": 6}},
+    )
+    Image.fromarray(ISLANDS[::-1]).save(study / "islands.png")
+    np.save(study / "mu.npy", np.linspace(0.8, 1.2, 144).reshape(12, 12))
+    np.save(study / "weak mu.npy", np.full((12, 12), 0.5))
+    study.run("--", "surfaces", "aggregate")
+    return study
+
+
+def records(study, *parts):
+    """Realisations in the folder of this scene."""
+    folder = study / "results/realisations/n_blocks-12" / name(study) / "/".join(parts)
+    return read_records(sorted(folder.glob("batch-*.parquet")))
+
+
+def name(study):
+    return f"mask-{BlockMap.mask(study / 'islands.png')}"
+
+
+def assert_same(run, contact, *coefficients, **how):
+    """Detachment times of a stored run are those of Python's, to the bit."""
+    alone = simulate(contact, *coefficients, **how)
+    assert alone.t_det.tobytes() == run.t_det.tobytes()
+
+
+def test_the_example_can_be_planned(study):
+    jobs = study.planned("--", "surfaces", configuration=(EXAMPLE,))
+    assert (jobs["prelude"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 3, 1)
+
+
+def test_a_study_simulates_what_python_does(study):
+    runs = records(study, "direction-x")
+    assert [run.seed for run in runs] == [0, 1, 2]
+    for run in runs:
+        np.testing.assert_array_equal(run.scene.contact, ISLANDS)
+        assert np.isnan(run.t_det[~ISLANDS]).all()
+        assert_same(run, ISLANDS, *draw_friction(12, run.seed))
+    weibull = ("distribution-weibull", "correlation_length-3e-05", "direction-x")
+    for run in records(study, *weibull):
+        assert run.material.distribution == "weibull"
+        assert_same(run, ISLANDS, *draw_friction(12, run.seed, run.material))
+
+
+def test_coefficients_from_files_are_not_drawn(study):
+    mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", "weak mu.npy"))
+    parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
+    (run,) = records(study, *parts)
+    assert_same(run, ISLANDS, mu.values, weak.values, direction="y")
+
+
+def test_a_table_holds_them_beside_the_others(study):
+    rows = pq.read_table(study / "results/tables/realisations.parquet").to_pylist()
+    masks = [(row["level"], row["mask"]) for row in rows]
+    assert masks[:6] == [(-1, str(BlockMap.mask(study / "islands.png")))] * 6
+    assert masks[6:] == [(0, "")] * 3 + [(1, "")] * 3 + [(2, "")]
+    assert (study / "results/figures/surfaces.png").stat().st_size > 10_000
+    jobs = study.planned("--config", "results=elsewhere", "--", "correlation")
+    assert jobs["correlation_scene"] == 1  # a mask has no sides
+
+
+def test_a_changed_image_is_another_surface(study, tmp_path):
+    other = Study(shutil.copytree(study, tmp_path / "study"))
+    Image.fromarray(~ISLANDS).save(other / "islands.png")
+    assert name(other) != name(study)
+    jobs = other.planned("--", "surfaces")
+    assert (jobs["prelude"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 4, 1)
+
+
+def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
+    """Correlated coefficients, too, go around the edges."""
+    batches = (study / "results/realisations/n_blocks-12/n_rows-6").rglob("batch-*.parquet")
+    runs = read_records(sorted(batches))
+    assert [run.seed for run in runs] == [0, 1]
+    for run in runs:
+        assert run.scene.edges == "periodic"
+        coefficients = draw_friction((6, 12), run.seed, run.material, periodic=True)
+        assert_same(run, np.ones((6, 12), bool), *coefficients, periodic=True)
+
+
+@pytest.mark.parametrize(
+    ("mask", "sentence"),
+    [
+        ("absent.png", "scenes.surfaces: absent.png does not exist"),
+        ("tiny.yaml", "scenes.surfaces: tiny.yaml is neither an image nor an array"),
+    ],
+)
+def test_a_file_that_is_no_mask_is_refused_before_any_job(study, mask, sentence):
+    surfaces = {"mask": mask, "direction": ["x"], "seeds": 1}
+    study.write("wrong.yaml", {"scenes": {"surfaces": surfaces}})
+    said = study.run("--dry-run", configuration=("tiny.yaml", "wrong.yaml"), refused=True)
+    assert sentence in said
+    assert "Traceback" not in said
