@@ -96,7 +96,7 @@ def test_a_table_holds_them_beside_the_others(study):
     assert masks[6:] == [(0, "")] * 3 + [(1, "")] * 3 + [(2, "")]
     assert (study / "results/figures/surfaces.png").stat().st_size > 10_000
     jobs = study.planned("--config", "results=elsewhere", "--", "correlation")
-    assert jobs["correlation_scene"] == 1  # a mask has no sides
+    assert jobs["correlation"] == 1  # a mask has no sides
 
 
 def test_a_changed_image_is_another_surface(study, tmp_path):
