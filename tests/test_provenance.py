@@ -30,12 +30,11 @@ def test_a_figure_depends_on_itself_and_not_on_the_solver():
 
 
 def test_the_error_study_depends_on_each_of_its_own_modules():
-    kinds = names("springblock.cli.stability")
-    assert {"block.py", "cases.py", "load.py", "overflow.py", "pull.py", "reference.py"} <= kinds
-    assert {"rest.py", "schemes.py", "size.py", "step.py", "surface.py", "table.py"} <= kinds
-    compared = names("springblock.cli.measure")
+    kinds = names("springblock.accuracy.stability.table")
+    assert {"cases.py", "lattice.py", "limits.py", "one_block.py", "reference.py"} <= kinds
+    compared = names("springblock.accuracy.work_precision")
     assert {"work_precision.py", "reference.py", "plain_rk4.py", "leapfrog.py"} <= compared
-    assert not {"page.py", "block.py"} & compared
+    assert not {"page.py", "one_block.py"} & compared
 
 
 def test_the_report_depends_on_its_template():

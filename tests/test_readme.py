@@ -8,7 +8,7 @@ import textwrap
 from collections import Counter
 from pathlib import Path
 
-from springblock.accuracy.residuals import ENERGY_TOLERANCE
+from springblock.accuracy.conventions import ENERGY_TOLERANCE
 from springblock.cli import main
 from springblock.model.scene import Scene
 from springblock.plotting.runs import film

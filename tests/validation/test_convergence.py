@@ -5,7 +5,7 @@ import pytest
 
 from springblock import Material, simulate
 from springblock.accuracy.reference import solve
-from springblock.accuracy.surfaces import flat
+from springblock.accuracy.specimens import flat
 
 STEPS = [2e-8, 1e-8, 5e-9, 2.5e-9]  #: s
 #: Six by six blocks that let go one after another within 1 µs. The slider is ten times as fast

@@ -9,7 +9,7 @@ from springblock import Material, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
 from springblock.accuracy.reference import solve
-from springblock.accuracy.surfaces import uniform
+from springblock.accuracy.specimens import uniform
 from springblock.simulation.energy import elastic_energy
 from springblock.simulation.simulate import SimulationError
 from springblock.solver import INTEGRATORS

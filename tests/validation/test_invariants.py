@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, simulate
-from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
 
 PAPER = Material()

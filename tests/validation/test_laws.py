@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from springblock import Material, Pattern, compute_prelude, simulate
 from springblock.accuracy import reference
-from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, simulate
-from springblock.accuracy.surfaces import uniform
+from springblock.accuracy.specimens import uniform
 
 INTEGRATORS = ["leapfrog", "rk4"]
 UNDAMPED = Material(gamma=0.0)

@@ -8,7 +8,7 @@ COMPILED = rules.compile.input
 rule compare_scene:
     input:
         COMPILED,
-        made_of("steps/compare_scene", "springblock.cli.measure"),
+        made_of("steps/compare_scene", "springblock.accuracy.work_precision"),
     output:
         f"{RESULTS}/accuracy/{{comparison}}-{{scene}}.parquet",
     log:
@@ -26,7 +26,7 @@ rule compare_scene:
     message:
         "Measuring errors: {wildcards.comparison}, {wildcards.scene}"
     shell:
-        "springblock measure --comparison {wildcards.comparison} --scene {wildcards.scene} "
+        "springblock make {wildcards.comparison}-{wildcards.scene} "
         "--output {output:q} > {log:q} 2>&1"
 
 
@@ -44,7 +44,7 @@ rule compare:
 
 rule precision_table:
     input:
-        made_of("steps/precision_table", "springblock.cli.collect"),
+        made_of("steps/precision_table", "springblock.io.parquet"),
         tables=rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
@@ -58,13 +58,13 @@ rule precision_table:
     message:
         "Collecting errors and run times in one table"
     shell:
-        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
+        "springblock make collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule production_scene:
     input:
         COMPILED,
-        made_of("steps/production_scene", "springblock.cli.production"),
+        made_of("steps/production_scene", "springblock.accuracy.production"),
     output:
         f"{RESULTS}/accuracy/production/{{scene}}.parquet",
     log:
@@ -79,12 +79,12 @@ rule production_scene:
     message:
         "Measuring errors of ensembles at full size: {wildcards.scene}"
     shell:
-        "springblock production --scene {wildcards.scene} --output {output:q} > {log:q} 2>&1"
+        "springblock make production-{wildcards.scene} --output {output:q} > {log:q} 2>&1"
 
 
 rule production_table:
     input:
-        made_of("steps/production_table", "springblock.cli.collect"),
+        made_of("steps/production_table", "springblock.io.parquet"),
         tables=expand(rules.production_scene.output, scene=conventions.SCENES),
     output:
         f"{RESULTS}/tables/production.parquet",
@@ -98,7 +98,7 @@ rule production_table:
     message:
         "Collecting errors at full size in one table"
     shell:
-        "springblock collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
+        "springblock make collect {input.tables:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule production:
@@ -117,7 +117,7 @@ rule production:
 rule stability_table:
     input:
         COMPILED,
-        made_of("steps/stability_table", "springblock.cli.stability"),
+        made_of("steps/stability_table", "springblock.accuracy.stability.table"),
     output:
         f"{RESULTS}/tables/stability.parquet",
     log:
@@ -130,7 +130,7 @@ rule stability_table:
     message:
         "Trying stiff and extreme cases"
     shell:
-        "springblock try --output {output:q} > {log:q} 2>&1"
+        "springblock make stability --output {output:q} > {log:q} 2>&1"
 
 
 #: The table of errors at full size belongs to the page once it is there.
@@ -139,7 +139,7 @@ AT_FULL_SIZE = [table for table in rules.production_table.output if Path(table).
 
 rule accuracy:
     input:
-        made_of("steps/accuracy", "springblock.cli.accuracy"),
+        made_of("steps/accuracy", "springblock.accuracy.page"),
         tables=[
             rules.precision_table.output,
             rules.stability_table.output,
@@ -155,10 +155,8 @@ rule accuracy:
     resources:
         mem_mb=400,
         runtime=5,
-    params:
-        production="--production" if AT_FULL_SIZE else "",
     message:
         "Writing down what to trust"
     shell:
-        "springblock accuracy {input.tables:q} {params.production} {input.production:q} "
+        "springblock make accuracy {input.tables:q} {input.production:q} "
         "--output {output:q} > {log:q} 2>&1"

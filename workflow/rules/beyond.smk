@@ -7,7 +7,7 @@ BEYOND_GROUPS += ["friction", "scatter", "variance"]
 
 rule beyond_page:
     input:
-        made_of("steps/beyond", "springblock.cli.beyond"),
+        made_of("steps/beyond", "springblock.beyond", "springblock.beyond.page"),
         batches=lambda wildcards: batches(ensembles(furthest(BEYOND_GROUPS), BEYOND_GROUPS)),
     output:
         f"{RESULTS}/beyond.md",
@@ -21,7 +21,7 @@ rule beyond_page:
     message:
         "Answering questions beyond the paper"
     shell:
-        "springblock beyond {input.batches:q} --output {output:q} > {log:q} 2>&1"
+        "springblock make beyond {input.batches:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule beyond:

@@ -31,7 +31,7 @@ rule correlation:
 
 rule correlations_table:
     input:
-        made_of("steps/correlations", "springblock.cli.collect", configuration=CONFIGURATION),
+        made_of("steps/correlations", "springblock.io.parquet", configuration=CONFIGURATION),
         tables=lambda wildcards: correlations(wildcards.table, wildcards.part),
     output:
         f"{RESULTS}/tables/{{part}}{{table}}.parquet",
@@ -49,7 +49,7 @@ rule correlations_table:
     message:
         "Collecting correlations in one table: {wildcards.part}{wildcards.table}"
     shell:
-        "springblock collect {input.tables:q} --configuration {params.configuration} "
+        "springblock make collect {input.tables:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
 
 

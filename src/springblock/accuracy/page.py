@@ -6,16 +6,17 @@ from typing import Any
 
 from springblock.accuracy import full_size
 from springblock.accuracy.conventions import (
+    ENERGY_TOLERANCE,
     ENSEMBLE,
     HORIZON_NUDGE,
     MEANS,
+    OUT_OF_LINE,
     PAPER_STEP,
     PLAIN,
     SCENES,
     ensemble_error,
     order,
 )
-from springblock.accuracy.residuals import ENERGY_TOLERANCE, OUT_OF_LINE
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 

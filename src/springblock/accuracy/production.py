@@ -15,7 +15,7 @@ from scipy.stats import t
 from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
-from springblock.accuracy.surfaces import Array, drawn
+from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.io.rows import Row

@@ -22,7 +22,7 @@ from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
 from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
-from springblock.accuracy.surfaces import Array, Surface, drawn
+from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import column
 from springblock.model.pattern import Pattern

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
-from springblock.accuracy.residuals import suspects
+from springblock.accuracy.conventions import suspects
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.io.parquet import read, write
 from springblock.io.schemas import SUMMARY
