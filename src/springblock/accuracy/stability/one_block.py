@@ -29,13 +29,11 @@ from springblock.accuracy.stability.cases import (
 )
 from springblock.accuracy.stability.limits import LARGEST, beyond_the_limit
 from springblock.accuracy.stability.schemes import limit, limit_of_damping
-from springblock.model.material import Material
+from springblock.model.material import LAWS, Material
 from springblock.simulation.run import Realisation
 
 SPEED, MU_STATIC, MU_DYNAMIC = 0.01, 1.0, 0.6
 DROP = MU_STATIC - MU_DYNAMIC
-#: What the weakening laws lose their drop over.
-CONSTANTS = {"slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
 Motion = Callable[[float], tuple[float, float]]  #: way and speed at a time after the release
 
 
@@ -63,9 +61,9 @@ def with_damping(gamma: float) -> Material:
     return replace(PAPER, gamma=gamma * PAPER.omega_min)
 
 
-def damped(gamma: float) -> Array:
-    """Return the matrix of (x, x') for x" + gamma x' + x = 0."""
-    return np.array([[0.0, 1.0], [-1.0, -gamma]])
+def swing(t: Array | float, gamma: float, start: tuple[float, float]) -> Array:
+    """Return (x, x') at times t after `start` for x" + gamma x' + x = 0, (..., 2)."""
+    return expm(np.multiply.outer(t, [[0.0, 1.0], [-1.0, -gamma]])) @ start
 
 
 def frictions(integrator: str) -> Iterator[Case]:
@@ -113,8 +111,8 @@ def force_while_slipping(integrator: str, gamma: float) -> Outcome:
     pull = Pull(integrator, material, step)
     run, force, end = pull_block(pull, MU_STATIC / SPEED + slow)
     tau, far = end - MU_STATIC / SPEED, MU_DYNAMIC + gamma * SPEED
-    x = expm(tau * damped(gamma)) @ [MU_STATIC - far, SPEED]
-    closed_form, steepest = far + x[0], max(abs(MU_STATIC - far) / slow, SPEED)
+    closed_form = far + swing(tau, gamma, (MU_STATIC - far, SPEED))[0]
+    steepest = max(abs(MU_STATIC - far) / slow, SPEED)
     return pull.judge(run, force, closed_form, 2.0 * steepest * pull.h / closed_form)
 
 
@@ -132,9 +130,9 @@ def force_after_slip(
     pull = Pull(integrator, material, min(0.02, 2e-3 / speed) / material.omega_min)
     lasts, closed_form = 2.0 * (math.pi - math.atan(drop / speed)), 2.0 * mu_dynamic - MU_STATIC
     if gamma:
-        start = [MU_STATIC - far, speed]
-        lasts = brentq(lambda t: (expm(t * damped(gamma)) @ start)[1] - speed, 2.0, 5.0)
-        closed_form = far + (expm(lasts * damped(gamma)) @ start)[0]
+        start = (MU_STATIC - far, speed)
+        lasts = brentq(lambda t: swing(t, gamma, start)[1] - speed, 2.0, 5.0)
+        closed_form = far + swing(lasts, gamma, start)[0]
     stop = MU_STATIC / speed + lasts
     before_the_next = stop + min(1.0, drop / speed)
     run, force, end = pull_block(pull, before_the_next, mu_dynamic=mu_dynamic)
@@ -186,8 +184,8 @@ def weakenings(integrator: str) -> Iterator[Case]:
     for rate in (1e-2, 1.0, 1e2, 1e4, 1e8):
         name = f"steady sliding with velocity weakening at {rate:g} m omega"
         yield case(name, rate, "force of steady sliding, F_n", force_of_steady_sliding, rate)
-    for law, constant in CONSTANTS.items():
-        name, arguments = f"{law} with {constant} = 1e-300", (law, 1e-300)
+    for law in ("slip_weakening", "velocity_weakening"):
+        name, arguments = f"{law} with {LAWS[law]} = 1e-300", (law, 1e-300)
         yield case(name, math.inf, FRICTION, is_coulomb, *arguments, expected="the same")
 
 
@@ -196,7 +194,7 @@ def weakening(integrator: str, law: str, rate: float, material: Material) -> Pul
     constant = DROP / rate * material.block_load / material.k_s
     if law == "velocity_weakening":
         constant *= material.omega_min
-    weak: dict[str, Any] = {"law": law, CONSTANTS[law]: constant}
+    weak: dict[str, Any] = {"law": law, LAWS[law]: constant}
     return Pull(integrator, replace(material, **weak), 0.02 / material.omega_min)
 
 
@@ -279,7 +277,7 @@ def is_coulomb(integrator: str, law: str, least: float) -> Outcome:
 
     Leapfrog's is so to the bit; Runge-Kutta turns slow blocks at once, which Coulomb's do not.
     """
-    weak: dict[str, Any] = {"law": law, CONSTANTS[law]: least}
+    weak: dict[str, Any] = {"law": law, LAWS[law]: least}
     pull, plain = (
         Pull(integrator, pulled_at(SPEED, material), 2e-8)
         for material in (replace(UNDAMPED, **weak), UNDAMPED)
