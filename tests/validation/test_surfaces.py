@@ -19,7 +19,7 @@ LAWS = {
     "velocity_weakening": {"speed_scale": 0.1},
 }
 #: Strained far beyond the range of the series.
-SOFT = replace(FAST, youngs_modulus=1.5e5)
+SOFT = replace(FAST, youngs_modulus=2e5)
 MATERIALS = {"coulomb": FAST, "soft": SOFT}
 MATERIALS |= {law: replace(FAST, law=law, **constant) for law, constant in LAWS.items()}
 
@@ -81,9 +81,12 @@ def test_no_bit_of_a_periodic_surface_depends_on_where_its_edges_are(
         return np.roll(field, shift, axis=(0, 1))
 
     run = simulate(*surface, **how)
-    assert run.switches.sum() > np.isfinite(run.t_det).sum() > 0.9 * surface[0].sum()
-    if material == "soft":
-        assert np.abs(np.diff(run.displacement)).max() > 0.05 * PAPER.spacing
+    detached = np.isfinite(run.t_det).sum()
+    assert detached > 0.9 * surface[0].sum()
+    if material == "soft":  # (r/L)² - 1 beyond 0.06
+        assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
+    else:
+        assert run.switches.sum() > detached
     assert_moved(run, simulate(*map(roll, surface), **how), roll)
 
 
