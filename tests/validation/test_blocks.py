@@ -17,7 +17,6 @@ from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
 from springblock.accuracy.stability import one_block
 from springblock.model.defaults import STEP
-from springblock.solver import INTEGRATORS
 
 OMEGA = UNDAMPED.omega_min
 LOAD = UNDAMPED.block_load
@@ -36,7 +35,6 @@ def pull(mu_static, mu_dynamic, *, after=0.0, step=1e-8, material=UNDAMPED, **op
     return simulate(*scene, material, step=step, sample_interval=step, duration=duration, **options)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("mu_static", [0.31, 1.0, 1.21])
 def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, step, integrator):
@@ -47,7 +45,6 @@ def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, ste
     assert 0.0 < run.static_friction - mu_static <= RATE * step / LOAD
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("gamma", [0.0, 5e5])
 @pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7), (1.0, 0.0)])
@@ -66,7 +63,6 @@ def test_the_slip_follows_its_closed_form(mu_static, mu_dynamic, gamma, step, in
     np.testing.assert_allclose(run.force[sliding], exact, rtol=0, atol=missed)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7)])
 def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, integrator):
@@ -94,7 +90,6 @@ def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, int
         np.testing.assert_allclose(rising, RATE * step, rtol=1e-9)  # differences of 1e-6 N
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_block_with_mu_s_below_mu_d_lets_go_once_and_follows_the_slider(integrator):
     """It starts at mu_d F_n, not at mu_s F_n, with v (1 - cos omega tau): without a drop."""
     run = pull(0.3, 0.61, after=2e-5, integrator=integrator, material=Material())
@@ -104,7 +99,6 @@ def test_a_block_with_mu_s_below_mu_d_lets_go_once_and_follows_the_slider(integr
     assert beside.max() < 1.01 * RATE / OMEGA + RATE * 1e-8  # a step late, and sampled in steps
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
     """Its v (1 - cos omega t) touches zero once in each of the first few periods.
 
@@ -121,7 +115,6 @@ def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
     assert 1 <= run.switches[run.time < others.min()].sum() < 10
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_weak_column_lets_go_at_its_threshold_and_swings_about_its_new_place(integrator):
     """Beside a column held fast: at rest there is no spring force but the slider's.
 

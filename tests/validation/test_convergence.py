@@ -79,7 +79,6 @@ def test_force_curves_converge(reference, runs):
 @pytest.mark.parametrize(
     ("shape", "periodic"), [((3, 7), False), ((1, 9), False), ((8, 2), False), ((3, 5), True)]
 )
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_detachment_times_of_oblong_surfaces_are_those_of_the_reference(
     shape, periodic, integrator
 ):
@@ -127,7 +126,6 @@ def test_both_integrators_converge_to_one_answer_as_friction_weakens(law):
     assert apart[1] < apart[0] / 8.0
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_ledger_of_a_periodic_surface_closes_to_second_order(integrator):
     """One block is nailed down, all other motion is smooth: halving h quarters the residual."""
     contact = np.zeros((4, 7), bool)

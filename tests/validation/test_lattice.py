@@ -14,7 +14,6 @@ from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
 from springblock.accuracy.stability.schemes import swing_factor
 from springblock.simulation.energy import elastic_energy
 from springblock.simulation.simulate import SimulationError
-from springblock.solver import INTEGRATORS
 
 PAPER = Material()
 TINY = 1e-9
@@ -57,14 +56,12 @@ def assert_swings(start, c, integrator, periodic=False):
     np.testing.assert_allclose(end, exact, rtol=0, atol=1000 * TINY * TINY)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("mode", PAIR_MODES)
 def test_each_mode_of_two_by_two_blocks_swings_at_its_own_frequency(mode, integrator):
     shape, c = PAIR_MODES[mode]
     assert_swings(TINY * np.stack(shape), c, integrator)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("mode", [(1, 0), (0, 1), (2, 1), (3, 2)])
 @pytest.mark.parametrize("polarisation", [0, 1])
 def test_plane_waves_run_through_the_edges_of_an_oblong_lattice(integrator, mode, polarisation):
@@ -92,7 +89,6 @@ def test_frequencies_converge_with_the_order_of_the_scheme(integrator, order):
     assert orders == pytest.approx([order, order], abs=0.1)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_mode_dies_away_at_half_the_damping_frequency(integrator):
     """u = u_0 exp(-gamma t/2) cos(Omega t) + ..., Omega² = omega² - gamma²/4."""
     damped = Material(gamma=4e5)
@@ -169,43 +165,38 @@ def test_long_waves_travel_at_the_speed_of_sound_in_a_sheet(angle):
     np.testing.assert_allclose(speeds, expected, rtol=k**2)
 
 
-def pull_through_cut(strain, n):
-    """Force (2,), N, on the right of a cut across the x axis of n x n uniformly strained blocks.
+def traction(strain):
+    """Return sigma_xx and sigma_xy, Pa, of the bulk, uniformly strained, across the x axis.
 
-    It is the sum of F_int over all blocks on its left.
+    It is the sum of F_int over all blocks on the left of a cut. A free edge lacks half of its
+    diagonals: what N + 1 rows carry more than N is a row of the bulk.
     """
-    x, y = np.meshgrid(np.arange(n), np.arange(n))
-    u = np.einsum("ij,jyx->iyx", strain, np.stack([x, y]))
-    unit = PAPER.k_int * PAPER.spacing
-    return unit * spring_forces(u)[:, :, : n // 2].sum(axis=(1, 2))
+    cuts = []
+    for n in (8, 9):
+        u = np.einsum("ij,jyx->iyx", strain, np.stack(np.meshgrid(np.arange(n), np.arange(n))))
+        cuts.append(spring_forces(u)[:, :, : n // 2].sum(axis=(1, 2)))
+    return PAPER.k_int / PAPER.thickness * (cuts[1] - cuts[0])
 
 
 @pytest.mark.parametrize("angle", [0.0, 20.0, 45.0, 70.0])
-@pytest.mark.parametrize("principal", [(1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, -1.0), (1.0, -NU)])
+@pytest.mark.parametrize("principal", [(1.0, 0.0), (1.0, 1.0), (1.0, -1.0), (1.0, -NU), (-NU, 1.0)])
 def test_the_lattice_is_an_isotropic_sheet_in_plane_stress(angle, principal):
-    """Hooke's law with E and nu = 1/3 holds whichever way the principal strains are turned.
-
-    A free edge lacks half of its diagonals: what N + 1 rows carry more than N is a row of the bulk.
-    """
+    """Hooke's law with E and nu = 1/3 holds whichever way the principal strains are turned."""
     cosine, sine = np.cos(np.radians(angle)), np.sin(np.radians(angle))
     turn = np.array([[cosine, -sine], [sine, cosine]])
     strain = TINY * turn @ np.diag(principal) @ turn.T
-    row = pull_through_cut(strain, 9) - pull_through_cut(strain, 8)
-    traction = row / (PAPER.spacing * PAPER.thickness)  # sigma_xx and sigma_xy, Pa
     (xx, xy), (_, yy) = strain
     modulus = PAPER.youngs_modulus
     exact = modulus / (1 - NU**2) * (xx + NU * yy), modulus / (1 + NU) * xy
     # second order in the strain, and the rounding of a difference of sums of 40 forces
-    np.testing.assert_allclose(traction, exact, rtol=0, atol=1e-8 * modulus * TINY)
+    np.testing.assert_allclose(traction(strain), exact, rtol=0, atol=1e-8 * modulus * TINY)
 
 
 def test_shear_modulus_is_three_eighths_of_youngs():
     """Simple shear u_x = gamma y: half of it strain, half of it rotation without effect."""
     sheared = TINY * np.array([[0.0, 1.0], [0.0, 0.0]])
-    row = pull_through_cut(sheared, 9) - pull_through_cut(sheared, 8)
     stress = 3.0 / 8.0 * PAPER.youngs_modulus * TINY
-    traction = row / (PAPER.spacing * PAPER.thickness)
-    np.testing.assert_allclose(traction, [0.0, stress], rtol=0, atol=1e-8 * stress)
+    np.testing.assert_allclose(traction(sheared), [0.0, stress], rtol=0, atol=1e-8 * stress)
 
 
 @pytest.mark.parametrize("shape", [(3, 3), (5, 8), (7, 13), (16, 3)])

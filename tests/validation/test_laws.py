@@ -64,7 +64,6 @@ def follow(material, longest):
     return solution.sol, solution.t[-1]
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize(
     ("material", "longest", "fastest"),
     [
@@ -92,13 +91,11 @@ def test_a_slip_grows_as_friction_weakens_against_the_spring(
     assert errors[0] / errors[1] == SECOND_ORDER
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("rate", [1e-2, 1.0, 1e4])
 def test_steady_sliding_takes_the_force_of_its_speed_to_rounding(rate, integrator):
     assert abs(force_of_steady_sliding(integrator, rate).relative_error) < 1e-11
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("step", [2.0e-8, 1.9e-8, 1.7e-8])
 def test_the_way_of_the_first_slip_is_the_displacement(step, integrator):
     """Wherever in its step the release was placed: friction has weakened as far as that."""
@@ -111,7 +108,6 @@ def test_the_way_of_the_first_slip_is_the_displacement(step, integrator):
         assert state.law.way[1] == pytest.approx(moved, rel=1e-9, abs=0)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_block_heals_as_it_comes_to_rest(integrator):
     """The next slip begins at mu_s F_n again, and takes as much from the spring."""
     run = pull(SLIP, integrator, 5e-9, 2.5 * RELEASE)
@@ -124,7 +120,6 @@ def test_a_block_heals_as_it_comes_to_rest(integrator):
     assert lowest[0] > 0.2 * LOAD + DROP / 50.0  # without weakening it would fall to 2 mu_d - mu_s
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_heat_of_a_slip_is_that_of_mu_d_and_half_the_drop_over_d_c(integrator):
     run = pull(SLIP, integrator, 2.5e-9, 1.5e-6)
     assert not run.velocity.any()
@@ -132,7 +127,6 @@ def test_the_heat_of_a_slip_is_that_of_mu_d_and_half_the_drop_over_d_c(integrato
     assert run.energy.friction == pytest.approx(heat, rel=(OMEGA * 2.5e-9) ** 2, abs=0)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("law", LAWS)
 def test_the_ledger_closes_to_second_order_as_friction_weakens(law, integrator):
     coarse, fine = (
@@ -144,7 +138,6 @@ def test_the_ledger_closes_to_second_order_as_friction_weakens(law, integrator):
 
 
 @pytest.mark.parametrize(("law", "after"), [("coulomb", 2e-7), ("slip", 6e-7), ("velocity", 6e-7)])
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("direction", ["y", 37.0, 180, 251.5])
 def test_friction_is_the_same_in_all_directions(direction, integrator, law, after):
     """The slip along any heading is that along x; the block moves along the heading alone.
@@ -178,7 +171,6 @@ def test_friction_that_weakens_at_once_is_coulombs_to_the_bit(limit):
     np.testing.assert_array_equal(runs[0].t_det, runs[1].t_det)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_friction_that_never_weakens_is_one_coefficient(integrator):
     """Both laws then have mu = mu_s for good."""
     laws = replace(SLIP, slip_distance=1e300), replace(VELOCITY, speed_scale=1e300)
@@ -189,7 +181,6 @@ def test_friction_that_never_weakens_is_one_coefficient(integrator):
     assert runs[0].static_friction == pytest.approx(plain.static_friction, rel=1e-4)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("law", LAWS)
 def test_the_first_detachment_is_coulombs(law, integrator):
     """But for what its neighbours have moved within that step, as Runge-Kutta sees them."""

@@ -7,7 +7,6 @@ import pytest
 
 from springblock import Material, Pattern, compute_prelude, draw_friction, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
-from springblock.solver import INTEGRATORS
 
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: a run of 1500 steps shows all blocks let go.
@@ -43,7 +42,6 @@ def assert_moved(run, other, move, signs=(1, 1)):
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("surface", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
 def test_a_surface_mirrored_across_the_slide_moves_as_its_mirror_image(
     surface, integrator, periodic
@@ -54,7 +52,6 @@ def test_a_surface_mirrored_across_the_slide_moves_as_its_mirror_image(
     assert_moved(*runs, lambda field: field[::-1], (1, -1))
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_surface_mirrored_along_the_slide_is_pulled_the_other_way(integrator):
     surface, how = drawn(SQUARE, seed=3), {**RUN, "integrator": integrator}
     mirrored = [field[:, ::-1] for field in surface]
@@ -62,7 +59,6 @@ def test_a_surface_mirrored_along_the_slide_is_pulled_the_other_way(integrator):
     assert_moved(*runs, lambda field: field[:, ::-1], (-1, 1))
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize(
     ("material", "share"), [("coulomb", 0.6), *((material, 1.0) for material in MATERIALS)]
 )
@@ -91,7 +87,6 @@ def test_no_bit_of_a_periodic_surface_depends_on_where_its_edges_are(
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator, periodic):
     """Sums are taken in another order, and rounding grows from one avalanche to the next."""
     surface = oblong((4, 11), seed=1)
@@ -105,7 +100,6 @@ def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator
     np.testing.assert_allclose(turned.displacement[::-1], moved, rtol=0, atol=1e-9 * scale)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("shape", [(3, 3), (5, 8), (7, 13), (16, 3)])
 def test_a_periodic_surface_without_scatter_moves_as_one_block(integrator, shape):
     """No spring between blocks is ever strained. The load of each is P l² but for its rounding."""
@@ -123,7 +117,6 @@ def test_a_periodic_surface_without_scatter_moves_as_one_block(integrator, shape
     np.testing.assert_allclose(astuple(run.energy), blocks * np.array(astuple(one.energy)), 1e-9)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_unit_of_mass_is_a_convention(integrator):
     """E, rho and P four times as large: every force is, and no motion changes, to the last bit."""
     heavy = replace(PAPER, youngs_modulus=4e7, density=4800.0, pressure=2e5)
@@ -137,7 +130,6 @@ def test_the_unit_of_mass_is_a_convention(integrator):
     assert scaled.energy.friction == 4.0 * run.energy.friction
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_blocks_that_have_not_detached_have_not_moved(integrator):
     """In the middle of the avalanches, stuck next to sliding."""
     contact, *mu = flat(12, seed=3)
@@ -149,7 +141,6 @@ def test_blocks_that_have_not_detached_have_not_moved(integrator):
     assert run.displacement[0, ~waiting].all()
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("law", LAWS)
 def test_a_block_that_is_held_does_not_move_by_one_bit(law, integrator):
     """While the others slip; of Coulomb's law there is a case in the table."""
@@ -170,7 +161,6 @@ def test_until_the_first_detachment_the_seed_does_not_matter():
     assert not np.array_equal(first.force, second.force)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("law", ["coulomb", *LAWS])
 @pytest.mark.parametrize("periodic", [False, True])
 def test_a_run_from_a_prelude_is_the_run_from_zero(law, periodic, integrator):
