@@ -14,7 +14,7 @@ from springblock.accuracy.budget import (
     halving,
     study_budget,
 )
-from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCENES
+from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCENES, half_width
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 
@@ -111,18 +111,10 @@ def _value(row: Row) -> str:
     """Value ± statistical ± numerical error, to two digits of the first."""
     unit, factor = _UNITS[row["unit"]]
     value, scale = factor * row["value"], factor * row["scale"]
-    statistical = factor * _half_width(row)
+    statistical = factor * half_width(row["deviation"], row["realisations"])
     places = max(0, 1 - floor(log10(statistical)))
     numbers = (value, statistical, scale * Bias.of(row).high)
     return " ± ".join(f"{number:.{places}f}" for number in numbers) + unit
-
-
-def _half_width(row: Row) -> float:
-    """Half of Student's 95 % interval of a mean over the realisations."""
-    from scipy.stats import t  # slow to import, and needed here alone
-
-    count = row["realisations"]
-    return float(t.ppf(0.975, count - 1) * row["deviation"] / sqrt(count))
 
 
 def _bias(row: Row) -> str:

@@ -17,11 +17,18 @@ from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
-from scipy.stats import spearmanr, t
+from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
+from springblock.accuracy.conventions import (
+    COMPARISONS,
+    HORIZON_NUDGE,
+    MEANS,
+    PLAIN,
+    SCENES,
+    half_width,
+)
 from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import column
@@ -251,7 +258,7 @@ def rows_of(
         count, error, half = len(values), root_mean_square(values), 0.0
         if of_means:
             error = float(values.mean())
-            half = t.ppf(0.975, count - 1) * float(values.std(ddof=1)) / np.sqrt(count)
+            half = half_width(float(values.std(ddof=1)), count)
         yield {
             "comparison": comparison,
             "scene": scene,
