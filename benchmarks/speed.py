@@ -332,7 +332,7 @@ def machine() -> dict[str, str]:
         "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
         "python": platform.python_version(),
         **{name: metadata.version(name) for name in ("numba", "llvmlite", "numpy")},
-        "code_version": code_version("springblock.simulation.simulate"),
+        "code_version": code_version("simulate"),
     }
 
 

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from nbformat.v4 import new_output
 
 from springblock import Material, read, simulate
-from springblock.accuracy.residuals import ENERGY_TOLERANCE
+from springblock.accuracy.conventions import ENERGY_TOLERANCE
 from springblock.cli import main
 from springblock.model.scene import Scene
 from springblock.plotting.runs import film

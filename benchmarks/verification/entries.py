@@ -8,7 +8,7 @@ from benchmarks.verification.tables import Answer, read_reference, read_surface
 from springblock import simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PLAIN
-from springblock.accuracy.surfaces import Surface
+from springblock.accuracy.specimens import Surface
 from springblock.io.rows import markdown_table
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.solver import INTEGRATORS

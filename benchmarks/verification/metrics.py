@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.verification.problems import Problem
 from benchmarks.verification.tables import Answer, Reference
-from springblock.accuracy.surfaces import Array
+from springblock.accuracy.specimens import Array
 from springblock.accuracy.work_precision import root_mean_square
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock.accuracy.surfaces import Array
+from springblock.accuracy.specimens import Array
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern

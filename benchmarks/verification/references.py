@@ -17,7 +17,7 @@ from benchmarks.verification.tables import (
 )
 from springblock.accuracy import reference
 from springblock.accuracy.conventions import HORIZON_NUDGE
-from springblock.accuracy.surfaces import Surface, drawn
+from springblock.accuracy.specimens import Surface, drawn
 from springblock.model.defaults import SAMPLE_INTERVAL
 
 PUBLISHED, COARSE = 1e-11, 1e-10  #: relative tolerances of the event-located solution

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.verification.problems import Problem
-from springblock.accuracy.surfaces import Array, Surface
+from springblock.accuracy.specimens import Array, Surface
 from springblock.files import whole_file
 from springblock.model.defaults import SAMPLE_INTERVAL
 

@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
-from springblock.accuracy.conventions import ensemble_error, order
+from springblock.accuracy.conventions import ensemble_error, order, suspects
+
+
+def rows(errors, n_p=20):
+    return [{"n_p": n_p, "seed": seed, "energy_error": e} for seed, e in enumerate(errors)]
 
 
 def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
@@ -15,3 +19,14 @@ def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
 def test_an_order_is_that_of_steps_where_errors_have_settled():
     steps = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9])
     assert order(steps, np.where(steps > 2e-8, 1.0, 3e3 * steps)) == pytest.approx(1.0)
+
+
+def test_a_residual_ten_times_that_of_its_scene_is_suspect():
+    assert suspects(rows([1e-5, -3e-5, 2e-5]) + rows([1e-4, 3e-4], n_p=6), ["n_p"]) == []
+    (row,) = suspects(rows([1e-5, -1e-5, 1e-5, 2e-5, 1.2e-4]) + rows([1.2e-4] * 3, n_p=6), ["n_p"])
+    assert (row["n_p"], row["seed"]) == (20, 4)
+
+
+@pytest.mark.parametrize("error", [6e-4, -6e-4, float("nan")])
+def test_a_large_residual_or_none_is_suspect_even_where_all_are_alike(error):
+    assert len(suspects(rows([error] * 3), ["n_p"])) == 3

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, Realisation, compute_prelude, simulate
-from springblock.accuracy.surfaces import drawn
+from springblock.accuracy.specimens import drawn
 from springblock.simulation.checkpoint import Checkpoint
 
 PILLARS = Pattern.pillars(12, 4, 2)

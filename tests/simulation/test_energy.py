@@ -8,7 +8,7 @@ import pytest
 
 from springblock import Material, Pattern, simulate
 from springblock.accuracy.kernels import spring_forces
-from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.simulation.energy import elastic_energy
 
 PAPER = Material()

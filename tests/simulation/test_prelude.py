@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
-from springblock.accuracy.surfaces import drawn
+from springblock.accuracy.specimens import drawn
 from springblock.simulation.prelude import HOLDING
 from springblock.simulation.setup import STEP
 from springblock.solver import INTEGRATORS

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
-from springblock.accuracy.surfaces import drawn, flat, uniform
+from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
 from springblock.model.direction import heading
 from springblock.simulation.run import first_minimum

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from springblock import Pattern, compute_prelude, simulate
-from springblock.accuracy.surfaces import drawn
+from springblock.accuracy.specimens import drawn
 
 #: Of force and times up to the peak. Rounding differs by 1e-16 a step and grows over some thousand
 #: steps; beyond the peak of patterned surfaces, avalanches reorder (docs/accuracy.md).
@@ -20,7 +20,7 @@ ELSEWHERE = """
 import sys
 import numpy as np
 from springblock import Pattern, compute_prelude, draw_friction, simulate
-from springblock.accuracy.surfaces import drawn
+from springblock.accuracy.specimens import drawn
 pillars = Pattern.pillars(24, 8, 4)
 run = simulate(*drawn(pillars, 1), prelude=compute_prelude(pillars.contact))
 np.savez(sys.argv[1], force=run.force, t_det=run.t_det, t_max=run.t_max)

@@ -5,7 +5,7 @@ import pytest
 
 from springblock import Material, simulate
 from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
-from springblock.accuracy.surfaces import uniform
+from springblock.accuracy.specimens import uniform
 from springblock.solver.release import force_in, room, share_of_step
 from springblock.solver.springs import Springs
 

@@ -1,17 +1,24 @@
-"""Both integrators against an independent reference that locates every event."""
+"""Surfaces against a reference that locates every event, and ledgers that close to second order."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from springblock import Material, simulate
+from springblock.accuracy import plain_rk4
 from springblock.accuracy.reference import solve
-from springblock.accuracy.surfaces import flat
+from springblock.accuracy.specimens import flat
+from springblock.solver import INTEGRATORS
+from validation.test_surfaces import LAWS, oblong
 
+PAPER = Material()
 STEPS = [2e-8, 1e-8, 5e-9, 2.5e-9]  #: s
 #: Six by six blocks that let go one after another within 1 µs. The slider is ten times as fast
 #: as the paper's, which shortens the wait before and changes little else: it still moves a
 #: hundred times slower than a block that slips.
-SCENE = {"material": Material(slider_velocity=5e-3), "duration": 1.194e-5, "sample_interval": 2e-8}
+FAST = Material(slider_velocity=5e-3)
+SCENE = {"material": FAST, "duration": 1.194e-5, "sample_interval": 2e-8}
 SURFACE = flat(6, seed=6)
 
 
@@ -20,7 +27,7 @@ def reference():
     return solve(*SURFACE, **SCENE)
 
 
-@pytest.fixture(scope="module", params=["leapfrog", "rk4"])
+@pytest.fixture(scope="module", params=INTEGRATORS)
 def runs(request):
     """One run for each of the steps."""
     return [simulate(*SURFACE, **SCENE, integrator=request.param, step=h) for h in STEPS]
@@ -42,30 +49,92 @@ def of_second_order(errors):
 
 def test_static_friction_converges(reference, runs):
     """The error is below what the slider adds within one step, K_s v h/F_n."""
-    material = SCENE["material"]
-    rise = material.k_s * material.slider_velocity / material.block_load
+    rise = FAST.k_s * FAST.slider_velocity / FAST.block_load
     errors = [abs(run.static_friction - reference.static_friction) for run in runs]
     assert all(error < rise * h for error, h in zip(errors, STEPS, strict=True))
     assert of_second_order(errors)
 
 
-def test_detachment_times_converge(reference, runs):
-    """Releases are placed within their steps: RMS within half a step, and soon far within."""
+def test_detachment_times_converge_in_the_order_of_the_reference(reference, runs):
+    """Releases are placed within their steps: RMS within half a step, and soon far within.
+
+    Blocks let go in the same order, but for pairs closer than a fifth of a step.
+    """
     errors = [np.sqrt(np.mean((run.t_det - reference.t_det) ** 2)) for run in runs]
     assert all(error < h / 2 for error, h in zip(errors, STEPS, strict=True))
     assert of_second_order(errors)
+    order = np.argsort(reference.t_det, axis=None)
+    for run, h in zip(runs, STEPS, strict=True):
+        assert np.diff(run.t_det.ravel()[order]).min() > -0.2 * h
 
 
 def test_force_curves_converge(reference, runs):
     """A slip at the frequency omega is wrong by a share (omega h)² of its drop, at most."""
     errors = [np.linalg.norm(run.force - reference.force) for run in runs]
     errors = np.divide(errors, np.linalg.norm(reference.force))
-    assert (errors < (SCENE["material"].omega_min * np.array(STEPS)) ** 2).all()
+    assert (errors < (FAST.omega_min * np.array(STEPS)) ** 2).all()
     assert of_second_order(errors)
 
 
-def test_blocks_let_go_in_the_order_of_the_reference(reference, runs):
-    """But for pairs closer than a fifth of a step."""
-    order = np.argsort(reference.t_det, axis=None)
-    for run, h in zip(runs, STEPS, strict=True):
-        assert np.diff(run.t_det.ravel()[order]).min() > -0.2 * h
+@pytest.mark.parametrize(
+    ("shape", "periodic"), [((3, 7), False), ((1, 9), False), ((8, 2), False), ((3, 5), True)]
+)
+def test_detachment_times_of_oblong_surfaces_are_those_of_the_reference(
+    shape, periodic, integrator
+):
+    """Releases lie within their steps of 5e-9 s."""
+    how = {**SCENE, "duration": 1.188e-5, "periodic": periodic}
+    surface = oblong(shape, seed=6)
+    exact = solve(*surface, **how)
+    run = simulate(*surface, **how, integrator=integrator, step=5e-9)
+    assert np.isfinite(exact.t_det).sum() >= 4
+    np.testing.assert_allclose(run.t_det, exact.t_det, rtol=0, atol=5e-9 / 2)
+    np.testing.assert_allclose(run.force, exact.force, rtol=0, atol=1e-3 * exact.force.max())
+
+
+def test_the_reference_solution_refuses_other_laws():
+    with pytest.raises(ValueError, match="law must be coulomb for the reference solution, not sl"):
+        solve(*SURFACE, replace(FAST, law="slip_weakening", slip_distance=4e-7))
+
+
+def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
+    """Until the first block lets go, on a surface some of whose blocks are free.
+
+    The leapfrog is wrong by (omega h)²/24 of what oscillates, the other finds it a step too late.
+    """
+    surface, step = oblong((4, 9), share=0.6), 1e-8
+    how = {"duration": 1.33e-4, "sample_interval": 2e-7, "step": step}
+    plain, run = plain_rk4.solve(*surface, **how), simulate(*surface, **how)
+    assert np.nanargmin(run.t_det) == np.nanargmin(plain.t_det)
+    assert abs(run.t_first - np.nanmin(plain.t_det)) < step
+    before, off = run.time < run.t_first, (PAPER.omega_max * step) ** 2 / 24
+    np.testing.assert_allclose(run.force[before], plain.force[before], rtol=off)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_both_integrators_converge_to_one_answer_as_friction_weakens(law):
+    """Every block has let go: t_det agrees to a share of a step that falls with the step."""
+    material, apart = replace(FAST, law=law, **LAWS[law]), []
+    for step in (5e-9, 1.25e-9):
+        how = {"step": step, "sample_interval": 2e-8, "duration": 1.5e-5}
+        runs = [simulate(*SURFACE, material, integrator=name, **how) for name in INTEGRATORS]
+        assert np.isfinite(runs[0].t_det).all()
+        apart.append(np.sqrt(np.mean((runs[0].t_det - runs[1].t_det) ** 2)))
+        for run in runs:
+            assert abs(run.energy.relative_residual) < (FAST.omega_min * step) ** 2
+    assert apart[0] < 5e-9 / 2.0
+    assert apart[1] < apart[0] / 8.0
+
+
+def test_the_ledger_of_a_periodic_surface_closes_to_second_order(integrator):
+    """One block is nailed down, all other motion is smooth: halving h quarters the residual."""
+    contact = np.zeros((4, 7), bool)
+    contact[0, 6] = True
+    surface = contact, np.full((4, 7), 1e9), np.zeros((4, 7))
+    how = {"integrator": integrator, "duration": 8e-6, "sample_interval": 4e-8, "periodic": True}
+    residuals = [
+        simulate(*surface, **how, step=step).energy.relative_residual
+        for step in (1e-8, 5e-9, 2.5e-9)
+    ]
+    assert abs(residuals[0]) < (PAPER.omega_max * 1e-8) ** 2
+    assert np.divide(residuals[:-1], residuals[1:]) == pytest.approx([4.0, 4.0], rel=0.1)

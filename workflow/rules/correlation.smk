@@ -51,7 +51,7 @@ rule correlations_table:
     message:
         "Collecting correlations in one table: {wildcards.table}"
     shell:
-        "springblock --code {params.code} collect {input:q} --configuration {params.configuration} "
+        "springblock --code {params.code} make collect {input:q} --configuration {params.configuration} "
         "--output {output:q} > {log:q} 2>&1"
 
 

@@ -1,7 +1,7 @@
 """The error study: how far results can be trusted, measured and written down.
 
-conventions       what tables, page, figures and claims agree on
-surfaces          what errors are measured on
+conventions       what tables, page, figures and claims agree on, and which residuals are suspect
+specimens         surfaces that errors are measured on
 reference         the solution that locates every event
 plain_rk4         Runge-Kutta as one would first write it
 work_precision    error against run time, in three comparisons
@@ -9,6 +9,5 @@ production        bias, scatter and cost of the study's own ensembles
 budget            what an ensemble misses for so much CPU time
 kernels           the compiled loops, driven by hand
 stability         stiff and extreme cases
-residuals         realisations whose energy balance is suspect
 page              what to trust, in words; full_size, its section on the study's own ensembles
 """

@@ -1,10 +1,17 @@
-"""What tables, page, figures and claims agree on; nothing that is slow to import."""
+"""What tables, page, figures and claims agree on, and which residuals are suspect.
 
-from collections.abc import Mapping
+Nothing here is slow to import.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from statistics import median
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from springblock.io.rows import Row
 
 SCENES = ("flat", "pillared", "grooved")
 COMPARISONS = ("reference", "paired", "twin")
@@ -18,21 +25,48 @@ ENSEMBLE = 20
 #: Relative change of the thresholds that sets the horizon; the largest that is small against any
 #: spread.
 HORIZON_NUDGE = 1e-5
+#: Energy residual, as a share of the slider's work, that no realisation should exceed.
+ENERGY_TOLERANCE = 5e-4
+#: How many times the median of its scene a residual may be.
+OUT_OF_LINE = 10.0
 #: Step in s up to which errors fall with one order, on patterned surfaces too.
 _SETTLED = 1.001e-8
 
 
 def order(steps: ArrayLike, errors: ArrayLike) -> float:
-    """Slope of log error over log step, s, from where the error has settled on."""
+    """Return the slope of log error over log step, s, from where the error has settled on."""
     h, error = np.asarray(steps), np.asarray(errors)
     settled = h <= _SETTLED
     return float(np.polyfit(np.log(h[settled]), np.log(error[settled]), 1)[0])
 
 
+def half_width(deviation: float, count: int) -> float:
+    """Return half of Student's 95 % interval of a mean over `count` seeds."""
+    from scipy.stats import t  # slow to import, and needed in these two alone
+
+    return float(t.ppf(0.975, count - 1) * deviation / np.sqrt(count))
+
+
 def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> float:
-    """Standard error of a mean over so many seeds, from the interval of another number."""
-    from scipy.stats import t  # slow to import, and needed here alone
+    """Return the standard error of a mean over so many seeds, from another number's interval."""
+    from scipy.stats import t
 
     half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
     deviation = half / t.ppf(0.975, scatter["realisations"] - 1) * scatter["realisations"] ** 0.5
     return float(deviation / realisations**0.5)
+
+
+def suspects(realisations: Iterable[Row], scene: Iterable[str]) -> list[Row]:
+    """Return rows whose energy residual is too large, or out of line with those of the same scene.
+
+    `scene` names the columns that tell scenes apart.
+    """
+    keys, groups = list(scene), defaultdict(list)
+    for row in realisations:
+        groups[tuple(row[key] for key in keys)].append(row)
+    found = []
+    for rows in groups.values():
+        usual = median(abs(row["energy_error"]) for row in rows)
+        limit = min(ENERGY_TOLERANCE, OUT_OF_LINE * usual)
+        found += [row for row in rows if not abs(row["energy_error"]) <= limit]
+    return found

@@ -1,6 +1,7 @@
 """The section of the page on ensembles of the study's own size."""
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from math import floor, isfinite, log10, sqrt
 
 from springblock.accuracy.budget import (
@@ -13,7 +14,7 @@ from springblock.accuracy.budget import (
     halving,
     study_budget,
 )
-from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCENES
+from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCENES, half_width
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 
@@ -51,8 +52,16 @@ One step has to serve them all. Total errors over those of the best step, in the
 {excess}
 """
 
-_NAMES = {"static_friction": "static friction"}  #: of what is not called by its symbol
+#: Of what is not called by its symbol.
+_NAMES = {
+    "force": "force before t_max, largest",
+    "static_friction": "static friction",
+    "t_det before horizon": "t_det before the horizon",
+    "t_det before peak": "t_det before the peak",
+    "order": "1 - rank correlation of t_det",
+}
 _UNITS = {"1": ("", 1.0), "s": (" (µs)", 1e6), "blocks": (" (blocks)", 1.0)}
+_QUANTITIES = (*MEANS, DELAY, LENGTH)
 _PERCENT = 100.0
 _BUDGETS = ["", "scene", "CPU time (s)", "error, default", "best step (s) x seeds", "error, best"]
 
@@ -70,8 +79,8 @@ def section(rows: Sequence[Row]) -> str:
         finest=min(row["step"] for row in rows),
         ensemble=ENSEMBLE,
         length_ensemble=STUDY_SEEDS[LENGTH],
-        values=_by_scene("value", default, _value),
-        biases=_by_scene("bias", default, _bias),
+        values=by_scene("value", _QUANTITIES, partial(_cell, default, _value)),
+        biases=by_scene("bias", _QUANTITIES, partial(_cell, default, _bias)),
         budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
         excess=_excesses({"of those above": cases, "of t_max and t_avg": means}),
     )
@@ -84,32 +93,28 @@ def _cases(rows: Sequence[Row], quantities: Iterable[str]) -> list[list[Row]]:
     return [case for case in found if case]
 
 
-def _by_scene(name: str, rows: list[Row], cell: Callable[[Row], str]) -> str:
-    """A line per quantity and a column per scene."""
-    lines = []
-    for quantity in (*MEANS, DELAY, LENGTH):
-        found = {row["scene"]: row for row in select(rows, quantity=quantity)}
-        cells = [cell(found[scene]) if scene in found else "" for scene in SCENES]
-        lines.append([_NAMES.get(quantity, quantity), *cells])
+def by_scene(name: str, quantities: Iterable[str], cell: Callable[[str, str], str]) -> str:
+    """Lay out a line per quantity and a column per scene."""
+    lines = [
+        [_NAMES.get(quantity, quantity), *(cell(scene, quantity) for scene in SCENES)]
+        for quantity in quantities
+    ]
     return markdown_table([name, *SCENES], lines)
+
+
+def _cell(rows: list[Row], text: Callable[[Row], str], scene: str, quantity: str) -> str:
+    """Return the text of the row, or nothing where the quantity was not measured."""
+    return "".join(map(text, select(rows, scene=scene, quantity=quantity)))
 
 
 def _value(row: Row) -> str:
     """Value ± statistical ± numerical error, to two digits of the first."""
     unit, factor = _UNITS[row["unit"]]
     value, scale = factor * row["value"], factor * row["scale"]
-    statistical = factor * _half_width(row)
+    statistical = factor * half_width(row["deviation"], row["realisations"])
     places = max(0, 1 - floor(log10(statistical)))
     numbers = (value, statistical, scale * Bias.of(row).high)
     return " ± ".join(f"{number:.{places}f}" for number in numbers) + unit
-
-
-def _half_width(row: Row) -> float:
-    """Half of Student's 95 % interval of a mean over the realisations."""
-    from scipy.stats import t  # slow to import, and needed here alone
-
-    count = row["realisations"]
-    return float(t.ppf(0.975, count - 1) * row["deviation"] / sqrt(count))
 
 
 def _bias(row: Row) -> str:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from springblock.accuracy.surfaces import Array
+from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
 from springblock.simulation.simulate import SimulationError
 from springblock.solver import INTEGRATORS

@@ -6,17 +6,18 @@ from typing import Any
 
 from springblock.accuracy import full_size
 from springblock.accuracy.conventions import (
+    ENERGY_TOLERANCE,
     ENSEMBLE,
     HORIZON_NUDGE,
     MEANS,
+    OUT_OF_LINE,
     PAPER_STEP,
     PLAIN,
-    SCENES,
     ensemble_error,
     order,
 )
-from springblock.accuracy.residuals import ENERGY_TOLERANCE, OUT_OF_LINE
-from springblock.io.rows import Row, markdown_table, select
+from springblock.accuracy.full_size import by_scene
+from springblock.io.rows import Row, select
 from springblock.model.defaults import STEP
 
 _PAGE = """# What to trust, and how far
@@ -132,15 +133,7 @@ def page(
 
 
 _FLOOR = ("static_friction", "t_det before horizon")
-_NAMES = {
-    "force": "force before t_max, largest",
-    "static_friction": "static friction",
-    "t_max": "t_max",
-    "t_avg": "t_avg",
-    "t_det before horizon": "t_det before the horizon",
-    "t_det before peak": "t_det before the peak",
-    "order": "1 - rank correlation of t_det",
-}
+_SINGLE = ("force", *MEANS, *_FLOOR[1:], "t_det before peak", "order")
 
 
 def _one(rows: list[Row], **wanted: Any) -> Row:
@@ -156,26 +149,21 @@ def _orders(single: list[Row]) -> str:
             found.append(order([row["step"] for row in rows], [row["error"] for row in rows]))
         return ", ".join(f"{number:.1f}" for number in found)
 
-    rows = [[_NAMES[key], *(cell(scene, key) for scene in SCENES)] for key in _FLOOR]
-    return markdown_table(["order", *SCENES], rows)
+    return by_scene("order", _FLOOR, cell)
 
 
 def _single_errors(default: list[Row]) -> str:
-    rows = [
-        [name, *(f"{_one(default, scene=s, quantity=key)['error']:.1e}" for s in SCENES)]
-        for key, name in _NAMES.items()
-    ]
-    return markdown_table(["relative error", *SCENES], rows)
+    def cell(scene: str, quantity: str) -> str:
+        return f"{_one(default, scene=scene, quantity=quantity)['error']:.1e}"
+
+    return by_scene("relative error", _SINGLE, cell)
 
 
 def _biases(paired: list[Row], scatter: list[Row]) -> str:
-    rows = []
-    for quantity in MEANS:
-        cells = []
-        for scene in SCENES:
-            bias = _one(paired, scene=scene, quantity=quantity)
-            half = 50.0 * (bias["ci_high"] - bias["ci_low"])
-            error = 100.0 * ensemble_error(_one(scatter, scene=scene, quantity=quantity))
-            cells.append(f"{100.0 * bias['error']:+.3f} ± {half:.3f} ({error:.2f})")
-        rows.append([_NAMES[quantity], *cells])
-    return markdown_table(["bias", *SCENES], rows)
+    def cell(scene: str, quantity: str) -> str:
+        bias = _one(paired, scene=scene, quantity=quantity)
+        half = 50.0 * (bias["ci_high"] - bias["ci_low"])
+        error = 100.0 * ensemble_error(_one(scatter, scene=scene, quantity=quantity))
+        return f"{100.0 * bias['error']:+.3f} ± {half:.3f} ({error:.2f})"
+
+    return by_scene("bias", MEANS, cell)

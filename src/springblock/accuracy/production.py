@@ -15,7 +15,7 @@ from scipy.stats import t
 from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
-from springblock.accuracy.surfaces import Array, drawn
+from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.io.rows import Row
@@ -79,8 +79,8 @@ QUANTITIES = (*MEANS, DELAY)  #: of every realisation
 UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of what is no time
 
 
-class Estimate(NamedTuple):
-    """A quantity at one step, and its bias against the finest: columns of the table."""
+class PairedBias(NamedTuple):
+    """A quantity at one step, and its bias from that of the finest: columns of the table."""
 
     value: float
     deviation: float
@@ -161,17 +161,17 @@ def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
     return Kept(np.array([means[name] for name in QUANTITIES]), sides, np.array(seconds))
 
 
-def of_mean(values: Array, exact: Array) -> Estimate:
+def of_mean(values: Array, exact: Array) -> PairedBias:
     """Bias of a mean over k seeds, (k,), from that of the same seeds, with Student's interval."""
     differences, k = values - exact, len(values)
     bias, error = differences.mean(), differences.std(ddof=1) / np.sqrt(k)
     half = t.ppf(0.975, k - 1) * error
-    return Estimate(
+    return PairedBias(
         *map(float, (values.mean(), values.std(ddof=1), bias, error, bias - half, bias + half))
     )
 
 
-def of_length(sides: dict[float, Array]) -> dict[float, Estimate]:
+def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
     """Bias of l_c by step, from the times along the sides of the same k seeds.
 
     The same resamples of seeds at every step; range of r and weights of the fit are those at the
@@ -191,5 +191,5 @@ def of_length(sides: dict[float, Array]) -> dict[float, Estimate]:
         deviation, bias = root * resampled[step].std(), value - values[finest]
         limits = np.percentile(differences, (2.5, 97.5))
         numbers = (value, deviation, bias, differences.std(), *limits)
-        estimates[step] = Estimate(*map(float, numbers))
+        estimates[step] = PairedBias(*map(float, numbers))
     return estimates

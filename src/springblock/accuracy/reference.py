@@ -3,8 +3,7 @@
 It shares nothing with the package but its constants, and is meant for up to about 20 x 20 blocks.
 Between two events the equations of motion are smooth, and DOP853 (Hairer, Nørsett & Wanner 1993,
 order 8) follows them to a relative tolerance of 1e-10; every detachment and every stop is located
-on the dense output of the step that holds it, and integration starts afresh from there. No step
-that is kept goes on past a change of regime.
+on the dense output of the step that holds it, and integration starts afresh from there.
 
 A block is in one of four states:
 
@@ -45,17 +44,14 @@ from springblock.model.material import Material
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Surface = tuple[Flags, Array, Array]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)
 
-#: Scaled velocity: one is P l² / sqrt(K_s m), 0.53 m/s by default. A much smaller error makes slow
-#: blocks stiff.
-CREEP_ERROR = 1e-9
-CREEP_SPEED = 1e-2  #: scaled; beyond, v/|v| is not stiff
-#: Scaled; the slider's own velocity is 1e-3. Well above the accuracy, or a step may pass a stop
-#: unseen.
-STOP_SPEED = 1e-8
-
+# Scaled velocities: one is P l² / sqrt(K_s m), 0.53 m/s by default; the slider's own is 1e-3.
+CREEP_ERROR = 1e-9  #: a much smaller one makes slow blocks stiff
+CREEP_SPEED = 1e-2  #: beyond, v/|v| is not stiff
+STOP_SPEED = 1e-8  #: well above the accuracy, or a step may pass a stop unseen
 ACCURACY = 1e-10  #: relative tolerance of each step; the absolute one is a tenth of it, scaled
 _MAX_STEP = 1.0  #: scaled; the period of the fastest lattice mode is 2 pi / sqrt(7) = 2.4
 _SAMPLES = 8  #: points per step at which events are looked for
@@ -77,22 +73,10 @@ class Reference:
     relative_residual: float  #: what the energy balance misses, over the slider's work
 
 
-@dataclass(frozen=True)
-class _Units:
-    """SI value of one scaled unit."""
-
-    force: float  # N
-    length: float  # m
-    time: float  # s
-
-    @classmethod
-    def of(cls, material: Material) -> "_Units":
-        force = material.block_load
-        return cls(force, force / material.k_s, (material.mass / material.k_s) ** 0.5)
-
-    @property
-    def speed(self) -> float:
-        return self.length / self.time
+def _units(material: Material) -> tuple[float, float, float]:
+    """Return the SI values of one scaled force, length and time."""
+    force = material.block_load
+    return force, force / material.k_s, (material.mass / material.k_s) ** 0.5
 
 
 class _Lattice:
@@ -102,13 +86,11 @@ class _Lattice:
     number k of states to be evaluated at once.
     """
 
-    def __init__(
-        self, lattice: tuple[int, int], periodic: bool, spacing: float, stiffness: float
-    ) -> None:
-        n_y, n_x = lattice
+    def __init__(self, contact: Flags, periodic: bool, spacing: float, stiffness: float) -> None:
+        n_y, n_x = contact.shape
         first, second, axes, stiffnesses = [], [], [], []
         for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5)):
-            for y, x in np.ndindex(lattice):
+            for y, x in np.ndindex(n_y, n_x):
                 if periodic or (y + dy < n_y and 0 <= x + dx < n_x):
                     first.append(y * n_x + x)
                     second.append((y + dy) % n_y * n_x + (x + dx) % n_x)
@@ -158,32 +140,21 @@ class _System:
     friction, and against damping.
     """
 
-    def __init__(
-        self,
-        contact: Flags,
-        mu_static: Array,
-        mu_dynamic: Array,
-        material: Material,
-        periodic: bool,
-    ) -> None:
-        units = _Units.of(material)
+    def __init__(self, surface: Surface, material: Material, periodic: bool) -> None:
+        contact, mu_static, mu_dynamic = surface
+        _, length, time = _units(material)
         self.n = contact.size
-        spacing = material.spacing / units.length
-        self._lattice = _Lattice(contact.shape, periodic, spacing, material.k_int / material.k_s)
-        self._drift = np.array([[material.slider_velocity / units.speed], [0.0]])
-        self._gamma = material.gamma * units.time
+        stiffness = material.k_int / material.k_s
+        self._lattice = _Lattice(contact, periodic, material.spacing / length, stiffness)
+        self._drift = np.array([[material.slider_velocity / (length / time)], [0.0]])
+        self._gamma = material.gamma * time
         touching = contact.ravel()
         self.load = self.n / max(1, int(touching.sum()))  # F_n
         self._dynamic = np.where(touching, mu_dynamic.ravel(), 0.0) * self.load
-        self.threshold = np.where(
-            touching, np.maximum(mu_static, mu_dynamic).ravel() * self.load, 0.0
-        )
+        threshold = np.maximum(mu_static, mu_dynamic).ravel() * self.load
+        self.threshold = np.where(touching, threshold, 0.0)
         self.state = np.where(touching, STUCK, FREE)
         self.offset = 0.0  # time of the last event; all other times count from there
-
-    def initial(self) -> Array:
-        """At rest, unstrained."""
-        return np.zeros(4 * self.n + 3)
 
     def split(self, y: Array) -> tuple[Array, Array]:
         """u and v, (2, n, k) each, from states (4 n + 3, k)."""
@@ -193,10 +164,6 @@ class _System:
     def slider_force(self, t: Array, u: Array) -> Array:
         """F_s (2, n, k) at times t (k,) after the last event."""
         return self._drift[:, :, None] * (self.offset + t) - u
-
-    def driving_force(self, t: Array, u: Array) -> Array:
-        """F_mot (2, n, k)."""
-        return self._lattice.force(u) + self.slider_force(t, u)
 
     def _turning(self, motive: Array, u: Array, v: Array) -> Array:
         """Rate phi' (n, k) at which F_mot turns."""
@@ -219,21 +186,17 @@ class _System:
             across = np.stack([-direction[1], direction[0]])
             turn = np.sum(v * direction, axis=0) * self._turning(motive, u, v)
             along = np.sum(acceleration * direction, axis=0)
-            acceleration = np.where(
-                creeping[:, None], along * direction + turn * across, acceleration
-            )
+            led = along * direction + turn * across
+            acceleration = np.where(creeping[:, None], led, acceleration)
         acceleration[:, self.state == STUCK] = 0.0
-        works = (
-            np.sum(pull[:, :, 0] * self._drift),
-            np.vdot(friction, v),
-            self._gamma * np.vdot(v, v),
-        )
+        work_in = np.sum(pull[:, :, 0] * self._drift)
+        works = work_in, np.vdot(friction, v), self._gamma * np.vdot(v, v)
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
     def alarm(self, t: Array, y: Array) -> Array:
         """Event functions (n, k), one per block: negative as long as its state lasts."""
         u, v = self.split(y)
-        motive = self.driving_force(t, u)
+        motive = self._lattice.force(u) + self.slider_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
         stopped = 1.0 - speed / STOP_SPEED
@@ -242,15 +205,14 @@ class _System:
         fast, entered = self._creep_limits(motive, u, v)
         falling = (self._dynamic[:, None] - force) / self.load - _SLACK
         state = self.state[:, None]
-        return np.select(
-            [state == STUCK, state == CREEPING, state == SLIDING],
-            [
-                released,
-                np.maximum(fast, np.minimum(stayed, falling)),
-                np.maximum(stopped, entered),
-            ],
-            -1.0,
-        )
+        left_creeping = np.maximum(fast, np.minimum(stayed, falling))
+        left_sliding = np.maximum(stopped, entered)
+        states = [state == STUCK, state == CREEPING, state == SLIDING]
+        return np.select(states, [released, left_creeping, left_sliding], -1.0)
+
+    def alarm_at(self, dense: DenseOutput, time: float) -> Array:
+        """Event functions (n,) at one time of a step."""
+        return self.alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
     def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
@@ -271,7 +233,7 @@ class _System:
         Returns those that detach, (n,) bool. Writes to `y` where a block stops.
         """
         u, v = self.split(y[:, None])  # views: what is written to v reaches y
-        motive = self.driving_force(np.zeros(1), u)
+        motive = self._lattice.force(u) + self.slider_force(np.zeros(1), u)
         speed = np.hypot(*v)
         # a stop is located to the rounding of t, which the acceleration turns into speed
         slow = speed[:, 0] <= STOP_SPEED * 1.001
@@ -317,21 +279,14 @@ def _first_event(
     bracket = _bracket(system, dense, t, alarm)
     if bracket is None:
         return None
-
-    def worst(time: float) -> float:
-        return float(_alarm_at(system, dense, time).max())
-
-    before, after = bracket
-    time = after if before == after else brentq(worst, before, after, xtol=1e-300, rtol=1e-15)
-    alarm_then = _alarm_at(system, dense, time)
+    time, after = bracket
+    if time < after:
+        accuracy = {"xtol": 1e-300, "rtol": 1e-15}
+        time = brentq(lambda t: system.alarm_at(dense, t).max(), time, after, **accuracy)
+    alarm_then = system.alarm_at(dense, time)
     # the root may fall a rounding error short of zero: the worst block is due in any case
     due = alarm_then >= min(-_TIE, alarm_then.max())
     return time, due
-
-
-def _alarm_at(system: _System, dense: DenseOutput, time: float) -> Array:
-    """Event functions (n,) at one time of a step."""
-    return system.alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
 
 def _bracket(
@@ -351,7 +306,7 @@ def _bracket(
         peak = int(alarm[block, : last + 1].argmax())
         low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
         best = minimize_scalar(
-            lambda time, block=block: -_alarm_at(system, dense, time)[block],
+            lambda time, block=block: -system.alarm_at(dense, time)[block],
             bounds=(low, high),
             method="bounded",
             options={"xatol": 1e-9 * (high - low)},
@@ -361,54 +316,38 @@ def _bracket(
     return min(found, key=lambda pair: pair[1], default=None)
 
 
-class _Recorder:
-    """Samples of the total slider force at multiples of an interval. Scaled units."""
-
-    def __init__(self, system: _System, times: Array) -> None:
-        self._system = system
-        self._times = times
-        self._next = 0
-        self.force = np.zeros(len(times))
-
-    def record(self, dense: DenseOutput, end: float) -> None:
-        """Take the samples up to `end`, counted from the last event."""
-        # the last sample must not be lost to the rounding of offset + end
-        reach = (self._system.offset + end) * (1.0 + 1e-14)
-        stop = int(np.searchsorted(self._times, reach, side="right"))
-        if stop <= self._next:
-            return
-        chosen = slice(self._next, stop)
+def _record(
+    system: _System, dense: DenseOutput, end: float, times: Array, force: list[float]
+) -> None:
+    """Add samples of |sum of F_s| at the next of `times` up to `end`, since the last event."""
+    # the last sample must not be lost to the rounding of offset + end
+    reach = (system.offset + end) * (1.0 + 1e-14)
+    due = times[len(force) : np.searchsorted(times, reach, side="right")]
+    if due.size:
         # nor may a sample come to lie a hair before the last event
-        t = np.maximum(self._times[chosen] - self._system.offset, 0.0)
-        u, _ = self._system.split(dense(t))
-        self.force[chosen] = np.hypot(*self._system.slider_force(t, u).sum(axis=1))
-        self._next = stop
+        t = np.maximum(due - system.offset, 0.0)
+        u, _ = system.split(dense(t))
+        force.extend(np.hypot(*system.slider_force(t, u).sum(axis=1)))
 
 
 def _advance(
-    system: _System, y: Array, left: float, accuracy: float, recorder: _Recorder
+    system: _System, y: Array, left: float, accuracy: float, times: Array, force: list[float]
 ) -> tuple[float, Array, Flags]:
     """Integrate to the next event, or for the time left.
 
-    Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,).
+    Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,). Adds to
+    `force` what it is at those of `times` that lie between.
     """
-    solver = DOP853(
-        system,
-        0.0,
-        y,
-        left,
-        rtol=accuracy,
-        atol=0.1 * accuracy,
-        max_step=_MAX_STEP,
-        first_step=min(_RESTART_STEP, left),
-    )
+    tolerances = {"rtol": accuracy, "atol": 0.1 * accuracy}
+    steps = {"first_step": min(_RESTART_STEP, left), "max_step": _MAX_STEP}
+    solver = DOP853(system, 0.0, y, left, **tolerances, **steps)
     while solver.status == "running":
         message = solver.step()
         if solver.status == "failed":
             raise RuntimeError(f"at scaled time {system.offset + solver.t}: {message}")
         dense = solver.dense_output()
         event = _first_event(system, dense, solver.t_old, solver.t)
-        recorder.record(dense, solver.t if event is None else event[0])
+        _record(system, dense, solver.t if event is None else event[0], times, force)
         if event is not None:
             time, due = event
             return time, dense(time), due
@@ -425,44 +364,34 @@ def solve(
     accuracy: float = ACCURACY,
     periodic: bool = False,
 ) -> Reference:
-    """Solve the model for one surface, from rest at t = 0, pulled along x.
+    """Solve the model for one surface (N_y, N_x), from rest at t = 0, pulled along x.
 
-    Parameters
-    ----------
-    contact : (N_y, N_x) bool, [y, x]
-    mu_static, mu_dynamic : (N_y, N_x) float
-        Friction coefficients; not read outside the contact.
-    duration, sample_interval : s
-    accuracy : 1
-        Relative tolerance of each step; the default or less, see `STOP_SPEED`.
-    periodic : bool
-        Whether springs join opposite edges.
-
-    Raises
-    ------
-    ValueError
-        Where the law of friction is not Coulomb's.
+    Where it is `periodic`, springs join opposite edges. Coefficients of friction are not read
+    outside the contact. Duration and interval are in s; `accuracy` is the relative tolerance of
+    each step, the default or less, see `STOP_SPEED`.
+    Raises ValueError where the law of friction is not Coulomb's.
     """
     if material.law != "coulomb":
         raise ValueError(f"law must be coulomb for the reference solution, not {material.law}")
-    units = _Units.of(material)
-    system = _System(contact, mu_static, mu_dynamic, material, periodic)
+    force_unit, _, time_unit = _units(material)
+    system = _System((contact, mu_static, mu_dynamic), material, periodic)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
-    recorder = _Recorder(system, np.minimum(samples, duration) / units.time)
+    times, sampled = np.minimum(samples, duration) / time_unit, list[float]()
     t_det = np.full(system.n, np.nan)
-    y = system.initial()
-    while (left := duration / units.time - system.offset) > 0.0:
-        elapsed, y, due = _advance(system, y, left, accuracy, recorder)
-        system.offset = system.offset + elapsed if due.any() else duration / units.time
+    y = np.zeros(4 * system.n + 3)  # at rest, unstrained
+    while (left := duration / time_unit - system.offset) > 0.0:
+        elapsed, y, due = _advance(system, y, left, accuracy, times, sampled)
+        system.offset = system.offset + elapsed if due.any() else duration / time_unit
         detaching = system.switch(y, due)
-        t_det[detaching & np.isnan(t_det)] = system.offset * units.time
-    peak = int(recorder.force.argmax())
+        t_det[detaching & np.isnan(t_det)] = system.offset * time_unit
+    force = np.array(sampled)
+    peak = int(force.argmax())
     return Reference(
         time=samples,
-        force=recorder.force * units.force,
+        force=force * force_unit,
         t_det=t_det.reshape(contact.shape),
-        static_friction=float(recorder.force[peak]) / system.n,
+        static_friction=float(force[peak]) / system.n,
         t_max=float(samples[peak]),
         t_avg=float(np.nanmean(t_det)) if np.isfinite(t_det).any() else float("nan"),
         relative_residual=system.residual(y),

@@ -17,12 +17,19 @@ from typing import TypeVar
 
 import numpy as np
 import pyarrow as pa
-from scipy.stats import spearmanr, t
+from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import COMPARISONS, HORIZON_NUDGE, MEANS, PLAIN, SCENES
-from springblock.accuracy.surfaces import Array, Surface, drawn
+from springblock.accuracy.conventions import (
+    COMPARISONS,
+    HORIZON_NUDGE,
+    MEANS,
+    PLAIN,
+    SCENES,
+    half_width,
+)
+from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import column
 from springblock.model.pattern import Pattern
@@ -58,8 +65,8 @@ SCHEMA = pa.schema(
 
 
 @dataclass(frozen=True)
-class _Scene:
-    """What stands for a scene."""
+class _Surfaces:
+    """Surfaces that stand for a scene."""
 
     single: Pattern  #: small enough for the reference solution
     duration: float  #: of single runs, s
@@ -67,12 +74,12 @@ class _Scene:
     seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
 
 
-_FLAT = _Scene(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100)
-_PILLARED = _Scene(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100)
-_GROOVED = _Scene(
+_FLAT = _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100)
+_PILLARED = _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100)
+_GROOVED = _Surfaces(
     Pattern.pillars(6, 5, 1).grooved(2, 1), 2.0e-4, Pattern.pillars(16, 8, 8).grooved(2, 1), 200
 )
-_BY_NAME = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+_SURFACES = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
@@ -87,11 +94,11 @@ TWIN_SEEDS = range(3)
 Errors = dict[str, float]
 Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
 Computed = Realisation | plain_rk4.Solution
-Solution = Computed | reference.Reference
+Solved = Computed | reference.Reference
 Result = TypeVar("Result")
 
 
-def run_errors(run: Solution, exact: Solution, until: float) -> Errors:
+def run_errors(run: Solved, exact: Solved, until: float) -> Errors:
     """Relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
@@ -157,7 +164,7 @@ def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
 
 def single_rows(scene: str) -> Iterator[Row]:
     """All methods and steps against the reference solution."""
-    pattern, duration = _BY_NAME[scene].single, _BY_NAME[scene].duration
+    pattern, duration = _SURFACES[scene].single, _SURFACES[scene].duration
     surfaces = [drawn(pattern, seed) for seed in SEEDS]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
@@ -176,7 +183,7 @@ def single_rows(scene: str) -> Iterator[Row]:
 
 def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
-    seeds = _BY_NAME[scene].seeds
+    seeds = _SURFACES[scene].seeds
     exact = [means(run) for run, _ in ensemble(scene, "leapfrog", FINE_STEP, seeds)]
     for integrator, steps in PAIRED_STEPS.items():
         few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
@@ -196,7 +203,7 @@ def ensemble(
     scene: str, integrator: str, step: float, seeds: int
 ) -> list[tuple[Realisation, float]]:
     """Runs of so many seeds, each with its CPU seconds."""
-    pattern = _BY_NAME[scene].ensemble
+    pattern = _SURFACES[scene].ensemble
     how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
     pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
     return [
@@ -207,7 +214,7 @@ def ensemble(
 
 def twin_rows(scene: str) -> Iterator[Row]:
     """Runs against themselves with thresholds changed by a little, at a fine step."""
-    steps = _BY_NAME[scene].duration / TWIN_STEP
+    steps = _SURFACES[scene].duration / TWIN_STEP
     for nudge in tqdm(NUDGES, desc=f"{scene}, twins"):
         pairs = [timed(partial(twins, scene, seed, nudge)) for seed in TWIN_SEEDS]
         errors = [run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs]
@@ -217,16 +224,16 @@ def twin_rows(scene: str) -> Iterator[Row]:
 
 def twins(scene: str, seed: int, nudge: float) -> tuple[Computed, Computed]:
     """A run, and one with each threshold changed by a random share of the size of `nudge`."""
-    contact, mu_static, mu_dynamic = drawn(_BY_NAME[scene].single, seed)
+    contact, mu_static, mu_dynamic = drawn(_SURFACES[scene].single, seed)
     change = 1.0 + nudge * np.random.default_rng(seed).standard_normal(mu_static.shape)
     one, other = (
-        solve_with("leapfrog", TWIN_STEP, (contact, mu, mu_dynamic), _BY_NAME[scene].duration)
+        solve_with("leapfrog", TWIN_STEP, (contact, mu, mu_dynamic), _SURFACES[scene].duration)
         for mu in (mu_static, mu_static * change)
     )
     return one, other
 
 
-def horizon(one: Solution, other: Solution) -> float:
+def horizon(one: Solved, other: Solved) -> float:
     """Time in s up to which two runs agree on t_det within 0.1 % of t_max; their end at most."""
     both = np.isfinite(one.t_det) & np.isfinite(other.t_det)
     apart = both & (np.abs(one.t_det - other.t_det) > 1e-3 * one.t_max)
@@ -245,13 +252,13 @@ def rows_of(
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity."""
     of_means = comparison in ("paired", "scatter")
-    pattern = _BY_NAME[scene].ensemble if of_means else _BY_NAME[scene].single
+    pattern = _SURFACES[scene].ensemble if of_means else _SURFACES[scene].single
     for quantity in errors[0]:
         values = np.array([error[quantity] for error in errors])
         count, error, half = len(values), root_mean_square(values), 0.0
         if of_means:
             error = float(values.mean())
-            half = t.ppf(0.975, count - 1) * float(values.std(ddof=1)) / np.sqrt(count)
+            half = half_width(float(values.std(ddof=1)), count)
         yield {
             "comparison": comparison,
             "scene": scene,

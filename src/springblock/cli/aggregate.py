@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from springblock.accuracy.residuals import suspects
+from springblock.accuracy.conventions import suspects
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.io.parquet import read, write
 from springblock.io.schemas import SUMMARY

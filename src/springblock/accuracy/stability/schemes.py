@@ -1,11 +1,11 @@
-"""What both schemes do exactly to a lattice without friction, at small strains."""
+"""Stability limits of both schemes, and their exact solutions for a lattice without friction."""
 
 import math
 from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.surfaces import Array
+from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
 from springblock.solver import INTEGRATORS
 
@@ -14,7 +14,7 @@ STABLE = {"leapfrog": 2.0, "rk4": math.sqrt(8.0)}
 
 
 def limit(integrator: str, material: Material) -> float:
-    """Largest stable step, s, by bisection of the integrator's own criterion."""
+    """Return the largest stable step, s, by bisection of the integrator's own criterion."""
     omega = np.linspace(material.omega_min, material.omega_max, 33)
     is_stable = INTEGRATORS[integrator].is_stable
     stable, unstable = 0.0, 4.0 * (1.0 + material.gamma / material.omega_max) / material.omega_max
@@ -28,7 +28,7 @@ def limit(integrator: str, material: Material) -> float:
 
 
 def limit_of_damping(integrator: str, material: Material) -> float:
-    """Largest stable step far overdamped, s.
+    """Return the largest stable step far overdamped, s.
 
     Leapfrog's omega² h/gamma stays below 2. In Runge-Kutta, the fastest decay of all, that of the
     lowest mode, stays within the real interval where |1 + z + z²/2 + z³/6 + z⁴/24| < 1.
@@ -41,13 +41,25 @@ def limit_of_damping(integrator: str, material: Material) -> float:
 
 
 def turn(phase: Array | float) -> Any:
-    """Factor of a mode per Runge-Kutta step: the Taylor polynomial of exp(i omega h)."""
+    """Return a mode's factor per Runge-Kutta step: the Taylor polynomial of exp(i omega h)."""
     z = 1j * np.asarray(phase)
     return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))
 
 
+def swing_factor(integrator: str, phase: float, taken: int) -> float:
+    """Return a mode's amplitude after so many steps of phase omega h, from 1 at rest.
+
+    Leapfrog is at rest half a step before: cos((k + 1/2) theta)/cos(theta/2), where
+    sin(theta/2) = omega h/2; beyond its limit, theta is complex.
+    """
+    if integrator == "leapfrog":
+        half = np.arcsin(complex(phase / 2.0))
+        return float((np.cos((2 * taken + 1) * half) / np.cos(half)).real)
+    return float((turn(phase) ** taken).real)
+
+
 def path(integrator: str, phase: Array, taken: int) -> Array:
-    """Displacement of modes (k,) of phase omega h after so many steps; one is the slider's step.
+    """Return the displacement of modes (k,) of phase omega h, in steps of the slider.
 
     Exact solution of the schemes for u" = omega² (t - u), from u = u' = 0 at t = 0, time in steps:
     the straight line t, and the scheme's own oscillation about it.

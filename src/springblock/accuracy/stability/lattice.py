@@ -1,0 +1,330 @@
+"""Columns and surfaces: stiffness, strain, scatter, load and size."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from springblock.accuracy import reference
+from springblock.accuracy.kernels import UNDAMPED
+from springblock.accuracy.specimens import Array, Surface, flat, uniform
+from springblock.accuracy.stability import schemes
+from springblock.accuracy.stability.cases import (
+    FIRST,
+    FRICTION,
+    PAPER,
+    ROUNDING,
+    SEED,
+    Case,
+    Family,
+    Outcome,
+    Pull,
+    compared,
+    pulled_at,
+    refusal,
+    release,
+)
+from springblock.model.material import Material
+from springblock.simulation.run import Realisation
+from springblock.simulation.simulate import SimulationError, simulate
+from springblock.solver.springs import MAX_BLOCKS
+
+#: Two columns of two blocks, the left one held fast. The free ones move by (a, b) and (a, -b): the
+#: axial spring beside them, the one between them (strained by 2b), and a diagonal give K_int times
+#: this matrix.
+COLUMNS = np.array([[1.25, -0.25], [-0.25, 2.25]])
+FREE_COLUMN = (
+    np.array([[True, False], [True, False]]),
+    np.array([[1e9, 0.0], [1e9, 0.0]]),
+    np.zeros((2, 2)),
+)
+BURST, COLLAPSE = 3.0, -0.75  #: (r/L)² - 1 of a spring twice and half as long
+DURATION = 30.0  #: of the column's motion, 1/omega
+
+
+def stiffnesses(integrator: str) -> Iterator[Case]:
+    """Stiffness, strain and scatter."""
+    case, moved = Family("stiffness", integrator).case, "displacement, in steps of the slider"
+    for ratio in (1e-4, 1e-2, 1.0, 1e2, 1e4):
+        name, material = f"column at K_s/K_int = {ratio:g}", material_of(ratio, 1e-9)
+        yield case(name, ratio, moved, free_column, material)
+        name, material = f"surface at K_s/K_int = {ratio:g}", material_of(ratio, 1e-3, damping=True)
+        yield case(name, ratio, FIRST, first_detachment, material)
+    for ratio in (1e2, 1e4):
+        name, mean = f"blocks on their own at K_s/K_int = {ratio:g}", "mean detachment, F_n/(K_s v)"
+        yield case(name, ratio, mean, mean_detachment, ratio)
+    case = Family("strain", integrator).case
+    for strain in (1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9):
+        name = f"column at a strain of {strain:g}"
+        yield case(name, strain, moved, free_column, material_of(1.0, strain))
+    for strain in (1e-1, 1e-5):
+        name = f"surface at a strain of {strain:g}"
+        yield case(name, strain, FRICTION, static_friction_at, strain)
+    case = Family("scatter", integrator).case
+    name = "surface with sigma = 0"
+    yield case(name, 0.0, FIRST, everything_at_once, expected="symmetric")
+    for sigma in (0.05, 0.1, 0.25, 0.5):
+        name = f"surface with sigma = {sigma:g}"
+        yield case(name, sigma, FIRST, first_detachment, scattered(sigma))
+    name = "mirror image with sigma = 0.5"
+    yield case(name, 0.5, FRICTION, mirror_image, 0.5, expected="symmetric")
+
+
+def material_of(ratio: float, strain: float, damping: bool = False) -> Material:
+    """Return the material with K_s/K_int = `ratio` whose blocks slip by `strain` spacings, slowly.
+
+    The layer's thickness sets the ratio, and E the strain at the paper's pressure.
+    """
+    thickness = PAPER.spacing / math.sqrt(ratio)
+    modulus = PAPER.pressure * thickness / PAPER.spacing / (0.75 * strain)
+    material = Material(youngs_modulus=modulus, thickness=thickness)
+    gamma = PAPER.gamma / PAPER.omega_min * material.omega_min if damping else 0.0
+    return pulled_at(0.01, replace(material, gamma=gamma))
+
+
+def scattered(sigma: float) -> Material:
+    """Return the paper's material with another scatter; mu_d has half that of mu_s, as there."""
+    return pulled_at(0.01, replace(PAPER, mu_static_std=sigma, mu_dynamic_std=sigma / 2.0))
+
+
+def free_column(integrator: str, material: Material) -> Outcome:
+    """The springs are non-linear by their strain, and that is all that is missing."""
+    pull, count = Pull.at(0.1, integrator, material), 400
+    run = pull.simulate(FREE_COLUMN, count)
+    stiffness = material.k_s * np.eye(2) + material.k_int * COLUMNS
+    values, modes = np.linalg.eigh(stiffness)
+    phase = pull.step * np.sqrt(values / material.mass)
+    share = material.k_s * modes[0] / values  # of the slider's path, by mode
+    closed_form = float(modes[0] @ (share * schemes.path(integrator, phase, count)))
+    value = float(run.displacement[0, 0, 1])
+    slide = material.slider_velocity * pull.step
+    tolerance = abs(value) / material.spacing + ROUNDING
+    return pull.judge(run, value / slide, closed_form, tolerance)
+
+
+def first_detachment(integrator: str, material: Material, n: int = 8) -> Outcome:
+    """On a flat surface the weakest block lets go first, at its own threshold."""
+    pull, surface = Pull.at(0.2, integrator, material), flat(n, SEED, material)
+    run = pull.simulate(surface)
+    threshold = np.maximum(*surface[1:]).min()
+    return pull.judge(run, run.t_first / release(material, 1.0), threshold, ROUNDING)
+
+
+def mean_detachment(integrator: str, ratio: float) -> Outcome:
+    """Far stiffer than the springs between them, the slider's springs pull each block alone.
+
+    A block slips by about its threshold's share of F_n/K_s, and pulls its neighbours with
+    K_int/K_s of that.
+    """
+    material = material_of(ratio, 1e-3, damping=True)
+    pull, surface = Pull.at(0.2, integrator, material), flat(8, SEED, material)
+    run = pull.simulate(surface)
+    mean, unit = np.maximum(*surface[1:]).mean(), release(material, 1.0)
+    return pull.judge(run, run.t_avg / unit, mean, pull.step / (mean * unit) + 2.0 / ratio)
+
+
+def static_friction_at(integrator: str, strain: float) -> Outcome:
+    """Avalanches on a surface, beside those at a ten-thousandth of the strain."""
+    runs = []
+    for slip in (strain, 1e-4 * strain):
+        material = material_of(1.0, slip, damping=True)
+        pull = Pull.at(0.2, integrator, material)
+        runs.append(pull.simulate(flat(6, SEED, material)))
+    value, linear = (run.static_friction for run in runs)
+    return pull.judge(runs[0], value, linear, strain + ROUNDING)
+
+
+def everything_at_once(integrator: str) -> Outcome:
+    """sigma = 0: all blocks let go and move alike, along the slide alone, to the last bit."""
+    pull = Pull.at(0.2, integrator, scattered(0.0))
+    run = pull.simulate(flat(8, SEED, pull.material))
+    alike = np.unique(run.t_det).size == 1 and np.unique(run.displacement[0]).size == 1
+    word = "symmetric" if alike and not run.displacement[1].any() else "asymmetric"
+    unit = release(pull.material, 1.0)
+    return pull.judge(run, run.t_first / unit, 1.0, pull.step / unit, word)
+
+
+def mirror_image(integrator: str, sigma: float) -> Outcome:
+    """Mirrored across the slide, every avalanche is the mirror image, to the last bit."""
+    pull = Pull.at(0.2, integrator, scattered(sigma))
+    contact, *mu = flat(8, SEED, pull.material)
+    run, mirrored = (
+        pull.simulate((contact, static, dynamic))
+        for static, dynamic in (mu, [field[::-1] for field in mu])
+    )
+    sign = np.array([1.0, -1.0])[:, None, None]
+    same = np.array_equal(mirrored.t_det, run.t_det[::-1])
+    same = same and np.array_equal(mirrored.displacement, sign * run.displacement[:, ::-1])
+    word = "symmetric" if same else "asymmetric"
+    # sums are taken in another order
+    return pull.judge(run, mirrored.static_friction, run.static_friction, ROUNDING, word)
+
+
+def loads(integrator: str) -> Iterator[Case]:
+    """Springs that leave the range of their series, and springs that collapse or burst."""
+    case = Family("load", integrator).case
+    for strain in (0.02, 0.1, 0.3, 0.6, -0.1, -0.3):
+        name = f"column {'stretched' if strain > 0 else 'squeezed'} by {abs(strain):g}"
+        yield case(name, abs(strain), "displacement, l", strained_column, strain)
+    for strain, what in ((2.0, "stretched until it bursts"), (-1.0, "squeezed until it collapses")):
+        name, when = f"column {what}", "time, 1/omega"
+        yield case(name, abs(strain), when, broken_spring, strain, expected="raises")
+    slip = 0.1 / 0.75, 5.0 / 0.75  # of a block, over l, with l_z = l
+    yield case("surface at P/E = 0.1", slip[0], FRICTION, avalanche_beyond_the_series)
+    yield case("surface at P/E = 5", slip[1], "none", avalanche_beyond_all, expected="raises")
+
+
+@cache
+def column_by_newton(speed: float, until: float) -> tuple[float, float]:
+    """Follow the free column, K_s = K_int, from the vectors between blocks; lengths here in l.
+
+    The slider goes at `speed`, lengths per 1/omega, for `DURATION`, or until (r/L)² - 1 of the
+    axial springs reaches `until`. Returns the time and the displacement there.
+    """
+
+    def motion(time: float, state: Array) -> Array:
+        a, b = state[:2]  # of the upper block; the lower one is its mirror image
+        bonds = (
+            (1.0, 1.0, 1.0 + a, b),
+            (1.0, 1.0, 0.0, 1.0 + 2.0 * b),
+            (0.5, math.sqrt(2.0), 1.0 + a, 1.0 + b),
+        )
+        force = np.array([speed * time - a, -b])
+        for stiffness, rest, x, y in bonds:
+            force -= stiffness * (1.0 - rest / math.hypot(x, y)) * np.array([x, y])
+        return np.concatenate([state[2:], force])
+
+    def left(time: float, state: Array) -> float:
+        return (1.0 + state[0]) ** 2 + state[1] ** 2 - 1.0 - until
+
+    left.terminal = True  # type: ignore[attr-defined]
+    span, accuracy = (0.0, DURATION), {"rtol": 1e-12, "atol": 1e-14}
+    solution = solve_ivp(motion, span, np.zeros(4), "DOP853", events=left, **accuracy)
+    return float(solution.t[-1]), float(solution.y[0, -1])
+
+
+def pull_column(integrator: str, speed: float) -> tuple[Pull, Realisation]:
+    """Pull the same column in a hundredth of the stable step; backwards for speed < 0."""
+    velocity = abs(speed) * UNDAMPED.spacing * UNDAMPED.omega_min
+    material = replace(UNDAMPED, slider_velocity=velocity)
+    end = DURATION / material.omega_min
+    count = math.ceil(end / (0.01 * schemes.limit(integrator, material)))
+    pull = Pull(integrator, material, end / count)
+    return pull, pull.simulate(FREE_COLUMN, count, direction=180 if speed < 0.0 else 0)
+
+
+def slow_column(strain: float) -> float:
+    """Return the speed at which the column has moved by about `strain` spacings in the end."""
+    return strain * (1.0 + COLUMNS[0, 0]) / DURATION
+
+
+def strained_column(integrator: str, strain: float) -> Outcome:
+    """Leapfrog may be off by its order, (omega_max h)², Runge-Kutta by (omega_max h)⁴.
+
+    At ten times its range, where q is 0.6, the polynomial is off by more than either.
+    """
+    speed = slow_column(strain)
+    pull, run = pull_column(integrator, speed)
+    _, closed_form = column_by_newton(speed, math.inf)
+    value = float(run.displacement[0, 0, 1]) / pull.material.spacing
+    order = {"leapfrog": 2, "rk4": 4}[integrator]
+    return pull.judge(run, value, closed_form, (pull.material.omega_max * pull.step) ** order)
+
+
+def broken_spring(integrator: str, strain: float) -> Outcome:
+    """The error names the time, in four digits."""
+    speed = slow_column(strain)
+    try:
+        pull_column(integrator, speed)
+    except SimulationError as error:
+        value = float(str(error).split("t = ")[1].split()[0]) * UNDAMPED.omega_min
+        closed_form, _ = column_by_newton(speed, BURST if speed > 0.0 else COLLAPSE)
+        return compared(value, closed_form, 2e-3, ("raises", "raises at another time"))
+    return Outcome("holds")
+
+
+@cache
+def heavy_surface() -> tuple[Material, Surface, reference.Reference]:
+    """Twenty times the paper's load on 3 x 3 blocks: a slip of 0.13 l; the reference solution."""
+    material = pulled_at(0.01, replace(PAPER, pressure=20.0 * PAPER.pressure))
+    surface, end = flat(3, SEED), 1.1 * release(material, 1.0)
+    exact = reference.solve(*surface, material=material, duration=end, sample_interval=end / 1000)
+    return material, surface, exact
+
+
+def avalanche_beyond_the_series(integrator: str) -> Outcome:
+    """Static friction is off by no more than the slider adds in a step."""
+    material, surface, exact = heavy_surface()
+    interval = float(exact.time[1])
+    pull = Pull(integrator, material, interval / math.ceil(interval / 1e-8))
+    every = round(interval / pull.step)
+    run = pull.simulate(surface, 1000 * every, every)
+    tolerance = pull.step / release(material, exact.static_friction)
+    return pull.judge(run, run.static_friction, exact.static_friction, tolerance)
+
+
+def avalanche_beyond_all(integrator: str) -> Outcome:
+    """A thousand times the paper's load: a block that lets go slides by several spacings."""
+    material = pulled_at(1e-3, replace(PAPER, pressure=1000.0 * PAPER.pressure))
+    pull = Pull.at(0.2, integrator, material)
+    return refusal(lambda: pull.simulate(flat(4, SEED)), "has collapsed", during_run=True)
+
+
+def sizes(integrator: str) -> Iterator[Case]:
+    """From one block to a million: alike, with scatter, one in contact, and sizes refused."""
+    case = Family("size", integrator).case
+    for n in (2, 3, 1000):
+        yield case(f"{n} x {n} blocks alike", n, "greatest force, P l² N²", blocks_alike, n)
+    for n in (1, 2, 3):
+        name = f"{n} x {n} blocks with scatter"
+        yield case(name, n, FIRST, first_detachment, scattered(0.1), n)
+    n = 1000
+    yield case(f"{n} x {n} blocks with scatter", n, FIRST, first_of_a_million, n)
+    yield case("one contact block", 6, FRICTION, one_contact_block)
+    for n, reason in ((0, "contact"), (MAX_BLOCKS + 1, f"goes up to {MAX_BLOCKS}")):
+        yield case(f"{n} x {n} blocks", n, "none", refused_size, n, reason, expected="refused")
+
+
+def blocks_alike(integrator: str, n: int) -> Outcome:
+    """No spring between blocks is ever strained: N² times one block, in the midst of its slip.
+
+    To rounding, of one step and of a sum over all blocks.
+    """
+    pull, count = Pull.at(0.1, integrator, UNDAMPED), 40
+    pull = pull.with_speed(4.0 / (count * pull.h))
+    one, run = (pull.simulate(uniform(size, 1.0, 0.6), count) for size in (1, n))
+    tolerance = ROUNDING + 1e-16 * n * n
+    return pull.judge(run, run.static_friction, one.static_friction, tolerance)
+
+
+def first_of_a_million(integrator: str, n: int) -> Outcome:
+    """Forty steps, in the middle of which the weakest of N² blocks lets go."""
+    pull, surface = Pull.at(0.2, integrator, PAPER), flat(n, SEED)
+    threshold, count = float(np.maximum(*surface[1:]).min()), 40
+    pull = pull.with_speed(threshold / (0.5 * count * pull.h))
+    run = pull.simulate(surface, count)
+    tolerance = pull.step / release(pull.material, threshold)
+    return pull.judge(run, run.t_first / release(pull.material, 1.0), threshold, tolerance)
+
+
+def one_contact_block(integrator: str) -> Outcome:
+    """It bears the whole load and holds all the others: static friction is its own.
+
+    They are in balance, but for the swing that the slider's start has left, v each.
+    """
+    n, mu_static, speed = 6, 0.2, 1e-3
+    contact = np.zeros((n, n), bool)
+    contact[2, 3] = True
+    pull = Pull.at(0.1, integrator, pulled_at(speed, PAPER))
+    run = pull.simulate((contact, *uniform(n, mu_static, 0.1)[1:]))
+    tolerance = 2.0 * speed / mu_static
+    return pull.judge(run, run.static_friction, mu_static, tolerance, contact=1)
+
+
+def refused_size(integrator: str, n: int, reason: str) -> Outcome:
+    """The arrays take no memory."""
+    contact, *mu = (np.broadcast_to(kind, (n, n)) for kind in (np.True_, 1.0, 0.6))
+    return refusal(lambda: simulate(contact, mu[0], mu[1], integrator=integrator), reason)

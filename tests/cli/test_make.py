@@ -1,0 +1,117 @@
+"""springblock make."""
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from precision import precision_rows, production_rows
+from springblock.accuracy.stability import table as stability
+from springblock.accuracy.stability.cases import Family, Outcome
+from springblock.accuracy.work_precision import SCHEMA, rows_of
+from springblock.io.parquet import rows_to_table, write
+
+
+def test_an_unknown_name_is_refused_with_the_names_there_are(springblock, tmp_path):
+    refusal = springblock("make", "slide", "--output", tmp_path / "table.parquet", refused=True)
+    assert "'slide' is not one of 'stability', 'reference-flat'" in refusal
+
+
+def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
+    (text := tmp_path / "text").write_text("text")
+    for name, files in (("stability", [text]), ("accuracy", [text]), ("collect", [])):
+        words = ("make", name, *files, "--output", tmp_path / "output")
+        assert f"Error: {name} takes " in springblock(*words, refused=True)
+
+
+@pytest.mark.parametrize("word", ["agrees", "drifts"])
+def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_path, monkeypatch):
+    case = Family("rest", "rk4").case("nothing", 0.0, "none", lambda _: Outcome(word))
+    monkeypatch.setattr(stability, "all_cases", lambda: [case])
+    output, refused = tmp_path / "table.parquet", word == "drifts"
+    said = springblock("make", "stability", "--output", output, refused=refused)
+    assert output.exists() == (not refused)
+    assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
+
+
+@pytest.fixture
+def collect(springblock, tmp_path):
+    """Collect parts of these versions; return what is said, and the table."""
+
+    def collected(*versions, refused=False):
+        parts, output = [], tmp_path / "table.parquet"
+        for number, version in enumerate(versions):
+            errors = [{"t_max": 3.0}, {"t_max": 4.0}]
+            rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
+            parts.append(tmp_path / f"{number}.parquet")
+            write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})
+        return springblock("make", "collect", *parts, "--output", output, refused=refused), output
+
+    return collected
+
+
+def test_a_table_of_parts_says_which_code_made_them(collect):
+    _, output = collect("1+a", "1+a")
+    table = pq.read_table(output)
+    assert table.schema.metadata[b"code_version"] == b"1+a"
+    assert table["error"].to_pylist() == 2 * [pytest.approx(12.5**0.5)]
+
+
+def test_parts_of_different_code_are_refused(collect):
+    said, output = collect("1+a", "1+b", refused=True)
+    assert "must be made by the same code; theirs is a and b" in said
+    assert not output.exists()
+
+
+@pytest.fixture
+def page(springblock, batch, tmp_path):
+    """Write the page on errors from these further tables; return its text."""
+
+    def written(*tables):
+        stability = [{"family": "size", "expected": "agrees", "outcome": "agrees"}] * 3
+        for name, rows in {"precision": precision_rows(), "stability": stability}.items():
+            write(pa.Table.from_pylist(rows), tmp_path / name, {})
+        files = (tmp_path / "precision", tmp_path / "stability", batch(0, 0), *tables)
+        springblock("make", "accuracy", *files, "--output", tmp_path / "page.md")
+        return (tmp_path / "page.md").read_text(encoding="utf-8")
+
+    return written
+
+
+def test_the_page_says_what_the_tables_hold(page):
+    text = page()
+    assert "3 of 3 cases came out as expected, in these families: size." in text
+    assert "The largest energy residual of 1 realisations" in text
+    assert "| static friction | 1.0e-01 | 1.0e-01 | 1.0e-01 |" in text
+    assert "`snakemake production` measures errors" in text
+    assert "total error" not in text
+
+
+def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tmp_path):
+    write(pa.Table.from_pylist(production_rows()), tmp_path / "production", {})
+    text = page(tmp_path / "production")
+    assert "this page was written without" not in text
+    # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16
+    assert "| l_c |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
+    assert "| static friction | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 |" in text
+    assert "| +0.250 [+0.150, +0.350] (4.47) |" in text  # of a scale of 50; 20 % over 20 seeds
+    # 20 seeds of half a second each, or twice as many at twice the step and four times the bias
+    assert "| static friction | flat | 10.5 | 4.479 [4.475, 4.486] | 4e-08 x 40 |" in text
+    assert "| step (s) | 5e-09 | 1e-08 | 2e-08 | 4e-08 | 8e-08 |\n" in text
+    assert "of t_max and t_avg |" in text
+
+
+def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(
+    springblock, batch, pillars, tmp_path
+):
+    page = tmp_path / "beyond.md"
+    springblock("make", "beyond", batch(0, 2), *pillars, "--output", page)
+    text = page.read_text(encoding="utf-8")
+    assert "**Not answered**: this needs the groups lattice, disorder and layer." in text
+    assert "| flat | " in text  # clusters of precursors
+
+
+def test_a_file_that_is_no_batch_is_refused(springblock, tmp_path):
+    (text := tmp_path / "text").write_text("text")
+    refusal = springblock("make", "beyond", text, "--output", tmp_path / "page.md", refused=True)
+    assert "Parquet" in refusal
+    assert list(tmp_path.iterdir()) == [text]

@@ -1,0 +1,148 @@
+"""One block on its spring, finer than in the table of cases, and two columns of two blocks.
+
+The block sticks until K_s v t = mu_s F_n. The release is found within its step, exactly, since the
+force rises evenly before it. A sample at the end of that step does not know of it yet, and misses
+up to (omega h)²/2 of the drop.
+"""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from springblock import Material, simulate
+from springblock.accuracy.kernels import UNDAMPED
+from springblock.accuracy.specimens import flat, uniform
+from springblock.accuracy.stability import one_block
+from springblock.model.defaults import STEP
+
+OMEGA = UNDAMPED.omega_min
+LOAD = UNDAMPED.block_load
+RATE = UNDAMPED.k_s * UNDAMPED.slider_velocity  #: N/s, of the force on a block at rest
+STEPS = [2e-8, 1e-8, 5e-9]
+
+
+def release_time(mu):
+    return mu * LOAD / RATE
+
+
+def pull(mu_static, mu_dynamic, *, after=0.0, step=1e-8, material=UNDAMPED, **options):
+    """Pull one block until so long after its release, sampling every step."""
+    duration = release_time(max(mu_static, mu_dynamic)) + after
+    scene = uniform(1, mu_static, mu_dynamic)
+    return simulate(*scene, material, step=step, sample_interval=step, duration=duration, **options)
+
+
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("mu_static", [0.31, 1.0, 1.21])
+def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, step, integrator):
+    run = pull(mu_static, 0.2, after=1e-7, step=step, integrator=integrator)
+    assert run.t_first == pytest.approx(release_time(mu_static), rel=1e-14)
+    stuck = run.time <= release_time(mu_static)
+    np.testing.assert_allclose(run.force[stuck], RATE * run.time[stuck], rtol=1e-14)
+    assert 0.0 < run.static_friction - mu_static <= RATE * step / LOAD
+
+
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("gamma", [0.0, 5e5])
+@pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7), (1.0, 0.0)])
+def test_the_slip_follows_its_closed_form(mu_static, mu_dynamic, gamma, step, integrator):
+    """Throughout, and to second order in the step."""
+    half_period = math.pi / math.sqrt(OMEGA**2 - gamma**2 / 4)
+    how = {"step": step, "integrator": integrator, "material": replace(UNDAMPED, gamma=gamma)}
+    run = pull(mu_static, mu_dynamic, after=half_period, **how)
+    tau = run.time - release_time(mu_static)
+    sliding = (tau > 0.0) & (tau < half_period - step)
+    speed, damping = RATE / (LOAD * OMEGA), gamma / OMEGA  # in units of the table
+    far = mu_dynamic + damping * speed
+    swung = one_block.swing(OMEGA * tau[sliding], damping, (mu_static - far, speed))[:, 0]
+    missed = 0.5 * (OMEGA * step) ** 2 * (mu_static - mu_dynamic) * LOAD
+    exact = LOAD * np.abs(far + swung)
+    np.testing.assert_allclose(run.force[sliding], exact, rtol=0, atol=missed)
+
+
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7)])
+def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, integrator):
+    """From 2 mu_d - mu_s the force rises to mu_s again, while the block is at rest.
+
+    The release overshoots mu_s F_n by K_s v h at most, and a step holds the stop, at which the
+    block would go on or back by (mu_s - mu_d) F_n h²/m, which takes time to be made up for.
+    """
+    drop = (mu_static - mu_dynamic) * LOAD
+    lasts = 2.0 * (math.pi - math.atan(drop * OMEGA / RATE)) / OMEGA
+    period = 2.0 * drop / RATE + lasts
+    run = pull(mu_static, mu_dynamic, after=3.5 * period, step=step, integrator=integrator)
+    slips, missed = np.flatnonzero(run.switches), drop * (OMEGA * step) ** 2
+    assert len(slips) == 4
+    np.testing.assert_allclose(
+        np.diff(run.time[slips]), period, rtol=0, atol=missed / RATE + 3 * step
+    )
+    for slip, following in itertools.pairwise(slips):
+        lowest = slip + int(np.argmin(run.force[slip:following]))
+        expected = (2 * mu_dynamic - mu_static) * LOAD
+        assert run.force[lowest] == pytest.approx(expected, abs=2 * RATE * step + missed)
+        # late by a step at its start, and found to a step at its end
+        assert run.time[lowest] - run.time[slip] == pytest.approx(lasts, abs=2 * step)
+        rising = np.diff(run.force[lowest + 2 : following])
+        np.testing.assert_allclose(rising, RATE * step, rtol=1e-9)  # differences of 1e-6 N
+
+
+def test_a_block_with_mu_s_below_mu_d_lets_go_once_and_follows_the_slider(integrator):
+    """It starts at mu_d F_n, not at mu_s F_n, with v (1 - cos omega tau): without a drop."""
+    run = pull(0.3, 0.61, after=2e-5, integrator=integrator, material=Material())
+    assert run.t_first == pytest.approx(release_time(0.61), rel=1e-14)
+    assert run.switches.sum() == 1
+    beside = np.abs(run.force[run.time > run.t_first] - 0.61 * LOAD)
+    assert beside.max() < 1.01 * RATE / OMEGA + RATE * 1e-8  # a step late, and sampled in steps
+
+
+def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
+    """Its v (1 - cos omega t) touches zero once in each of the first few periods.
+
+    Then damping keeps it away; a block that flickers lets go in every step, of which there are
+    1500 before the others follow.
+    """
+    contact, mu_static, mu_dynamic = flat(6, seed=3)
+    mu_static[2, 3], mu_dynamic[2, 3] = 0.3, 0.6
+    run = simulate(contact, mu_static, mu_dynamic, integrator=integrator)
+    assert abs(run.t_first - release_time(0.6)) <= STEP
+    assert run.t_first == run.t_det[2, 3]
+    others = np.delete(run.t_det, 2 * 6 + 3)
+    assert others.min() - run.t_first > 1500 * STEP
+    assert 1 <= run.switches[run.time < others.min()].sum() < 10
+
+
+def test_a_weak_column_lets_go_at_its_threshold_and_swings_about_its_new_place(integrator):
+    """Beside a column held fast: at rest there is no spring force but the slider's.
+
+    By symmetry about the x axis its blocks move by (a, b) and (a, -b). The axial spring to the
+    neighbour at rest, the one between them (strained by 2b), and a diagonal at 45 degrees each give
+    K_int a, 2 K_int b and K_int (a - b)/4, here with K_s = K_int. Each of the two modes follows
+    its own slider; late by a step at most.
+    """
+    gentle = Material(gamma=0.0, slider_velocity=5e-9, pressure=0.5)  # strains of 1e-7: linear
+    values, modes = np.linalg.eigh([[2.25, -0.25], [-0.25, 3.25]])
+    omegas = np.sqrt(values * gentle.k_int / gentle.mass)
+    step, after, speed = 1e-9, 1.5e-7, gentle.slider_velocity
+    waited = 0.5 * gentle.block_load / (gentle.k_s * speed)
+
+    def follow(time):
+        """Displacement (a, b) at so long after the release."""
+        ramp = waited + time - waited * np.cos(omegas * time) - np.sin(omegas * time) / omegas
+        return speed * modes @ (modes[0] / values * ramp)
+
+    held = np.array([[1e9, 0.5], [1e9, 0.5]])
+    how = {"integrator": integrator, "step": step, "sample_interval": step}
+    surface = np.ones((2, 2), bool), held, np.zeros((2, 2))
+    run = simulate(*surface, gentle, **how, duration=waited + after)
+    assert np.isnan(run.t_det[:, 0]).all()
+    assert (run.t_det[:, 1] == run.t_first).all()
+    assert abs(run.t_first - waited) <= step
+    end = run.time[-1] - waited
+    (a, b), (_, slower_b) = follow(end), follow(end - step)
+    moved = run.displacement[:, :, 1]
+    np.testing.assert_allclose(moved[0], a, rtol=0, atol=speed * waited * omegas[-1] * step)
+    np.testing.assert_allclose(moved[1], [b, -b], rtol=0, atol=2 * (b - slower_b))

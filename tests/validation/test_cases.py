@@ -1,0 +1,16 @@
+"""Every stiff or extreme case of the table `stability` comes out as expected."""
+
+import pytest
+
+from springblock.accuracy.stability.table import all_cases
+
+CASES = list(all_cases())
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_the_outcome_is_the_expected_one(case):
+    assert case.outcome().outcome == case.expected
+
+
+def test_each_case_has_its_own_name():
+    assert len({case.name for case in CASES}) == len(CASES)

@@ -1,0 +1,244 @@
+"""The frictionless lattice: its elasticity, waves against closed forms, and periodic edges.
+
+Plane waves are exact in the bulk and on a periodic lattice, not along a free edge, which lacks half
+of its diagonals. So dispersion is checked where the edge is not felt (the force on inner blocks),
+and motion in time where there is none, or where everything is edge: the eight modes of two by two
+blocks, known by symmetry alone. Their amplitudes, TINY spacings, leave the springs linear.
+"""
+
+import numpy as np
+import pytest
+
+from springblock import Material
+from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
+from springblock.accuracy.stability.schemes import swing_factor
+from springblock.simulation.energy import elastic_energy
+from springblock.simulation.simulate import SimulationError
+
+PAPER = Material()
+TINY = 1e-9
+NU = 1.0 / 3.0
+
+# Blocks of a 2 x 2 lattice stand at (±1, ±1)/2. m omega² = K_s + c K_int; c follows from the
+# springs that a mode strains: axial ones store K_int d²/2, diagonal ones K_int d²/4.
+SX, SY = np.meshgrid([-1.0, 1.0], [-1.0, 1.0])
+NIL, ALL = np.zeros((2, 2)), np.ones((2, 2))
+PAIR_MODES = {
+    "translation along x": ((ALL, NIL), 0.0),
+    "translation along y": ((NIL, ALL), 0.0),
+    "rotation": ((-SY, SX), 0.0),
+    "shear": ((SY, SX), 1.0),
+    "stretch": ((SX, -SY), 2.0),
+    "bending along x": ((SX * SY, NIL), 2.0),
+    "bending along y": ((NIL, SX * SY), 2.0),
+    "breathing": ((SX, SY), 3.0),
+}
+
+
+def frequency(c):
+    return np.sqrt((UNDAMPED.k_s + c * UNDAMPED.k_int) / UNDAMPED.mass)
+
+
+def dynamical_matrix(kx, ky):
+    """D(k)/K_int of the springs in the bulk: the sum of c_b e eᵀ (1 - cos k·e) over all eight."""
+    cx, cy = np.cos(kx), np.cos(ky)
+    both = 1.0 - cx * cy
+    mixed = np.sin(kx) * np.sin(ky)
+    return np.array([[2 * (1 - cx) + both, mixed], [mixed, 2 * (1 - cy) + both]])
+
+
+def assert_swings(start, c, integrator, periodic=False):
+    """After 1000 steps, over 25 periods, the motion is the exact solution of the scheme."""
+    step, steps = 2e-8, 1000
+    end = swing(start, steps, step, integrator, periodic=periodic)
+    exact = start * swing_factor(integrator, frequency(c) * step, steps)
+    # the springs' second order is TINY, and accumulates over omega t = 300
+    np.testing.assert_allclose(end, exact, rtol=0, atol=1000 * TINY * TINY)
+
+
+@pytest.mark.parametrize("mode", PAIR_MODES)
+def test_each_mode_of_two_by_two_blocks_swings_at_its_own_frequency(mode, integrator):
+    shape, c = PAIR_MODES[mode]
+    assert_swings(TINY * np.stack(shape), c, integrator)
+
+
+@pytest.mark.parametrize("mode", [(1, 0), (0, 1), (2, 1), (3, 2)])
+@pytest.mark.parametrize("polarisation", [0, 1])
+def test_plane_waves_run_through_the_edges_of_an_oblong_lattice(integrator, mode, polarisation):
+    """Each swings at m omega² = K_s + K_int D(k), as in a lattice without edges."""
+    n_y, n_x = 5, 12
+    kx, ky = 2.0 * np.pi * mode[0] / n_x, 2.0 * np.pi * mode[1] / n_y
+    values, axes = np.linalg.eigh(dynamical_matrix(kx, ky))
+    y, x = np.mgrid[:n_y, :n_x]
+    start = TINY * np.multiply.outer(axes[:, polarisation], np.cos(kx * x + ky * y + 0.3))
+    assert_swings(start, values[polarisation], integrator, periodic=True)
+
+
+@pytest.mark.parametrize(("integrator", "order"), [("leapfrog", 2), ("rk4", 4)])
+def test_frequencies_converge_with_the_order_of_the_scheme(integrator, order):
+    """Breathing for 4 periods against cos(omega t), or half a step later for leapfrog."""
+    shape, c = PAIR_MODES["breathing"]
+    start, omega = TINY * np.stack(shape), frequency(c)
+    errors = []
+    for steps in (200, 400, 800):
+        step = 8.25 * np.pi / omega / steps
+        lag = 0.5 if integrator == "leapfrog" else 0.0
+        exact = np.cos(omega * step * (steps + lag))
+        errors.append(abs(swing(start, steps, step, integrator)[0, 0, 0] / start[0, 0, 0] - exact))
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders == pytest.approx([order, order], abs=0.1)
+
+
+def test_a_mode_dies_away_at_half_the_damping_frequency(integrator):
+    """u = u_0 exp(-gamma t/2) cos(Omega t) + ..., Omega² = omega² - gamma²/4."""
+    damped = Material(gamma=4e5)
+    start, omega = np.full((2, 3, 3), TINY), frequency(0.0)
+    step, steps = 2e-9, 2500
+    ringing = np.sqrt(omega**2 - damped.gamma**2 / 4)
+    time = step * (steps + (0.5 if integrator == "leapfrog" else 0.0))
+    decay = np.exp(-damped.gamma * time / 2)
+    phase = ringing * time
+    exact = decay * (np.cos(phase) + damped.gamma / (2 * ringing) * np.sin(phase))
+    end = swing(start, steps, step, integrator, damped)
+    assert decay < 0.4
+    # phase error omega t (omega h)²/24 of leapfrog, and its start by half a step
+    np.testing.assert_allclose(end, start * exact, rtol=0, atol=TINY * (omega * step) ** 2 * 4)
+
+
+@pytest.mark.parametrize(
+    "wave", [(0.1, 0.0), (np.pi, 0.0), (np.pi, np.pi), (0.7, -2.1), (2.9, 1.3)]
+)
+@pytest.mark.parametrize("polarisation", [(1.0, 0.0), (0.0, 1.0)])
+def test_plane_waves_feel_the_dynamical_matrix(wave, polarisation):
+    """F_int = -D(k) u on every inner block."""
+    x, y = np.meshgrid(np.arange(6), np.arange(6))
+    wave_form = TINY * np.cos(wave[0] * x + wave[1] * y + 0.4)
+    u = np.multiply.outer(np.array(polarisation), wave_form)
+    expected = -np.einsum("ij,jyx->iyx", dynamical_matrix(*wave), u)
+    inner = np.s_[:, 1:-1, 1:-1]
+    np.testing.assert_allclose(spring_forces(u)[inner], expected[inner], rtol=0, atol=20 * TINY**2)
+
+
+def test_the_highest_frequency_belongs_to_the_wave_that_alternates_along_one_axis():
+    """m omega_max² = K_s + 6 K_int at k = (π, 0), over the whole Brillouin zone."""
+    k = np.linspace(0.0, np.pi, 41)
+    matrices = np.array([[dynamical_matrix(kx, ky) for kx in k] for ky in k])
+    highest = np.linalg.eigvalsh(matrices)[..., -1]
+    assert highest.max() == pytest.approx(6.0, rel=1e-14)
+    assert highest[0, -1] == pytest.approx(6.0, rel=1e-14)
+    assert UNDAMPED.omega_max == pytest.approx(frequency(6.0), rel=1e-14)
+
+
+@pytest.mark.parametrize("n", [2, 5])
+def test_no_mode_of_a_finite_lattice_leaves_the_band(n):
+    """The stiffness matrix, column by column from unit displacements, has three free motions."""
+    units = np.eye(2 * n * n).reshape(-1, 2, n, n)
+    stiffness = -np.array([spring_forces(TINY * unit).ravel() for unit in units]) / TINY
+    np.testing.assert_allclose(stiffness, stiffness.T, rtol=0, atol=20 * TINY)
+    eigenvalues = np.linalg.eigvalsh((stiffness + stiffness.T) / 2)
+    np.testing.assert_allclose(eigenvalues[:3], 0.0, atol=100 * TINY)
+    assert eigenvalues[3] > 0.01
+    assert eigenvalues[-1] <= 6.0
+    if n == 2:
+        expected = sorted(c for _, c in PAIR_MODES.values())
+        np.testing.assert_allclose(eigenvalues, expected, rtol=0, atol=100 * TINY)
+
+
+@pytest.mark.parametrize("angle", [0.0, 17.0, 45.0, 80.0])
+def test_long_waves_travel_at_the_speed_of_sound_in_a_sheet(angle):
+    """c_L = √(E/(rho (1 - nu²))) along the wave, c_T = √(G/rho) across, in any direction.
+
+    m omega² = -F/u of a polarised wave on the middle block of three by three, where it peaks.
+    """
+    k = 1e-3  # corrections are of order k²
+    direction = np.radians(angle) + np.array([0.0, np.pi / 2.0])
+    along, across = np.cos(direction), np.sin(direction)
+    x, y = np.meshgrid([-1, 0, 1], [-1, 0, 1])
+    wave_form = TINY * np.cos(k * (along[0] * x + across[0] * y))
+    stiffness = []
+    for polarisation in np.stack([along, across], axis=1):
+        force = spring_forces(np.multiply.outer(polarisation, wave_form))[:, 1, 1]
+        stiffness.append(-force @ polarisation / TINY * PAPER.k_int)
+    speeds = np.sqrt(np.array(stiffness) / PAPER.mass) / (k / PAPER.spacing)
+    modulus = PAPER.youngs_modulus / PAPER.density
+    expected = [np.sqrt(modulus / (1 - NU**2)), np.sqrt(3 / 8 * modulus)]
+    np.testing.assert_allclose(speeds, expected, rtol=k**2)
+
+
+def traction(strain):
+    """Return sigma_xx and sigma_xy, Pa, of the bulk, uniformly strained, across the x axis.
+
+    It is the sum of F_int over all blocks on the left of a cut. A free edge lacks half of its
+    diagonals: what N + 1 rows carry more than N is a row of the bulk.
+    """
+    cuts = []
+    for n in (8, 9):
+        u = np.einsum("ij,jyx->iyx", strain, np.stack(np.meshgrid(np.arange(n), np.arange(n))))
+        cuts.append(spring_forces(u)[:, :, : n // 2].sum(axis=(1, 2)))
+    return PAPER.k_int / PAPER.thickness * (cuts[1] - cuts[0])
+
+
+@pytest.mark.parametrize("angle", [0.0, 20.0, 45.0, 70.0])
+@pytest.mark.parametrize("principal", [(1.0, 0.0), (1.0, 1.0), (1.0, -1.0), (1.0, -NU), (-NU, 1.0)])
+def test_the_lattice_is_an_isotropic_sheet_in_plane_stress(angle, principal):
+    """Hooke's law with E and nu = 1/3 holds whichever way the principal strains are turned."""
+    cosine, sine = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    turn = np.array([[cosine, -sine], [sine, cosine]])
+    strain = TINY * turn @ np.diag(principal) @ turn.T
+    (xx, xy), (_, yy) = strain
+    modulus = PAPER.youngs_modulus
+    exact = modulus / (1 - NU**2) * (xx + NU * yy), modulus / (1 + NU) * xy
+    # second order in the strain, and the rounding of a difference of sums of 40 forces
+    np.testing.assert_allclose(traction(strain), exact, rtol=0, atol=1e-8 * modulus * TINY)
+
+
+def test_shear_modulus_is_three_eighths_of_youngs():
+    """Simple shear u_x = gamma y: half of it strain, half of it rotation without effect."""
+    sheared = TINY * np.array([[0.0, 1.0], [0.0, 0.0]])
+    stress = 3.0 / 8.0 * PAPER.youngs_modulus * TINY
+    np.testing.assert_allclose(traction(sheared), [0.0, stress], rtol=0, atol=1e-8 * stress)
+
+
+@pytest.mark.parametrize("shape", [(3, 3), (5, 8), (7, 13), (16, 3)])
+@pytest.mark.parametrize("amplitude", [1e-9, 1e-2, 0.2])
+def test_a_periodic_lattice_feels_what_its_endless_repetition_feels(shape, amplitude, rng):
+    """To the bit: springs across the edges are like all others, at any strain."""
+    u = amplitude * rng.uniform(-1.0, 1.0, (2, *shape))
+    n_y, n_x = shape
+    endless = spring_forces(np.tile(u, (1, 3, 3)))[:, n_y : 2 * n_y, n_x : 2 * n_x]
+    # of some rows at 1e-2, here and there not the same ones, the series is left
+    rounding = 1e-14 if amplitude == 1e-2 else 0.0
+    np.testing.assert_allclose(spring_forces(u, periodic=True), endless, rtol=0, atol=rounding)
+
+
+@pytest.mark.parametrize("band", [1, 2, 3, 4])
+def test_no_bit_of_a_periodic_lattice_depends_on_the_rows_of_a_band(band, rng):
+    u = 0.01 * rng.uniform(-1.0, 1.0, (2, 7, 13))
+    np.testing.assert_array_equal(
+        spring_forces(u, band, periodic=True), spring_forces(u, periodic=True)
+    )
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_spring_across_the_edge_may_burst_alone(axis):
+    """A stretch by a fifth everywhere, which the springs that close the lattice make up for."""
+    u = np.zeros((2, 8, 8))
+    u[axis] = 0.2 * np.mgrid[:8, :8][1 - axis]
+    assert np.isfinite(spring_forces(u)).all()
+    with pytest.raises(SimulationError, match="a spring in rows 0 to 8 has collapsed or burst"):
+        spring_forces(u, periodic=True)
+
+
+def test_the_force_is_the_gradient_of_the_energy_of_a_periodic_lattice(rng):
+    """dE/ds along a random direction d, by central differences: -ΣF·d, error of order s²."""
+    u, d = rng.uniform(-1.0, 1.0, (2, 2, 4, 7))
+    u = 1e-2 * u
+    length, s = PAPER.spacing, 1e-5
+
+    def energy(displacement):
+        hung = 0.5 * PAPER.k_s * np.sum((length * displacement) ** 2)
+        return elastic_energy(length * displacement, np.zeros(2), PAPER, periodic=True) - hung
+
+    slope = (energy(u + s * d) - energy(u - s * d)) / (2 * s)
+    work = -np.sum(spring_forces(u, periodic=True) * d) * PAPER.k_int * length**2
+    assert slope == pytest.approx(work, rel=1e-8, abs=0)

@@ -1,0 +1,185 @@
+"""What must hold of surfaces whatever the numbers: symmetries, rest, units, causality."""
+
+from dataclasses import astuple, replace
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, compute_prelude, draw_friction, simulate
+from springblock.accuracy.specimens import drawn, flat, uniform
+
+PAPER = Material()
+#: Loads a hundred times faster than the paper's: a run of 1500 steps shows all blocks let go.
+FAST = Material(slider_velocity=5e-2)
+RUN = {"material": FAST, "step": 2e-8, "sample_interval": 2e-7, "duration": 3e-5}
+SQUARE = Pattern.pillars(12, 4, 2)
+LAWS = {
+    "slip_weakening": {"slip_distance": 4e-7},
+    "velocity_weakening": {"speed_scale": 0.1},
+}
+#: Strained far beyond the range of the series.
+SOFT = replace(FAST, youngs_modulus=2e5)
+MATERIALS = {"coulomb": FAST, "soft": SOFT}
+MATERIALS |= {law: replace(FAST, law=law, **constant) for law, constant in LAWS.items()}
+
+
+def oblong(shape, share=1.0, seed=0):
+    """Contact on a share of all blocks, and drawn coefficients."""
+    n_y, n_x = shape
+    mu_static, mu_dynamic = (mu[:n_y, :n_x] for mu in draw_friction(max(shape), seed))
+    return np.random.default_rng(seed).random(shape) < share, mu_static, mu_dynamic
+
+
+def assert_moved(run, other, move, signs=(1, 1)):
+    """The other run is the first one moved, to the last bit; sums of force to rounding."""
+    assert np.isfinite(run.t_det).any()
+    np.testing.assert_array_equal(other.t_det, move(run.t_det))
+    for name in ("displacement", "velocity"):
+        for sign, one, found in zip(signs, getattr(run, name), getattr(other, name), strict=True):
+            np.testing.assert_array_equal(found, sign * move(one))
+    np.testing.assert_array_equal(other.switches, run.switches)
+    np.testing.assert_allclose(other.force, run.force, rtol=0, atol=1e-12 * run.force.max())
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("surface", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
+def test_a_surface_mirrored_across_the_slide_moves_as_its_mirror_image(
+    surface, integrator, periodic
+):
+    how = {**RUN, "integrator": integrator, "periodic": periodic}
+    mirrored = [field[::-1] for field in surface]
+    runs = simulate(*surface, **how), simulate(*mirrored, **how)
+    assert_moved(*runs, lambda field: field[::-1], (1, -1))
+
+
+def test_a_surface_mirrored_along_the_slide_is_pulled_the_other_way(integrator):
+    surface, how = drawn(SQUARE, seed=3), {**RUN, "integrator": integrator}
+    mirrored = [field[:, ::-1] for field in surface]
+    runs = simulate(*surface, **how), simulate(*mirrored, **how, direction=180)
+    assert_moved(*runs, lambda field: field[:, ::-1], (-1, 1))
+
+
+@pytest.mark.parametrize(
+    ("material", "share"), [("coulomb", 0.6), *((material, 1.0) for material in MATERIALS)]
+)
+@pytest.mark.parametrize(
+    ("shape", "shift"), [((5, 8), (1, 0)), ((7, 13), (3, 6)), ((16, 3), (9, 1))]
+)
+def test_no_bit_of_a_periodic_surface_depends_on_where_its_edges_are(
+    integrator, material, share, shape, shift
+):
+    """Through all avalanches, releases within steps among them."""
+    surface = oblong(shape, share)
+    how = {**RUN, "integrator": integrator, "direction": 20.0, "periodic": True}
+    how |= {"material": MATERIALS[material], "duration": 1e-4 if material == "soft" else 3e-5}
+
+    def roll(field):
+        return np.roll(field, shift, axis=(0, 1))
+
+    run = simulate(*surface, **how)
+    detached = np.isfinite(run.t_det).sum()
+    assert detached > 0.9 * surface[0].sum()
+    if material == "soft":  # (r/L)² - 1 beyond 0.06
+        assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
+    else:
+        assert run.switches.sum() > detached
+    assert_moved(run, simulate(*map(roll, surface), **how), roll)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator, periodic):
+    """Sums are taken in another order, and rounding grows from one avalanche to the next."""
+    surface = oblong((4, 11), seed=1)
+    how = {**RUN, "integrator": integrator, "periodic": periodic, "duration": 6e-6}
+    run = simulate(*surface, **how, direction="x")
+    turned = simulate(*(field.T for field in surface), **how, direction="y")
+    assert np.isfinite(run.t_det).sum() > 20
+    np.testing.assert_allclose(turned.t_det.T, run.t_det, rtol=1e-9)
+    np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
+    moved, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
+    np.testing.assert_allclose(turned.displacement[::-1], moved, rtol=0, atol=1e-9 * scale)
+
+
+@pytest.mark.parametrize("shape", [(3, 3), (5, 8), (7, 13), (16, 3)])
+def test_a_periodic_surface_without_scatter_moves_as_one_block(integrator, shape):
+    """No spring between blocks is ever strained. The load of each is P l² but for its rounding."""
+    alike = np.ones(shape, bool), np.full(shape, 1.0), np.full(shape, 0.6)
+    run = simulate(*alike, **RUN, integrator=integrator, periodic=True)
+    one = simulate(*uniform(1, 1.0, 0.6), **RUN, integrator=integrator)
+    assert np.ptp(run.force) > 0.3 * run.normal_force  # it lets go
+    for name in ("t_det", "displacement", "velocity"):
+        found, expected = getattr(run, name), getattr(one, name)
+        assert not np.ptp(found, axis=(-2, -1)).any()
+        np.testing.assert_allclose(found[..., :1, :1], expected, rtol=1e-9, err_msg=name)
+    blocks = np.prod(shape)
+    assert run.normal_force == pytest.approx(blocks * one.normal_force, rel=1e-15)
+    np.testing.assert_allclose(run.force, blocks * one.force, rtol=1e-9)
+    np.testing.assert_allclose(astuple(run.energy), blocks * np.array(astuple(one.energy)), 1e-9)
+
+
+def test_the_unit_of_mass_is_a_convention(integrator):
+    """E, rho and P four times as large: every force is, and no motion changes, to the last bit."""
+    heavy = replace(PAPER, youngs_modulus=4e7, density=4800.0, pressure=2e5)
+    run, scaled = (
+        simulate(*drawn(SQUARE, 3), material=m, integrator=integrator, duration=1.8e-4)
+        for m in (PAPER, heavy)
+    )
+    np.testing.assert_array_equal(scaled.t_det, run.t_det)
+    np.testing.assert_array_equal(scaled.displacement, run.displacement)
+    np.testing.assert_array_equal(scaled.force, 4.0 * run.force)
+    assert scaled.energy.friction == 4.0 * run.energy.friction
+
+
+def test_blocks_that_have_not_detached_have_not_moved(integrator):
+    """In the middle of the avalanches, stuck next to sliding."""
+    contact, *mu = flat(12, seed=3)
+    run = simulate(contact, *mu, integrator=integrator, duration=1.07e-4)
+    waiting = np.isnan(run.t_det)
+    assert 0 < waiting.sum() < contact.sum()
+    assert not run.displacement[:, waiting].any()
+    assert not run.velocity[:, waiting].any()
+    assert run.displacement[0, ~waiting].all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_block_that_is_held_does_not_move_by_one_bit(law, integrator):
+    """While the others slip; of Coulomb's law there is a case in the table."""
+    contact, mu_static, mu_dynamic = uniform(3, 1.0, 0.6)
+    mu_static[1, 1] = 1e9
+    material = replace(MATERIALS[law], gamma=0.0, slider_velocity=5e-3)
+    run = simulate(contact, mu_static, mu_dynamic, material, integrator=integrator, duration=5e-5)
+    assert np.count_nonzero(np.isfinite(run.t_det)) == 8
+    assert not run.displacement[:, 1, 1].any()
+
+
+def test_until_the_first_detachment_the_seed_does_not_matter():
+    """Not by one bit: while nothing slides, no coefficient enters the motion."""
+    first, second = (simulate(*drawn(SQUARE, seed), duration=1.8e-4) for seed in (1, 2))
+    same = first.time <= min(first.t_first, second.t_first)
+    assert same.sum() > 200
+    np.testing.assert_array_equal(first.force[same], second.force[same])
+    assert not np.array_equal(first.force, second.force)
+
+
+@pytest.mark.parametrize("law", ["coulomb", *LAWS])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_run_from_a_prelude_is_the_run_from_zero(law, periodic, integrator):
+    """To the bit: before the first detachment no law matters."""
+    surface = oblong((6, 11), share=0.7, seed=5)
+    material = replace(MATERIALS[law], slider_velocity=5e-3)
+    how = {"material": material, "integrator": integrator, "periodic": periodic}
+    prelude = compute_prelude(surface[0], **how)
+    assert prelude.samples.max() > 0
+    run, plain = simulate(*surface, **how, prelude=prelude), simulate(*surface, **how)
+    for name in ("time", "force", "switches", "t_det", "displacement", "velocity"):
+        np.testing.assert_array_equal(getattr(run, name), getattr(plain, name), err_msg=name)
+    assert run.energy == plain.energy
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*surface, **{**how, "periodic": not periodic}, prelude=prelude)
+
+
+def test_preludes_tell_shapes_apart():
+    surface = oblong((6, 8), share=0.7, seed=5)
+    turned = [field.reshape(8, 6) for field in surface]  # the same blocks in another order
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(*turned, FAST, prelude=compute_prelude(surface[0], FAST))
