@@ -20,8 +20,8 @@ from springblock.analysis.statistics import (
     mean_of_rest,
     pillar_map,
     pillar_ring,
+    proportion_interval,
     repeatability,
-    share_interval,
     standard_error,
     students_t,
     whole_curve,
@@ -107,8 +107,8 @@ def test_surfaces_are_compared_as_independent_samples(rng):
 
 def test_the_interval_of_a_share_is_exact():
     """All of 20: a share of 0.025^(1/20) would still show as many once in forty times."""
-    assert tuple(share_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
-    share, low, high = share_interval(6, 20)
+    assert tuple(proportion_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
+    share, low, high = proportion_interval(6, 20)
     assert share == 0.3
     assert low + high == pytest.approx(0.119 + 0.543, abs=2e-3)  # tables of Clopper and Pearson
 

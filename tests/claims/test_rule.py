@@ -7,15 +7,14 @@ from click.testing import CliRunner
 
 from beyond.made_up import record
 from springblock import compute_prelude
-from springblock.analysis.statistics import mean_interval, share_interval, students_t
+from springblock.analysis.estimate import Estimate, Proportion
+from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
 from springblock.claims.page import page
 from springblock.claims.rule import (
     ENOUGH,
     Claim,
-    Estimate,
     Evidence,
     Finding,
-    Share,
     outcomes,
     verdict,
 )
@@ -134,9 +133,9 @@ def test_many_findings_hold_together_as_often_as_one_does(rng):
 
 
 def test_intervals_of_shares_stay_exact_together():
-    found = Share.of(share_interval(19, 20), 20).limits(5)
-    assert found == pytest.approx(tuple(map(float, share_interval(19, 20, 0.99)[1:])))
-    assert Share.of(share_interval(20, 20), 20).limits(5)[1] == 1.0
+    found = Proportion.of(proportion_interval(19, 20), 20).limits(5)
+    assert found == pytest.approx(tuple(map(float, proportion_interval(19, 20, 0.99)[1:])))
+    assert Proportion.of(proportion_interval(20, 20), 20).limits(5)[1] == 1.0
 
 
 def test_what_settles_an_open_finding_follows_from_its_distance_to_the_edge():
@@ -156,7 +155,7 @@ def test_what_settles_an_open_finding_follows_from_its_distance_to_the_edge():
 
 
 def test_all_of_few_realisations_settle_a_share_sooner_than_roots_say():
-    all_of_20 = Finding({}, "", Share.of(share_interval(20, 20), 20), (0.9, INF), "")
+    all_of_20 = Finding({}, "", Proportion.of(proportion_interval(20, 20), 20), (0.9, INF), "")
     assert all_of_20.outcome() == "open"
     assert all_of_20.settled_by() == pytest.approx(np.log(0.025) / np.log(0.9), rel=0.06)
 

@@ -5,20 +5,22 @@ words ("similar", "uniform", "the same"), the claimed range says how close is cl
 """
 
 from springblock.claims import (
-    correlation,
     flat,
     grooves,
     lengths,
     loading,
     model,
     pillars,
+    sides,
     sizes,
     stress,
 )
+from springblock.claims.rule import Claim
 
-_CHAPTERS = (model, loading, stress, flat, pillars, sizes, correlation, grooves, lengths)
+_CHAPTERS = (model, loading, stress, flat, pillars, sizes, sides, grooves, lengths)
+_MADE = [made for chapter in _CHAPTERS for made in vars(chapter).values()]
 
-#: By the section of the paper that makes them.
+#: By the section of the paper that makes them, in the order of the chapters.
 CLAIMS = tuple(
-    sorted((claim for chapter in _CHAPTERS for claim in chapter.CLAIMS), key=lambda c: c.section)
+    sorted((made for made in _MADE if isinstance(made, Claim)), key=lambda made: made.section)
 )

@@ -5,15 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 import pyarrow as pa
 
-from springblock.claims.rule import (
-    Claim,
-    Estimate,
-    Evidence,
-    Finding,
-    describe,
-    outcomes,
-    verdict,
-)
+from springblock.analysis.estimate import UNKNOWN
+from springblock.claims.rule import Claim, Evidence, Finding, describe, outcomes, verdict
 from springblock.io.rows import Row
 from springblock.io.schemas import column
 
@@ -76,18 +69,17 @@ def _row(finding: Finding, together: int) -> Row:
         "statistic": finding.statistic,
         "unit": finding.unit,
         "value": estimate.value,
-        "ci_low": estimate.low,
-        "ci_high": estimate.high,
+        "ci_low": estimate.ci_low,
+        "ci_high": estimate.ci_high,
         "together_low": low,
         "together_high": high,
         "claimed_low": finding.claimed[0],
         "claimed_high": finding.claimed[1],
-        "realisations": estimate.runs,
+        "realisations": estimate.n,
         "settled_by": finding.settled_by(together),
         "rests_on": finding.rests_on,
     }
 
 
 def _nothing(claim: Claim) -> tuple[Finding, str]:
-    unknown = Estimate(np.nan, np.nan, np.nan)
-    return Finding({}, "", unknown, (np.nan, np.nan), f"missing: {claim.needs}"), "open"
+    return Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}"), "open"
