@@ -9,7 +9,6 @@ from springblock.claims import (
     grooves,
     lengths,
     loading,
-    model,
     pillars,
     sides,
     sizes,
@@ -17,7 +16,7 @@ from springblock.claims import (
 )
 from springblock.claims.rule import Claim
 
-_CHAPTERS = (model, loading, stress, flat, pillars, sizes, sides, grooves, lengths)
+_CHAPTERS = (loading, stress, flat, pillars, sizes, sides, grooves, lengths)
 _MADE = [made for chapter in _CHAPTERS for made in vars(chapter).values()]
 
 #: By the section of the paper that makes them, in the order of the chapters.

@@ -64,14 +64,12 @@ def clustering(observed: Array, chance: Array) -> Estimate:
     return Estimate.of(found, len(near))
 
 
-@claim(
-    "Isolated precursors on flat surfaces",
-    "3.1",
-    "Slip precursors occur as single detachment events before the macroscopic sliding phase. "
-    "Tested: most are isolated, and those that are not are less than twice as many as by chance.",
-    _FLAT,
-)
+@claim("Isolated precursors on flat surfaces", "3.1", _FLAT)
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """Slip precursors occur as single detachment events before the macroscopic sliding phase.
+
+    Tested: most are isolated, and those that are not are less than twice as many as by chance.
+    """
     for scene in scenes_along_x(evidence.records, 0):
         for until in (_EARLY, 1.0):
             case, runs = {"t/t_max below": until}, evidence.records[scene]
@@ -97,14 +95,12 @@ def weakest(run: Record) -> float:
     return share_of(thresholds <= bound, early)
 
 
-@claim(
-    "Precursors are the weakest blocks",
-    "3.1",
-    "Slip precursors occur corresponding to the weakest microscopic static friction "
-    "thresholds. Tested: most of them.",
-    _FLAT,
-)
+@claim("Precursors are the weakest blocks", "3.1", _FLAT)
 def weakest_first(evidence: Evidence) -> Iterator[Finding]:
+    """Slip precursors occur corresponding to the weakest microscopic static friction thresholds.
+
+    Tested: most of them.
+    """
     name = "share of the m blocks detached before t_max that have one of the m lowest mu_static"
     return _means(evidence, name, weakest, ranges.MOST)
 
@@ -118,26 +114,23 @@ def lonely(run: Run) -> float:
     return share_of(alone, run.t_det < _EARLY * run.t_max)
 
 
-@claim(
-    "Not every precursor starts a front",
-    "3.1",
-    "From these events rupture waves may nucleate; not all the precursors trigger a rupture "
-    "wave front. Tested: more than a tenth of them stay alone, and less than nine tenths.",
-    _FLAT,
-)
+@claim("Not every precursor starts a front", "3.1", _FLAT)
 def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
+    """From these events rupture waves may nucleate; not all the precursors trigger a rupture wave
+    front.
+
+    Tested: more than a tenth of them stay alone, and less than nine tenths.
+    """
     name = "share of the blocks detached before 0.9 t_max around which no other has by t_max"
     return _means(evidence, name, lonely, (1.0 - 0.9, 0.9))
 
 
-@claim(
-    "t_max is the onset of propagation on flat surfaces",
-    "3.1",
-    "The time instant t_max corresponds to the onset of propagation. Tested: less than a tenth "
-    "of the surface has detached before.",
-    _FLAT,
-)
+@claim("t_max is the onset of propagation on flat surfaces", "3.1", _FLAT)
 def onset(evidence: Evidence) -> Iterator[Finding]:
+    """The time instant t_max corresponds to the onset of propagation.
+
+    Tested: less than a tenth of the surface has detached before.
+    """
     name = "share of the blocks detached before t_max"
     return _means(evidence, name, before_peak, ranges.NEGLIGIBLE)
 
@@ -147,14 +140,11 @@ def avalanche_lag(run: Run) -> float:
     return float(run.time[np.argmax(rates(run, _BURST * run.t_max))]) - run.t_max
 
 
-@claim(
-    "The main avalanche follows t_max on flat surfaces",
-    "3.1",
-    "After t_max there is the main sliding avalanche, highlighted by the peak of the number of "
-    "detachments.",
-    _FLAT,
-)
+@claim("The main avalanche follows t_max on flat surfaces", "3.1", _FLAT)
 def avalanche_follows(evidence: Evidence) -> Iterator[Finding]:
+    """After t_max there is the main sliding avalanche, highlighted by the peak of the number of
+    detachments.
+    """
     name = "time of the most detachments, within 2 % of t_max, minus t_max"
     return _means(evidence, name, avalanche_lag, ranges.POSITIVE, "s")
 
@@ -165,39 +155,30 @@ def rate_at_peak(run: Run) -> float:
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
 
-@claim(
-    "Force and detachments peak apart on flat surfaces",
-    "3.1",
-    "The two peaks, of force and of detachments, are clearly separated. Tested: at the one, "
-    "detachments are below half of the other.",
-    _FLAT,
-)
+@claim("Force and detachments peak apart on flat surfaces", "3.1", _FLAT)
 def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
+    """The two peaks, of force and of detachments, are clearly separated.
+
+    Tested: at the one, detachments are below half of the other.
+    """
     name = "detachments within 2 % of t_max around it, over the most in such a time"
     return _means(evidence, name, rate_at_peak, ranges.FEWER_THAN_HALF)
 
 
-@claim(
-    "t_max < t_avg on flat surfaces",
-    "3.1",
-    "The force maximum occurs before the average detachment time.",
-    _FLAT,
-)
+@claim("t_max < t_avg on flat surfaces", "3.1", _FLAT)
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
+    """The force maximum occurs before the average detachment time."""
     for scene in scenes_along_x(evidence.summaries, 0):
         lag = mean(over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene]))
         source = in_table(scene)
         yield Finding(place(scene), "t_max - t_avg", lag, ranges.NEGATIVE, source, "s")
 
 
-@claim(
-    "Detachment times are uniform on flat surfaces",
-    "3.2",
-    "In repeated simulations the spatial distribution of the initial detachment time is uniform.",
-    f"three {_FLAT} or more",
-)
+@claim("Detachment times are uniform on flat surfaces", "3.2", f"three {_FLAT} or more")
 def uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Place does not matter: within the core, and at the outermost blocks against the core."""
+    """In repeated simulations the spatial distribution of the initial detachment time is
+    uniform.
+    """
     for scene in scenes_along_x(evidence.records, 0):
         n = scene.n_blocks
         from_edge = np.minimum(np.arange(n), np.arange(n)[::-1])
@@ -212,13 +193,11 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, late, within(_SMALL), unit, part="outermost blocks")
 
 
-@claim(
-    "Nucleation anywhere on flat surfaces",
-    "3.2",
-    "On average, each point of the surface has the same probability of being a nucleation "
-    "point. Tested: how far from the edge the first patch of 5 x 5 blocks detaches.",
-    _FLAT,
-)
+@claim("Nucleation anywhere on flat surfaces", "3.2", _FLAT)
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
+    """On average, each point of the surface has the same probability of being a nucleation point.
+
+    Tested: how far from the edge the first patch of 5 x 5 blocks detaches.
+    """
     name = f"share of places nearer to the edge than the {_PATCH} x {_PATCH} blocks detaching first"
     return _means(evidence, name, lambda run: first_patch(run.t_det, _PATCH), within(_SMALL, 0.5))

@@ -46,6 +46,7 @@ _BURST = 0.02  #: of t_avg, over which detachments are counted
 _EQUAL = (0.4, 0.6)  #: share of either of two parts of about equal size
 _WAYS_OF_SLIDING = ("along", "across")
 _GROOVES = "realisations of a grooved surface"
+_PEAKS = f"{_GROOVES} with two load peaks"
 _WAYS = "realisations of a grooved surface that slides along and across its grooves"
 
 
@@ -100,15 +101,14 @@ def _degrees(direction: str) -> float:
     return {"x": 0.0, "y": 90.0}[direction] if direction in "xy" else float(direction)
 
 
-@claim(
-    "Two load peaks only along grooves",
-    "3.3",
-    "The two load peaks appear only if the second level grooves are aligned with the sliding "
-    "direction. Tested: the lesser peak stands out by more than 1 % of the largest force along "
-    "the grooves, and by less at any angle to them.",
-    _WAYS,
-)
+@claim("Two load peaks only along grooves", "3.3", _WAYS)
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
+    """The two load peaks appear only if the second level grooves are aligned with the sliding
+    direction.
+
+    Tested: the lesser peak stands out by more than 1 % of the largest force along the grooves, and
+    by less at any angle to them.
+    """
     for along, _ in slid_both_ways(evidence, scenes_along_x(evidence.records, 2)):
         ways = [s for s in evidence.records if replace(s, direction="x") == along]
         for scene in sorted(ways, key=lambda s: _degrees(s.direction)):
@@ -161,14 +161,12 @@ def second_peak(run: Run, first: int, second: int) -> float:
     return float(run.force[second] - run.force[first]) / run.normal_force
 
 
-@claim(
-    "The second load peak sets static friction",
-    "3.3",
-    "The global static friction is determined by the force reached at the second load peak. "
-    "Tested: it is the higher one on average, and in most realisations.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("The second load peak sets static friction", "3.3", _PEAKS)
 def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
+    """The global static friction is determined by the force reached at the second load peak.
+
+    Tested: it is the higher one on average, and in most realisations.
+    """
     name = "force at the second load peak minus that at the first, over the normal force"
     yield from _means(evidence, name, second_peak, ranges.POSITIVE)
     for scene, sample in with_both_peaks(evidence, second_peak):
@@ -184,71 +182,61 @@ def quiet_rate(run: Run, first: int, second: int) -> float:
     return float(rates(run, width)[first:second].min() / mean_rate)
 
 
-@claim(
-    "A quiet phase between the load peaks",
-    "3.3",
-    "The transition is characterized by two load peaks separated by an intermediate "
-    "quasi-static phase. Tested: detachments fall below half of their mean rate.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("A quiet phase between the load peaks", "3.3", _PEAKS)
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
+    """The transition is characterized by two load peaks separated by an intermediate quasi-static
+    phase.
+
+    Tested: detachments fall below half of their mean rate.
+    """
     name = "least rate of detachments between the load peaks, within 2 % of t_avg, over the mean"
     return _means(evidence, name, quiet_rate, ranges.FEWER_THAN_HALF)
 
 
-def detached_between(run: Run, blocks: Mask, first: int, second: int) -> float:
-    """Share of some blocks that have detached at the lowest force between load peaks."""
-    lowest = run.time[valley(run, first, second)]
-    return float(np.mean(run.t_det[blocks] <= lowest))  # NaN: never
+def share_detached(blocks: Callable[[Mask], Mask]) -> QuantityOfPeaks:
+    """Share of some contact blocks that have detached at the lowest force between load peaks."""
+
+    def share(run: Record, first: int, second: int) -> float:
+        lowest = run.time[valley(run, first, second)]
+        return float(np.mean(run.t_det[blocks(run.scene.contact)] <= lowest))  # NaN: never
+
+    return share
 
 
-@claim(
-    "The edges make the first load peak",
-    "3.3",
-    "Slip precursors lead to a faster detachment of the boundary regions and, consequently, to "
-    "the first load peak. Tested: more than nine tenths of the edges have detached between "
-    "the peaks.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("The edges make the first load peak", "3.3", _PEAKS)
 def edges_make_first_peak(evidence: Evidence) -> Iterator[Finding]:
-    def detached(run: Record, *peaks: int) -> float:
-        return detached_between(run, edge(run.scene.contact), *peaks)
+    """Slip precursors lead to a faster detachment of the boundary regions and, consequently, to the
+    first load peak.
 
+    Tested: more than nine tenths of the edges have detached between the peaks.
+    """
     name = "share of the edges detached at the lowest force between the load peaks"
-    return _means(evidence, name, detached, ranges.NEARLY_ALL)
+    return _means(evidence, name, share_detached(edge), ranges.NEARLY_ALL)
 
 
-@claim(
-    "Edges and core are of equal size",
-    "3.3",
-    "The geometry divides the contact surface into two parts of equal size with distinct "
-    "dynamics. Tested: four to six tenths have detached between the load peaks.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("Edges and core are of equal size", "3.3", _PEAKS)
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    def detached(run: Record, *peaks: int) -> float:
-        return detached_between(run, run.scene.contact, *peaks)
+    """The geometry divides the contact surface into two parts of equal size with distinct dynamics.
 
+    Tested: four to six tenths have detached between the load peaks.
+    """
     name = "share of the contact blocks detached at the lowest force between the load peaks"
-    return _means(evidence, name, detached, _EQUAL)
+    return _means(evidence, name, share_detached(lambda contact: contact), _EQUAL)
 
 
-@claim(
-    "The core rests between the load peaks",
-    "4",
-    "In the phase between load peaks the internal regions are still at rest. Tested: more than "
-    "nine tenths of the blocks off the edges.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("The core rests between the load peaks", "4", _PEAKS)
 def rest_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    def resting(run: Record, *peaks: int) -> float:
-        contact = run.scene.contact
-        return 1.0 - detached_between(run, contact & ~edge(contact), *peaks)
+    """In the phase between load peaks the internal regions are still at rest.
 
+    Tested: more than nine tenths of the blocks off the edges.
+    """
+    off_edges = share_detached(lambda contact: contact & ~edge(contact))
     name = (
         "share of the blocks off the edges yet to detach at the lowest force between the load peaks"
     )
-    return _means(evidence, name, resting, ranges.NEARLY_ALL)
+    return _means(
+        evidence, name, lambda run, *peaks: 1.0 - off_edges(run, *peaks), ranges.NEARLY_ALL
+    )
 
 
 def slips_again(run: Run, first: int, second: int) -> float:
@@ -258,14 +246,13 @@ def slips_again(run: Run, first: int, second: int) -> float:
     return float(repeated.sum() / np.count_nonzero(run.t_det <= lowest))
 
 
-@claim(
-    "What has detached slips again between the load peaks",
-    "4",
-    "The regions involved by precursor events undergo a stick-slip motion after the first "
-    "detachment. Tested: a further slip for every second of their blocks, or more.",
-    f"{_GROOVES} with two load peaks",
-)
+@claim("What has detached slips again between the load peaks", "4", _PEAKS)
 def stick_slip(evidence: Evidence) -> Iterator[Finding]:
+    """The regions involved by precursor events undergo a stick-slip motion after the first
+    detachment.
+
+    Tested: a further slip for every second of their blocks, or more.
+    """
     name = "further slips between the load peaks per block detached at the lowest force"
     return _means(evidence, name, slips_again, ranges.MOST)
 
@@ -273,23 +260,22 @@ def stick_slip(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Without hierarchy one load peak",
     "3.3",
-    "Two load peaks need the concurrent presence of multiple length scales: hierarchy is "
-    "necessary. Tested: on pillars without grooves, and on grooves without pillars, a lesser "
-    "peak stands out by less than 1 % of the largest force.",
     "realisations of pillars with n_p of 4 or more, or of grooves without pillars",
 )
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
+    """Two load peaks need the concurrent presence of multiple length scales: hierarchy is
+    necessary.
+
+    Tested: on pillars without grooves, and on grooves without pillars, a lesser peak stands out by
+    less than 1 % of the largest force.
+    """
     for scene in (*scenes_along_x(evidence.records, 1, SMALLEST), *bare_grooves(evidence)):
         yield from _prominences(evidence, scene, _ONE_PEAK)
 
 
-@claim(
-    "Edges detach before the core of grooved pillars",
-    "3.3",
-    "Edge regions and internal core have distinct dynamics; the boundary regions detach first.",
-    _WAYS,
-)
+@claim("Edges detach before the core of grooved pillars", "3.3", _WAYS)
 def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
+    """Edge regions and internal core have distinct dynamics; the boundary regions detach first."""
     name = "t_det/t_avg of the core minus that of the edges"
     for scenes in slid_both_ways(evidence, scenes_along_x(evidence.records, 2)):
         for scene, way in zip(scenes, _WAYS_OF_SLIDING, strict=True):
@@ -318,14 +304,11 @@ def grooved_parts(scene: Scene) -> dict[str, Mask]:
     }
 
 
-@claim(
-    "Order of detachment on a grooved pillar",
-    "3.3",
-    "Transversal sides detach first, then the external longitudinal ones, then the internal "
-    "ones along the grooves, then the internal regions of the pawls.",
-    _GROOVES,
-)
+@claim("Order of detachment on a grooved pillar", "3.3", _GROOVES)
 def grooved_order(evidence: Evidence) -> Iterator[Finding]:
+    """Transversal sides detach first, then the external longitudinal ones, then the internal ones
+    along the grooves, then the internal regions of the pawls.
+    """
     for scene in scenes_along_x(evidence.records, 2):
         runs = evidence.records[scene]
         scale = np.array([run.t_max / run.t_avg for run in runs])
@@ -334,30 +317,25 @@ def grooved_order(evidence: Evidence) -> Iterator[Finding]:
         yield from in_order(scene, parts, "t_avg")
 
 
-@claim(
-    "The effects remain with a further level",
-    "3.3",
-    "We expect that these effects remain present when adding further hierarchical levels. "
-    "Tested: the lesser of two load peaks stands out by more than 1 % along grooves, and by "
-    "less across.",
-    f"{_WAYS}, with a third level",
-)
+@claim("The effects remain with a further level", "3.3", f"{_WAYS}, with a third level")
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
+    """We expect that these effects remain present when adding further hierarchical levels.
+
+    Tested: the lesser of two load peaks stands out by more than 1 % along grooves, and by less
+    across.
+    """
     for scenes in slid_both_ways(evidence, scenes_along_x(evidence.records, 3)):
         claims = zip(scenes, _WAYS_OF_SLIDING, (_TWO_PEAKS, _ONE_PEAK), strict=True)
         for scene, way, claimed in claims:
             yield from _prominences(evidence, scene, claimed, sliding=f"{way} the grooves")
 
 
-@claim(
-    "Static friction is greater across grooves than along",
-    "1",
-    "Static friction is greater when the grooves are perpendicular to the sliding direction. "
-    "A result of the authors' paper of 2018, J. Mech. Phys. Solids 112, 50 (arXiv:1706.08055), "
-    "for grooves that cross the whole surface, n_p2 and n_s2 alone here.",
-    _WAYS,
-)
+@claim("Static friction is greater across grooves than along", "1", _WAYS)
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
+    """Static friction is greater when the grooves are perpendicular to the sliding direction. A
+    result of the authors' paper of 2018, J. Mech. Phys. Solids 112, 50 (arXiv:1706.08055), for
+    grooves that cross the whole surface, n_p2 and n_s2 alone here.
+    """
     scenes = *bare_grooves(evidence), *scenes_along_x(evidence.records, 2)
     for along, across in slid_both_ways(evidence, scenes):
         yield Finding(

@@ -43,15 +43,14 @@ def trend(x: Array, samples: list[Array], statistic: str) -> Estimate:
     return Estimate.of(samples_interval(samples, of_means), fewest) if fewest >= 2 else UNKNOWN
 
 
-@claim(
-    "The lengths control the interval between the load peaks",
-    "3.3",
-    "The time interval between the first and the second peak is controlled by the difference "
-    "between the length scales. Tested: it grows with n_p - n_p2, which explains most of its "
-    "variance, on surfaces where most runs have two peaks.",
-    f"three {_GROOVES}",
-)
+@claim("The lengths control the interval between the load peaks", "3.3", f"three {_GROOVES}")
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
+    """The time interval between the first and the second peak is controlled by the difference
+    between the length scales.
+
+    Tested: it grows with n_p - n_p2, which explains most of its variance, on surfaces where most
+    runs have two peaks.
+    """
     found = dict(with_both_peaks(evidence, peak_interval))
     x = np.array([float(scene.n_p - scene.n_p2) for scene in found])
     if len(set(x)) < _FEWEST:
@@ -75,15 +74,12 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     )
 
 
-@claim(
-    "The length of pillars changes static friction",
-    "3.3",
-    "The global static friction can be manipulated by modifying the pillar length. Tested: it "
-    "changes by more than 1 % from the shortest to the longest pillars.",
-    f"two {_GROOVES}",
-)
+@claim("The length of pillars changes static friction", "3.3", f"two {_GROOVES}")
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
-    """The same pawls and grooves on pillars of other lengths."""
+    """The global static friction can be manipulated by modifying the pillar length.
+
+    Tested: it changes by more than 1 % from the shortest to the longest pillars.
+    """
     scenes = sorted(scenes_along_x(evidence.records, 2), key=lambda s: (s.n_p2, s.n_s2, s.n_p))
     for (n_p2, n_s2), group in groupby(scenes, key=attrgetter("n_p2", "n_s2")):
         alike = list({scene.n_p: scene for scene in group}.values())

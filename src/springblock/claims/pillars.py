@@ -36,13 +36,11 @@ _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
 
 
-@claim(
-    "All pillars are alike",
-    "3.2",
-    "With a margin of n_s/2 all pillars have the same average statistical properties for n_p >= 4.",
-    "realisations of several pillars with n_p of 4 or more",
-)
+@claim("All pillars are alike", "3.2", "realisations of several pillars with n_p of 4 or more")
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
+    """With a margin of n_s/2 all pillars have the same average statistical properties for
+    n_p >= 4.
+    """
     name = "share of the variance of a pillar's mean t_det that its place explains (jackknife)"
     for scene in scenes_along_x(evidence.records, 1, SMALLEST):
         runs = evidence.records[scene]
@@ -79,28 +77,23 @@ def ring_times(runs: Sequence[Run], scene: Scene, depth: int) -> dict[str, Array
     return {name: times[:, mask].mean(axis=1) for name, mask in parts.items()}
 
 
-@claim(
-    "Order of detachment on a pillar",
-    "3.2",
-    "Corners detach first, then boundaries perpendicular to the sliding direction, then "
-    "parallel ones; the same on the blocks adjacent to them; the centre comes last.",
-    _PILLARS,
-)
+@claim("Order of detachment on a pillar", "3.2", _PILLARS)
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
+    """Corners detach first, then boundaries perpendicular to the sliding direction, then parallel
+    ones; the same on the blocks adjacent to them; the centre comes last.
+    """
     for scene, depth in _outer_rings(evidence):
         parts = ring_times(evidence.records[scene], scene, depth)
         yield from in_order(scene, parts, **_on_ring(depth))
 
 
-@claim(
-    "The order of detachment never changes",
-    "3.2",
-    "The described detachment sequence always occurs, independently of statistical properties. "
-    "Tested: in more than nine tenths of the realisations.",
-    _PILLARS,
-)
+@claim("The order of detachment never changes", "3.2", _PILLARS)
 def always_in_order(evidence: Evidence) -> Iterator[Finding]:
-    """In each realisation the mean over its pillars counts."""
+    """The described detachment sequence always occurs, independently of statistical properties.
+
+    Tested: in more than nine tenths of the realisations.
+    """
+    # in each realisation the mean over its pillars counts
     name = "share of the realisations in which all parts detach in this order"
     for scene, depth in _outer_rings(evidence):
         parts = ring_times(evidence.records[scene], scene, depth)
@@ -108,14 +101,13 @@ def always_in_order(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, proportion(ordered), ranges.NEARLY_ALL, **_on_ring(depth))
 
 
-@claim(
-    "Edges detach before the force maximum",
-    "3.2",
-    "The detachments on the borders and on the blocks adjacent to them occur before the "
-    "maximum of the friction force. Tested: more than nine tenths of these blocks.",
-    _PILLARS,
-)
+@claim("Edges detach before the force maximum", "3.2", _PILLARS)
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
+    """The detachments on the borders and on the blocks adjacent to them occur before the maximum of
+    the friction force.
+
+    Tested: more than nine tenths of these blocks.
+    """
     names = {"corners": "corners", "y": "edges across", "x": "edges along"}
     for scene, depth in _outer_rings(evidence):
         runs = evidence.records[scene]
@@ -139,12 +131,14 @@ def border(scene: Scene) -> Mask:
 @claim(
     "Precursors are a region around the edge of pillars",
     "3.2",
-    "The sliding precursors are not only a few isolated blocks, but a whole region localized "
-    "around the edge of the pillar. Tested: most lie within two blocks of the edge, and less "
-    "than half are isolated.",
     f"realisations of pillars with n_p of {_BROAD} or more",
 )
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """The sliding precursors are not only a few isolated blocks, but a whole region localized
+    around the edge of the pillar.
+
+    Tested: most lie within two blocks of the edge, and less than half are isolated.
+    """
     for scene in scenes_along_x(evidence.records, 1, _BROAD):
         edges = border(scene)
 
@@ -168,11 +162,13 @@ def inside(run: Record) -> Array:
 @claim(
     "Detachment waves start near the edge of pillars",
     "3.2",
-    "Detachment waves are triggered from nucleation points located near the edge. Tested: in "
-    "the outer quarter of what the border, two blocks wide, encloses.",
     f"realisations of pillars with n_p of {_BROAD} or more",
 )
 def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
+    """Detachment waves are triggered from nucleation points located near the edge.
+
+    Tested: in the outer quarter of what the border, two blocks wide, encloses.
+    """
     name = (
         f"share of places inside the border that are nearer to it than the {_PATCH} x {_PATCH} "
         "blocks detaching first"
@@ -188,30 +184,29 @@ def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "The centre of pillars detaches last",
     "3.2",
-    "The waves propagate towards the central part of the pillar, which is the last part detaching.",
     f"realisations of pillars with n_p of {_CORE} or more",
 )
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """The middle is half as wide as the inside."""
+    """The waves propagate towards the central part of the pillar, which is the last part
+    detaching.
+    """
     name = "t_det/t_max of the middle minus that of what lies between it and the border"
     for scene in scenes_along_x(evidence.records, 1, _CORE):
         runs = evidence.records[scene]
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         size = times.shape[-1]
-        middle = np.zeros((size, size), bool)
+        middle = np.zeros((size, size), bool)  # half as wide as the inside
         middle[size // 4 : size - size // 4, size // 4 : size - size // 4] = True
         lag = mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
         yield found_on(scene, name, lag, ranges.POSITIVE)
 
 
-@claim(
-    "t_max > t_avg on pillars",
-    "3.2",
-    "The force peak always occurs after the average detachment time. Tested: on average, and "
-    "in more than nine tenths of the realisations.",
-    _PILLARS,
-)
+@claim("t_max > t_avg on pillars", "3.2", _PILLARS)
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
+    """The force peak always occurs after the average detachment time.
+
+    Tested: on average, and in more than nine tenths of the realisations.
+    """
     for scene in scenes_along_x(evidence.summaries, 1, SMALLEST):
         lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
         source, case = in_table(scene), place(scene)

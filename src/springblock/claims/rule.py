@@ -108,9 +108,17 @@ class Claim:
     test: Test
 
 
-def claim(name: str, section: str, statement: str, needs: str) -> Callable[[Test], Claim]:
-    """Turn the test below it, which yields findings from evidence, into a claim."""
-    return lambda test: Claim(name, section, statement, needs, test)
+def claim(name: str, section: str, needs: str) -> Callable[[Test], Claim]:
+    """Make a claim of a test, which yields findings from evidence.
+
+    Its docstring is the statement: what the paper says and, after "Tested:", what number a word
+    without one stands for.
+    """
+
+    def made(test: Test) -> Claim:
+        return Claim(name, section, " ".join((test.__doc__ or "").split()), needs, test)
+
+    return made
 
 
 def outcomes(findings: Sequence[Finding]) -> list[str]:

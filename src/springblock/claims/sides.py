@@ -81,14 +81,9 @@ def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
     return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
 
 
-@claim(
-    "c_x has a long range, c_y a short one",
-    "3.2",
-    "While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range.",
-    _TABLES,
-)
+@claim("c_x has a long range, c_y a short one", "3.2", _TABLES)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    """c_x is larger than c_y three blocks away; c_y falls below 1/e within one block."""
+    """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range."""
     for scene in scenes_along_x(evidence.correlation, 1, SMALLEST):
         rows = evidence.correlation[scene]
         far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
@@ -136,12 +131,15 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 @claim(
     "Sides along the sliding direction detach in larger events",
     "3.2",
-    "Although edges parallel to the sliding direction detach slightly after the perpendicular "
-    "ones, their slip involves a larger number of blocks. Tested: more than by chance, without "
-    "the corners; neighbours that detach within 0.5 % of t_max of each other are one event.",
     "realisations of pillars with n_p of 4 or more",
 )
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
+    """Although edges parallel to the sliding direction detach slightly after the perpendicular
+    ones, their slip involves a larger number of blocks.
+
+    Tested: more than by chance, without the corners; neighbours that detach within 0.5 % of t_max
+    of each other are one event.
+    """
     name = (
         "blocks per event on sides along x minus those on sides along y, each beyond those of "
         "sides whose blocks come from different realisations"
@@ -154,14 +152,12 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, mean(sizes["x"] - sizes["y"]), ranges.POSITIVE, "blocks")
 
 
-@claim(
-    "Exponential decay of c_x",
-    "3.2",
-    "The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c). Tested: within "
-    "0.1 of A exp(-r/l_c), r = 1 to 6, on sides of 20 blocks or more.",
-    _LENGTHS,
-)
+@claim("Exponential decay of c_x", "3.2", _LENGTHS)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
+    """The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c).
+
+    Tested: within 0.1 of A exp(-r/l_c), r = 1 to 6, on sides of 20 blocks or more.
+    """
     for scene in scenes_along_x(evidence.correlation, 1, _BROAD):
         for row in select(evidence.correlation[scene], side=ALONG):
             if 1 <= row["r"] <= LAST:
@@ -174,28 +170,21 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
                 )
 
 
-@claim(
-    "Correlation length of about three blocks or more",
-    "3.2",
-    "It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more. "
-    "Tested: more than 2.5, on sides of 20 blocks or more.",
-    _LENGTHS,
-)
+@claim("Correlation length of about three blocks or more", "3.2", _LENGTHS)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
+    """It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more.
+
+    Tested: more than 2.5, on sides of 20 blocks or more.
+    """
     for scene in scenes_along_x(evidence.correlation_length, 1, _BROAD):
         for fit in _fits(evidence, scene):
             source, l_c = in_rows("correlation_length", scene, side="x"), _length(fit)
             yield Finding(place(scene), "l_c of c_x", l_c, _ABOUT_THREE_OR_MORE, source, "blocks")
 
 
-@claim(
-    "Correlation length grows with n_p",
-    "3.2",
-    "l_c is slightly increasing with n_p.",
-    f"{_LENGTHS} and two sizes",
-)
+@claim("Correlation length grows with n_p", "3.2", f"{_LENGTHS} and two sizes")
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """l_c of the largest pillars is larger than that of the smallest it can be estimated for."""
+    """l_c is slightly increasing with n_p."""
     for family in families(evidence.correlation_length, _BROAD):
         fits = [fit for scene in family for fit in _fits(evidence, scene)]
         if len(fits) < 2:
@@ -211,16 +200,14 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
         )
 
 
-@claim(
-    "One event can detach a whole side",
-    "3.2",
-    "When l_c is comparable to the total length of the pillars, a slip precursor can lead to "
-    "the detachment of the whole side. Tested: more often than by chance on sides of 10 blocks "
-    "or less, without the corners, which detach before; neighbours that detach within 0.5 % of "
-    "t_max of each other are one event.",
-    "realisations of pillars with n_p of 4 to 10",
-)
+@claim("One event can detach a whole side", "3.2", "realisations of pillars with n_p of 4 to 10")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
+    """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
+    detachment of the whole side.
+
+    Tested: more often than by chance on sides of 10 blocks or less, without the corners, which
+    detach before; neighbours that detach within 0.5 % of t_max of each other are one event.
+    """
     name = (
         "share of the sides along x that, but for their corners, detach in one event, minus "
         "that of sides whose blocks come from different realisations"
@@ -253,11 +240,13 @@ def _with_whole(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 @claim(
     "Correlations keep their shape on grooved pillars",
     "3.3",
-    "The correlation functions along the longitudinal edges display the same qualitative "
-    "shape. Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.",
     f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
 )
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
+    """The correlation functions along the longitudinal edges display the same qualitative shape.
+
+    Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.
+    """
     for scene, like in _with_whole(evidence.correlation):
         whole = {row["r"]: row for row in select(evidence.correlation[like], side=ALONG)}
         for side, name in _SIDES.items():
@@ -277,11 +266,13 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Grooves leave the correlation length unchanged",
     "3.3",
-    "The typical correlation length along the longitudinal edges is also the same. Tested: "
-    "within a block, on external sides and along the grooves.",
     f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
 )
 def same_length(evidence: Evidence) -> Iterator[Finding]:
+    """The typical correlation length along the longitudinal edges is also the same.
+
+    Tested: within a block, on external sides and along the grooves.
+    """
     for scene, like in _with_whole(evidence.correlation_length):
         whole = _fits(evidence, like)
         for side, name in _SIDES.items():
@@ -300,11 +291,13 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Precursors are uncorrelated when sliding across grooves",
     "3.3",
-    "If the sliding direction is along the y-axis, most of the precursors are uncorrelated. "
-    "Tested: correlation below 1/e one block away, on external sides and along the grooves.",
     "tables of correlation along grooved pillars that slide across their grooves",
 )
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
+    """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
+
+    Tested: correlation below 1/e one block away, on external sides and along the grooves.
+    """
     for scene in scenes_along_x(evidence.records, 2, SMALLEST):
         across = replace(scene, direction="y")
         for side, name in _SIDES.items():

@@ -69,12 +69,14 @@ def duration(run: Run) -> float:
 @claim(
     "Pillars with n_p <= 3 behave like a flat surface",
     "3.2",
-    "For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. "
-    "Static friction, which the paper allows to differ, is left out. Tested: off by less than "
-    "half of what pillars with n_p = 20 are off by.",
     "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
 )
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
+    """For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. Static
+    friction, which the paper allows to differ, is left out.
+
+    Tested: off by less than half of what pillars with n_p = 20 are off by.
+    """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": relative_lag,
         "precursors": before_peak,
@@ -109,27 +111,18 @@ def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Itera
             yield Finding(place(scene), statistic, apart, ranges.POSITIVE, source)
 
 
-@claim(
-    "More and earlier precursors on pillars",
-    "3.2",
-    "For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time "
-    "interval before t_max.",
-    _BOTH,
-)
+@claim("More and earlier precursors on pillars", "3.2", _BOTH)
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """More than on a flat surface, and for a larger share of the time."""
+    """For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time
+    interval before t_max.
+    """
     time = "time from the first detachment to t_max over t_max"
     return _above_flat(evidence, {_PRECURSORS: before_peak, time: warning})
 
 
-@claim(
-    "Rounded force peak on pillars",
-    "3.2",
-    "The force is no longer a sharp peak, and becomes rounded.",
-    _BOTH,
-)
+@claim("Rounded force peak on pillars", "3.2", _BOTH)
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    """It is wider than that of the flat surface."""
+    """The force is no longer a sharp peak, and becomes rounded."""
     return _above_flat(evidence, {_WIDTH: width})
 
 
@@ -155,18 +148,12 @@ def _lowest_friction(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
     return _lowest({s: over_runs(static_friction, evidence.records[s]) for s in scenes})
 
 
-@claim(
-    "Lowest static friction at an intermediate n_p",
-    "3.2",
-    "The smallest static friction is obtained for a specific intermediate value of n_p; for "
-    "very large pillars it increases again.",
-    _SIZES,
-)
+@claim("Lowest static friction at an intermediate n_p", "3.2", _SIZES)
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
-    """Both the smallest and the largest pillars stick better than some between them.
-
-    The latter are chosen by the same means: small differences would be overrated.
+    """The smallest static friction is obtained for a specific intermediate value of n_p; for very
+    large pillars it increases again.
     """
+    # those between are chosen by the same means: small differences would be overrated
     for family in _of_several_sizes(evidence.summaries):
         samples = _frictions(evidence, family)
         lowest = _lowest({scene: samples[scene] for scene in family[1:-1]})
@@ -181,14 +168,9 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim(
-    "Sharper transition of very large pillars",
-    "3.2",
-    "For very large pillars the transition is sharper than where static friction is lowest.",
-    _SIZES,
-)
+@claim("Sharper transition of very large pillars", "3.2", _SIZES)
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """The force peak of the largest pillars is narrower."""
+    """For very large pillars the transition is sharper than where static friction is lowest."""
     for *smaller, largest in _of_several_sizes(evidence.records):
         lowest = _lowest_friction(evidence, smaller)
         yield Finding(
@@ -203,12 +185,14 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Precursors are negligible on very large pillars",
     "3.2",
-    "For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors "
-    "becomes negligible with respect to the surface area of the central part. Tested: less "
-    "than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.",
     f"realisations of pillars with n_p of {_LARGE} or more",
 )
 def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
+    """For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors becomes
+    negligible with respect to the surface area of the central part.
+
+    Tested: less than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.
+    """
     large = scenes_along_x(evidence.records, 1, _LARGE)
     return means_of_runs(evidence, large, _PRECURSORS, before_peak, ranges.NEGLIGIBLE)
 
@@ -216,12 +200,14 @@ def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Static friction is lowest where n_p is about l_c",
     "3.2",
-    "When the characteristic correlation length is comparable to the total length of the "
-    "pillars, static friction is smallest. Tested: within a factor of two.",
     f"{_SIZES}, and the table of correlation lengths",
 )
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """n_p where static friction is lowest, over l_c on the largest pillars of the family."""
+    """When the characteristic correlation length is comparable to the total length of the pillars,
+    static friction is smallest.
+
+    Tested: within a factor of two.
+    """
     tables = evidence.correlation_length
     for family in _of_several_sizes(evidence.summaries):
         lowest = _lowest(_frictions(evidence, family))
@@ -253,34 +239,25 @@ def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterato
             )
 
 
-@claim(
-    "The most precursors where static friction is lowest",
-    "3.2",
-    "An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so "
-    "that the static friction is minimized.",
-    _SIZES,
-)
+@claim("The most precursors where static friction is lowest", "3.2", _SIZES)
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so
+    that the static friction is minimized.
+    """
     return _largest_there(evidence, _PRECURSORS, before_peak)
 
 
-@claim(
-    "The roundest force peak where static friction is lowest",
-    "3.2",
-    "This explains why the smallest static friction is obtained for a specific intermediate "
-    "value of n_p, and the force peak at the transition is considerably more rounded.",
-    _SIZES,
-)
+@claim("The roundest force peak where static friction is lowest", "3.2", _SIZES)
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
+    """This explains why the smallest static friction is obtained for a specific intermediate value
+    of n_p, and the force peak at the transition is considerably more rounded.
+    """
     return _largest_there(evidence, _WIDTH, width)
 
 
-@claim(
-    "The longest transition where static friction is lowest",
-    "3.2",
-    "In the intermediate regime the detachments are distributed over a longer time interval "
-    "around the maximum of the friction force: a longer duration of the transition.",
-    _SIZES,
-)
+@claim("The longest transition where static friction is lowest", "3.2", _SIZES)
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
+    """In the intermediate regime the detachments are distributed over a longer time interval around
+    the maximum of the friction force: a longer duration of the transition.
+    """
     return _largest_there(evidence, _DURATION, duration)

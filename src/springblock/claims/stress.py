@@ -38,12 +38,13 @@ def pillar_stress(evidence: Evidence, scene: Scene) -> Array:
 @claim(
     "Edges bear more before sliding across grooves",
     "1",
-    "The tangential stress on the edges before sliding is larger when the grooves are "
-    "perpendicular to the sliding direction. A result of the authors' paper of 2018, for "
-    "grooves that cross the whole surface; here they divide pillars.",
     f"{_NEEDS} a grooved surface that slides along and across its grooves",
 )
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
+    """The tangential stress on the edges before sliding is larger when the grooves are
+    perpendicular to the sliding direction. A result of the authors' paper of 2018, for grooves that
+    cross the whole surface; here they divide pillars.
+    """
     name = f"stress on the edges when sliding across the grooves minus that along, {_OVER_MEAN}"
     for along in scenes_along_x(evidence.stress, 2):
         across = replace(along, direction="y")
@@ -53,14 +54,13 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
             yield _exactly(name, more - less, ranges.POSITIVE, across, along)
 
 
-@claim(
-    "All pillars bear the same stress",
-    "3.2",
-    "All the pillars are subject to the same stress distributions for n_p >= 4. Tested: none "
-    "differs from the mean pillar by more than a fifth of what places on a pillar differ by.",
-    f"{_NEEDS} several pillars with n_p of 4 or more",
-)
+@claim("All pillars bear the same stress", "3.2", f"{_NEEDS} several pillars with n_p of 4 or more")
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
+    """All the pillars are subject to the same stress distributions for n_p >= 4.
+
+    Tested: none differs from the mean pillar by more than a fifth of what places on a pillar differ
+    by.
+    """
     name = (
         "root mean square of the stress on the pillar most unlike the mean pillar minus that "
         "on the latter, over the standard deviation on it"
@@ -74,13 +74,12 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 @claim(
-    "Edges across the sliding direction bear more",
-    "3.2",
-    "The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress "
-    "along parallel ones.",
-    f"{_NEEDS} pillars with n_p of 4 or more",
+    "Edges across the sliding direction bear more", "3.2", f"{_NEEDS} pillars with n_p of 4 or more"
 )
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
+    """The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
+    along parallel ones.
+    """
     name = f"stress on the edges across minus that on the edges along, {_OVER_MEAN}"
     for scene in scenes_along_x(evidence.stress, 1, SMALLEST):
         ring = pillar_ring(scene.n_p, 0)
@@ -88,15 +87,11 @@ def larger_across(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(name, across - along, ranges.POSITIVE, scene)
 
 
-@claim(
-    "Grooves make stress more uniform",
-    "3.3",
-    "A hierarchical configuration allows to distribute mechanical stresses more uniformly over "
-    "the surface.",
-    f"{_NEEDS} pillars with grooves and without",
-)
+@claim("Grooves make stress more uniform", "3.3", f"{_NEEDS} pillars with grooves and without")
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Against pillars of about their size without grooves."""
+    """A hierarchical configuration allows to distribute mechanical stresses more uniformly over the
+    surface.
+    """
     whole = scenes_along_x(evidence.stress, 1, SMALLEST)
     for scene in scenes_along_x(evidence.stress, 2) if whole else ():
         like = most_like(scene, whole)
@@ -105,14 +100,11 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(f"{name} without grooves", grooved - plain, ranges.NEGATIVE, scene, like)
 
 
-@claim(
-    "External edges bear more than those along grooves",
-    "3.3",
-    "The external edges of the pillars are subjected to larger longitudinal stresses than the "
-    "internal ones along the second-level grooves.",
-    f"{_NEEDS} a grooved surface",
-)
+@claim("External edges bear more than those along grooves", "3.3", f"{_NEEDS} a grooved surface")
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
+    """The external edges of the pillars are subjected to larger longitudinal stresses than the
+    internal ones along the second-level grooves.
+    """
     for scene in scenes_along_x(evidence.stress, 2):
         pillars = pillar_stress(evidence, scene)
         parts = {n: float(pillars[:, mask].mean()) for n, mask in grooved_parts(scene).items()}
