@@ -177,8 +177,8 @@ def test_what_a_verdict_depends_on_is_what_tells_the_cases_apart():
 
 
 SOME = [
-    Claim("It grows", "3.2", "It grows.", "sizes", lambda _: [finding(*HOLDS, n_p=6)]),
-    Claim("It shrinks", "3.3", "It shrinks.", "two sizes", lambda _: []),
+    Claim("It grows", "3.2", "It grows.", 1, "sizes", lambda _: [finding(*HOLDS, n_p=6)]),
+    Claim("It shrinks", "3.3", "It shrinks.", 1, "two sizes", lambda _: []),
 ]
 
 
@@ -201,14 +201,16 @@ def test_the_page_says_the_rule_the_numbers_and_what_is_missing():
 
 
 def test_the_page_says_what_would_settle_an_open_statement():
-    claim = Claim("It grows", "3.2", "", "", lambda _: [finding(*WEAK, runs=1000, n_p=6)])
+    claim = Claim("It grows", "3.2", "", 1, "", lambda _: [finding(*WEAK, runs=1000, n_p=6)])
     text = page(rows([claim], Evidence()))
     assert "| open: about 9100 realisations would settle it |" in text
     assert "claimed > 0; about 9100 realisations would settle it. |" in text
 
 
 def test_the_page_says_at_which_level_intervals_hold_together():
-    claim = Claim("It grows", "3.2", "", "", lambda _: [finding(*HOLDS, n_p=i) for i in range(5)])
+    claim = Claim(
+        "It grows", "3.2", "", 1, "", lambda _: [finding(*HOLDS, n_p=i) for i in range(5)]
+    )
     text = page(rows([claim], Evidence()))
     assert "value [95 % interval together, 99 % alone]" in text
     assert "5 of 5 hold, most narrowly a difference is 1.5 [" in text

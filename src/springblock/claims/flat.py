@@ -64,7 +64,7 @@ def clustering(observed: Array, chance: Array) -> Estimate:
     return Estimate.of(found, len(near))
 
 
-@claim("Isolated precursors on flat surfaces", "3.1", _FLAT)
+@claim("Isolated precursors on flat surfaces", "3.1", 3, _FLAT)
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Slip precursors occur as single detachment events before the macroscopic sliding phase.
 
@@ -95,7 +95,7 @@ def weakest(run: Record) -> float:
     return share_of(thresholds <= bound, early)
 
 
-@claim("Precursors are the weakest blocks", "3.1", _FLAT)
+@claim("Precursors are the weakest blocks", "3.1", 3, _FLAT)
 def weakest_first(evidence: Evidence) -> Iterator[Finding]:
     """Slip precursors occur corresponding to the weakest microscopic static friction thresholds.
 
@@ -114,7 +114,7 @@ def lonely(run: Run) -> float:
     return share_of(alone, run.t_det < _EARLY * run.t_max)
 
 
-@claim("Not every precursor starts a front", "3.1", _FLAT)
+@claim("Not every precursor starts a front", "3.1", 3, _FLAT)
 def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
     """From these events rupture waves may nucleate; not all the precursors trigger a rupture wave
     front.
@@ -125,7 +125,7 @@ def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
     return _means(evidence, name, lonely, (1.0 - 0.9, 0.9))
 
 
-@claim("t_max is the onset of propagation on flat surfaces", "3.1", _FLAT)
+@claim("t_max is the onset of propagation on flat surfaces", "3.1", 2, _FLAT)
 def onset(evidence: Evidence) -> Iterator[Finding]:
     """The time instant t_max corresponds to the onset of propagation.
 
@@ -140,7 +140,7 @@ def avalanche_lag(run: Run) -> float:
     return float(run.time[np.argmax(rates(run, _BURST * run.t_max))]) - run.t_max
 
 
-@claim("The main avalanche follows t_max on flat surfaces", "3.1", _FLAT)
+@claim("The main avalanche follows t_max on flat surfaces", "3.1", 2, _FLAT)
 def avalanche_follows(evidence: Evidence) -> Iterator[Finding]:
     """After t_max there is the main sliding avalanche, highlighted by the peak of the number of
     detachments.
@@ -155,7 +155,7 @@ def rate_at_peak(run: Run) -> float:
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
 
-@claim("Force and detachments peak apart on flat surfaces", "3.1", _FLAT)
+@claim("Force and detachments peak apart on flat surfaces", "3.1", 2, _FLAT)
 def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
     """The two peaks, of force and of detachments, are clearly separated.
 
@@ -165,7 +165,7 @@ def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
     return _means(evidence, name, rate_at_peak, ranges.FEWER_THAN_HALF)
 
 
-@claim("t_max < t_avg on flat surfaces", "3.1", _FLAT)
+@claim("t_max < t_avg on flat surfaces", "3.1", 2, _FLAT)
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
     """The force maximum occurs before the average detachment time."""
     for scene in scenes_along_x(evidence.summaries, 0):
@@ -174,7 +174,7 @@ def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(place(scene), "t_max - t_avg", lag, ranges.NEGATIVE, source, "s")
 
 
-@claim("Detachment times are uniform on flat surfaces", "3.2", f"three {_FLAT} or more")
+@claim("Detachment times are uniform on flat surfaces", "3.2", 3, f"three {_FLAT} or more")
 def uniform(evidence: Evidence) -> Iterator[Finding]:
     """In repeated simulations the spatial distribution of the initial detachment time is
     uniform.
@@ -193,7 +193,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, late, within(_SMALL), unit, part="outermost blocks")
 
 
-@claim("Nucleation anywhere on flat surfaces", "3.2", _FLAT)
+@claim("Nucleation anywhere on flat surfaces", "3.2", 3, _FLAT)
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """On average, each point of the surface has the same probability of being a nucleation point.
 

@@ -101,7 +101,7 @@ def _degrees(direction: str) -> float:
     return {"x": 0.0, "y": 90.0}[direction] if direction in "xy" else float(direction)
 
 
-@claim("Two load peaks only along grooves", "3.3", _WAYS)
+@claim("Two load peaks only along grooves", "3.3", 9, _WAYS)
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     """The two load peaks appear only if the second level grooves are aligned with the sliding
     direction.
@@ -161,7 +161,7 @@ def second_peak(run: Run, first: int, second: int) -> float:
     return float(run.force[second] - run.force[first]) / run.normal_force
 
 
-@claim("The second load peak sets static friction", "3.3", _PEAKS)
+@claim("The second load peak sets static friction", "3.3", 9, _PEAKS)
 def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
     """The global static friction is determined by the force reached at the second load peak.
 
@@ -182,7 +182,7 @@ def quiet_rate(run: Run, first: int, second: int) -> float:
     return float(rates(run, width)[first:second].min() / mean_rate)
 
 
-@claim("A quiet phase between the load peaks", "3.3", _PEAKS)
+@claim("A quiet phase between the load peaks", "3.3", 9, _PEAKS)
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """The transition is characterized by two load peaks separated by an intermediate quasi-static
     phase.
@@ -203,7 +203,7 @@ def share_detached(blocks: Callable[[Mask], Mask]) -> QuantityOfPeaks:
     return share
 
 
-@claim("The edges make the first load peak", "3.3", _PEAKS)
+@claim("The edges make the first load peak", "3.3", 9, _PEAKS)
 def edges_make_first_peak(evidence: Evidence) -> Iterator[Finding]:
     """Slip precursors lead to a faster detachment of the boundary regions and, consequently, to the
     first load peak.
@@ -214,7 +214,7 @@ def edges_make_first_peak(evidence: Evidence) -> Iterator[Finding]:
     return _means(evidence, name, share_detached(edge), ranges.NEARLY_ALL)
 
 
-@claim("Edges and core are of equal size", "3.3", _PEAKS)
+@claim("Edges and core are of equal size", "3.3", 9, _PEAKS)
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
     """The geometry divides the contact surface into two parts of equal size with distinct dynamics.
 
@@ -224,7 +224,7 @@ def equal_parts(evidence: Evidence) -> Iterator[Finding]:
     return _means(evidence, name, share_detached(lambda contact: contact), _EQUAL)
 
 
-@claim("The core rests between the load peaks", "4", _PEAKS)
+@claim("The core rests between the load peaks", "4", 9, _PEAKS)
 def rest_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """In the phase between load peaks the internal regions are still at rest.
 
@@ -246,7 +246,7 @@ def slips_again(run: Run, first: int, second: int) -> float:
     return float(repeated.sum() / np.count_nonzero(run.t_det <= lowest))
 
 
-@claim("What has detached slips again between the load peaks", "4", _PEAKS)
+@claim("What has detached slips again between the load peaks", "4", 9, _PEAKS)
 def stick_slip(evidence: Evidence) -> Iterator[Finding]:
     """The regions involved by precursor events undergo a stick-slip motion after the first
     detachment.
@@ -260,6 +260,7 @@ def stick_slip(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Without hierarchy one load peak",
     "3.3",
+    9,
     "realisations of pillars with n_p of 4 or more, or of grooves without pillars",
 )
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
@@ -273,7 +274,7 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
         yield from _prominences(evidence, scene, _ONE_PEAK)
 
 
-@claim("Edges detach before the core of grooved pillars", "3.3", _WAYS)
+@claim("Edges detach before the core of grooved pillars", "3.3", 9, _WAYS)
 def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
     """Edge regions and internal core have distinct dynamics; the boundary regions detach first."""
     name = "t_det/t_avg of the core minus that of the edges"
@@ -304,7 +305,7 @@ def grooved_parts(scene: Scene) -> dict[str, Mask]:
     }
 
 
-@claim("Order of detachment on a grooved pillar", "3.3", _GROOVES)
+@claim("Order of detachment on a grooved pillar", "3.3", 8, _GROOVES)
 def grooved_order(evidence: Evidence) -> Iterator[Finding]:
     """Transversal sides detach first, then the external longitudinal ones, then the internal ones
     along the grooves, then the internal regions of the pawls.
@@ -317,7 +318,7 @@ def grooved_order(evidence: Evidence) -> Iterator[Finding]:
         yield from in_order(scene, parts, "t_avg")
 
 
-@claim("The effects remain with a further level", "3.3", f"{_WAYS}, with a third level")
+@claim("The effects remain with a further level", "3.3", 9, f"{_WAYS}, with a third level")
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """We expect that these effects remain present when adding further hierarchical levels.
 
@@ -330,7 +331,7 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
             yield from _prominences(evidence, scene, claimed, sliding=f"{way} the grooves")
 
 
-@claim("Static friction is greater across grooves than along", "1", _WAYS)
+@claim("Static friction is greater across grooves than along", "1", 9, _WAYS)
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Static friction is greater when the grooves are perpendicular to the sliding direction. A
     result of the authors' paper of 2018, J. Mech. Phys. Solids 112, 50 (arXiv:1706.08055), for

@@ -43,7 +43,7 @@ def trend(x: Array, samples: list[Array], statistic: str) -> Estimate:
     return Estimate.of(samples_interval(samples, of_means), fewest) if fewest >= 2 else UNKNOWN
 
 
-@claim("The lengths control the interval between the load peaks", "3.3", f"three {_GROOVES}")
+@claim("The lengths control the interval between the load peaks", "3.3", 9, f"three {_GROOVES}")
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """The time interval between the first and the second peak is controlled by the difference
     between the length scales.
@@ -74,7 +74,7 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     )
 
 
-@claim("The length of pillars changes static friction", "3.3", f"two {_GROOVES}")
+@claim("The length of pillars changes static friction", "3.3", 9, f"two {_GROOVES}")
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
     """The global static friction can be manipulated by modifying the pillar length.
 

@@ -34,7 +34,7 @@ _LOADED = "flat surfaces with other constants"
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 
 
-@claim("A step of 1e-8 s suffices", "2", "the table `work_precision`")
+@claim("A step of 1e-8 s suffices", "2", 1, "the table `work_precision`")
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     """h = 1e-8 s reduces integration errors under the statistical uncertainty.
 
@@ -90,7 +90,7 @@ def swing(run: Run) -> float:
     return float(force.std() / force.mean()) if len(force) > 1 else float("nan")
 
 
-@claim("Damping removes oscillations", "2", f"{_LOADED}, one of them without damping")
+@claim("Damping removes oscillations", "2", 1, f"{_LOADED}, one of them without damping")
 def damping(evidence: Evidence) -> Iterator[Finding]:
     """A viscous damping force is added to eliminate artificial block oscillations.
 
@@ -111,7 +111,7 @@ def damping(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim("Only the ratio of modulus and pressure matters", "2", f"{_LOADED} at the same ratio")
+@claim("Only the ratio of modulus and pressure matters", "2", 1, f"{_LOADED} at the same ratio")
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """The relevant parameter is the ratio between Young's modulus and applied pressure; results are
     qualitatively the same for larger moduli, if the pressure is also increased.
@@ -142,7 +142,7 @@ def fronts(run: Run) -> float:
     return float(np.count_nonzero(sizes > _FRONT))
 
 
-@claim("Velocity, pressure and scatter affect the number of fronts", "3.1", _LOADED)
+@claim("Velocity, pressure and scatter affect the number of fronts", "3.1", 2, _LOADED)
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     """Parameters like the slider velocity, pressure, or statistical distributions of the local
     friction coefficients all affect the number of wave fronts.
@@ -179,7 +179,7 @@ def first_front(run: Run) -> float:
     return float(times[low]) / run.t_max
 
 
-@claim("Fronts begin at t_max whatever the loading", "3.1", _LOADED)
+@claim("Fronts begin at t_max whatever the loading", "3.1", 2, _LOADED)
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     """In any case the time instant t_max corresponds to the onset of propagation.
 

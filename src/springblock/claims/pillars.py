@@ -36,7 +36,7 @@ _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
 
 
-@claim("All pillars are alike", "3.2", "realisations of several pillars with n_p of 4 or more")
+@claim("All pillars are alike", "3.2", 4, "realisations of several pillars with n_p of 4 or more")
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
     """With a margin of n_s/2 all pillars have the same average statistical properties for
     n_p >= 4.
@@ -77,7 +77,7 @@ def ring_times(runs: Sequence[Run], scene: Scene, depth: int) -> dict[str, Array
     return {name: times[:, mask].mean(axis=1) for name, mask in parts.items()}
 
 
-@claim("Order of detachment on a pillar", "3.2", _PILLARS)
+@claim("Order of detachment on a pillar", "3.2", 5, _PILLARS)
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Corners detach first, then boundaries perpendicular to the sliding direction, then parallel
     ones; the same on the blocks adjacent to them; the centre comes last.
@@ -87,7 +87,7 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
         yield from in_order(scene, parts, **_on_ring(depth))
 
 
-@claim("The order of detachment never changes", "3.2", _PILLARS)
+@claim("The order of detachment never changes", "3.2", 5, _PILLARS)
 def always_in_order(evidence: Evidence) -> Iterator[Finding]:
     """The described detachment sequence always occurs, independently of statistical properties.
 
@@ -101,7 +101,7 @@ def always_in_order(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, proportion(ordered), ranges.NEARLY_ALL, **_on_ring(depth))
 
 
-@claim("Edges detach before the force maximum", "3.2", _PILLARS)
+@claim("Edges detach before the force maximum", "3.2", 5, _PILLARS)
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """The detachments on the borders and on the blocks adjacent to them occur before the maximum of
     the friction force.
@@ -131,6 +131,7 @@ def border(scene: Scene) -> Mask:
 @claim(
     "Precursors are a region around the edge of pillars",
     "3.2",
+    5,
     f"realisations of pillars with n_p of {_BROAD} or more",
 )
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
@@ -162,6 +163,7 @@ def inside(run: Record) -> Array:
 @claim(
     "Detachment waves start near the edge of pillars",
     "3.2",
+    5,
     f"realisations of pillars with n_p of {_BROAD} or more",
 )
 def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
@@ -184,6 +186,7 @@ def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "The centre of pillars detaches last",
     "3.2",
+    5,
     f"realisations of pillars with n_p of {_CORE} or more",
 )
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
@@ -201,7 +204,7 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, lag, ranges.POSITIVE)
 
 
-@claim("t_max > t_avg on pillars", "3.2", _PILLARS)
+@claim("t_max > t_avg on pillars", "3.2", 6, _PILLARS)
 def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
     """The force peak always occurs after the average detachment time.
 

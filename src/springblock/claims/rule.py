@@ -104,19 +104,20 @@ class Claim:
     name: str
     section: str
     statement: str
+    figure: int  #: of the paper, which shows what the statement speaks of
     needs: str  #: what must have been simulated or measured
     test: Test
 
 
-def claim(name: str, section: str, needs: str) -> Callable[[Test], Claim]:
+def claim(name: str, section: str, figure: int, needs: str) -> Callable[[Test], Claim]:
     """Make a claim of a test, which yields findings from evidence.
 
     Its docstring is the statement: what the paper says and, after "Tested:", what number a word
-    without one stands for.
+    without one stands for. `section` and `figure` are the paper's.
     """
 
     def made(test: Test) -> Claim:
-        return Claim(name, section, " ".join((test.__doc__ or "").split()), needs, test)
+        return Claim(name, section, " ".join((test.__doc__ or "").split()), figure, needs, test)
 
     return made
 

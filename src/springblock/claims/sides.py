@@ -81,7 +81,7 @@ def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
     return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
 
 
-@claim("c_x has a long range, c_y a short one", "3.2", _TABLES)
+@claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range."""
     for scene in scenes_along_x(evidence.correlation, 1, SMALLEST):
@@ -131,6 +131,7 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 @claim(
     "Sides along the sliding direction detach in larger events",
     "3.2",
+    7,
     "realisations of pillars with n_p of 4 or more",
 )
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
@@ -152,7 +153,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, mean(sizes["x"] - sizes["y"]), ranges.POSITIVE, "blocks")
 
 
-@claim("Exponential decay of c_x", "3.2", _LENGTHS)
+@claim("Exponential decay of c_x", "3.2", 7, _LENGTHS)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c).
 
@@ -170,7 +171,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
                 )
 
 
-@claim("Correlation length of about three blocks or more", "3.2", _LENGTHS)
+@claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more.
 
@@ -182,7 +183,7 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
             yield Finding(place(scene), "l_c of c_x", l_c, _ABOUT_THREE_OR_MORE, source, "blocks")
 
 
-@claim("Correlation length grows with n_p", "3.2", f"{_LENGTHS} and two sizes")
+@claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c is slightly increasing with n_p."""
     for family in families(evidence.correlation_length, _BROAD):
@@ -200,7 +201,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
         )
 
 
-@claim("One event can detach a whole side", "3.2", "realisations of pillars with n_p of 4 to 10")
+@claim("One event can detach a whole side", "3.2", 7, "realisations of pillars with n_p of 4 to 10")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
     detachment of the whole side.
@@ -240,6 +241,7 @@ def _with_whole(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 @claim(
     "Correlations keep their shape on grooved pillars",
     "3.3",
+    7,
     f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
 )
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
@@ -266,6 +268,7 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Grooves leave the correlation length unchanged",
     "3.3",
+    7,
     f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
 )
 def same_length(evidence: Evidence) -> Iterator[Finding]:
@@ -291,6 +294,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Precursors are uncorrelated when sliding across grooves",
     "3.3",
+    7,
     "tables of correlation along grooved pillars that slide across their grooves",
 )
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:

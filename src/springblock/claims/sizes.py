@@ -69,6 +69,7 @@ def duration(run: Run) -> float:
 @claim(
     "Pillars with n_p <= 3 behave like a flat surface",
     "3.2",
+    6,
     "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
 )
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
@@ -111,7 +112,7 @@ def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Itera
             yield Finding(place(scene), statistic, apart, ranges.POSITIVE, source)
 
 
-@claim("More and earlier precursors on pillars", "3.2", _BOTH)
+@claim("More and earlier precursors on pillars", "3.2", 6, _BOTH)
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     """For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time
     interval before t_max.
@@ -120,7 +121,7 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     return _above_flat(evidence, {_PRECURSORS: before_peak, time: warning})
 
 
-@claim("Rounded force peak on pillars", "3.2", _BOTH)
+@claim("Rounded force peak on pillars", "3.2", 6, _BOTH)
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """The force is no longer a sharp peak, and becomes rounded."""
     return _above_flat(evidence, {_WIDTH: width})
@@ -148,7 +149,7 @@ def _lowest_friction(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
     return _lowest({s: over_runs(static_friction, evidence.records[s]) for s in scenes})
 
 
-@claim("Lowest static friction at an intermediate n_p", "3.2", _SIZES)
+@claim("Lowest static friction at an intermediate n_p", "3.2", 6, _SIZES)
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     """The smallest static friction is obtained for a specific intermediate value of n_p; for very
     large pillars it increases again.
@@ -168,7 +169,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim("Sharper transition of very large pillars", "3.2", _SIZES)
+@claim("Sharper transition of very large pillars", "3.2", 6, _SIZES)
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """For very large pillars the transition is sharper than where static friction is lowest."""
     for *smaller, largest in _of_several_sizes(evidence.records):
@@ -185,6 +186,7 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Precursors are negligible on very large pillars",
     "3.2",
+    6,
     f"realisations of pillars with n_p of {_LARGE} or more",
 )
 def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
@@ -200,6 +202,7 @@ def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
 @claim(
     "Static friction is lowest where n_p is about l_c",
     "3.2",
+    7,
     f"{_SIZES}, and the table of correlation lengths",
 )
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
@@ -239,7 +242,7 @@ def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterato
             )
 
 
-@claim("The most precursors where static friction is lowest", "3.2", _SIZES)
+@claim("The most precursors where static friction is lowest", "3.2", 6, _SIZES)
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so
     that the static friction is minimized.
@@ -247,7 +250,7 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     return _largest_there(evidence, _PRECURSORS, before_peak)
 
 
-@claim("The roundest force peak where static friction is lowest", "3.2", _SIZES)
+@claim("The roundest force peak where static friction is lowest", "3.2", 6, _SIZES)
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """This explains why the smallest static friction is obtained for a specific intermediate value
     of n_p, and the force peak at the transition is considerably more rounded.
@@ -255,7 +258,7 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     return _largest_there(evidence, _WIDTH, width)
 
 
-@claim("The longest transition where static friction is lowest", "3.2", _SIZES)
+@claim("The longest transition where static friction is lowest", "3.2", 6, _SIZES)
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """In the intermediate regime the detachments are distributed over a longer time interval around
     the maximum of the friction force: a longer duration of the transition.

@@ -38,6 +38,7 @@ def pillar_stress(evidence: Evidence, scene: Scene) -> Array:
 @claim(
     "Edges bear more before sliding across grooves",
     "1",
+    8,
     f"{_NEEDS} a grooved surface that slides along and across its grooves",
 )
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
@@ -54,7 +55,9 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
             yield _exactly(name, more - less, ranges.POSITIVE, across, along)
 
 
-@claim("All pillars bear the same stress", "3.2", f"{_NEEDS} several pillars with n_p of 4 or more")
+@claim(
+    "All pillars bear the same stress", "3.2", 4, f"{_NEEDS} several pillars with n_p of 4 or more"
+)
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
     """All the pillars are subject to the same stress distributions for n_p >= 4.
 
@@ -74,7 +77,10 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 @claim(
-    "Edges across the sliding direction bear more", "3.2", f"{_NEEDS} pillars with n_p of 4 or more"
+    "Edges across the sliding direction bear more",
+    "3.2",
+    4,
+    f"{_NEEDS} pillars with n_p of 4 or more",
 )
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
     """The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
@@ -87,7 +93,7 @@ def larger_across(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(name, across - along, ranges.POSITIVE, scene)
 
 
-@claim("Grooves make stress more uniform", "3.3", f"{_NEEDS} pillars with grooves and without")
+@claim("Grooves make stress more uniform", "3.3", 8, f"{_NEEDS} pillars with grooves and without")
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """A hierarchical configuration allows to distribute mechanical stresses more uniformly over the
     surface.
@@ -100,7 +106,7 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(f"{name} without grooves", grooved - plain, ranges.NEGATIVE, scene, like)
 
 
-@claim("External edges bear more than those along grooves", "3.3", f"{_NEEDS} a grooved surface")
+@claim("External edges bear more than those along grooves", "3.3", 8, f"{_NEEDS} a grooved surface")
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
     """The external edges of the pillars are subjected to larger longitudinal stresses than the
     internal ones along the second-level grooves.
