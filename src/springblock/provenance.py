@@ -11,7 +11,7 @@ from typing import Any
 
 _PACKAGE = "springblock"
 _ROOT = Path(__file__).parent
-_TEMPLATES = (".html", ".css", ".js")
+_TEMPLATES = (".html", ".css", ".js", ".md")
 
 
 def _file(module: str) -> Path | None:

@@ -260,13 +260,6 @@ class Curve:
         return self.time[: bins * size + 1 : size], counts.reshape(-1, bins, size).sum(axis=2)
 
 
-def common_curve(runs: Sequence[Run]) -> Curve:
-    """Cut the force and detachment curves of an ensemble to its shortest run."""
-    time, forces = cut(runs, [friction(run) for run in runs])
-    _, shares = cut(runs, [percent(run, run.detachments) for run in runs])
-    return Curve(time, forces, shares)
-
-
 def whole_curve(runs: Sequence[Run]) -> Curve:
     """Force and detachments of an ensemble up to the end of its longest run.
 

@@ -12,7 +12,7 @@ import numpy as np
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import (
     bootstrap_interval,
-    common_curve,
+    cut,
     lesser_prominence,
     load_peaks,
     pillar_map,
@@ -38,7 +38,7 @@ from springblock.claims.samples import (
 )
 from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Array, Run, friction
 
 _STANDS_OUT = 0.01  #: prominence of a load peak over the largest force, as in figure 9
 _TWO_PEAKS, _ONE_PEAK = (_STANDS_OUT, ranges.INF), (-ranges.INF, _STANDS_OUT)
@@ -93,7 +93,8 @@ def _prominences(
     name = "prominence of the lesser load peak over the largest force"
     single = mean(over_runs(lambda run: lesser_prominence(run.force), runs))
     yield found_on(scene, f"{name}, mean over realisations", single, claimed, **more)
-    common = prominence_of_mean(common_curve(runs).friction)
+    _, curves = cut(runs, [friction(run) for run in runs])
+    common = prominence_of_mean(curves)
     yield found_on(scene, f"{name}, of the mean force", common, claimed, **more)
 
 
