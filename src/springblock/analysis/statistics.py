@@ -21,6 +21,8 @@ from springblock.model.pattern import Pattern
 from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
+_RESAMPLES = 2000
+_SUBSETS = 30  #: over which the width of an interval is averaged
 #: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
 _LOAD_PEAK = 0.9
 _PROMINENT = 0.01  #: prominence of a load peak over the largest force, at least
@@ -75,7 +77,7 @@ def difference_interval(first: ArrayLike, second: ArrayLike) -> Interval:
 def samples_interval(
     samples: Sequence[ArrayLike],
     statistic: Callable[..., Array],
-    resamples: int = 2000,
+    resamples: int = _RESAMPLES,
     batch: int | None = None,
 ) -> Interval:
     """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
@@ -92,16 +94,6 @@ def samples_interval(
     with _degenerate_allowed():
         found = bootstrap(samples, statistic, method="BCa", **options)
     return _or_percentiles(np.asarray(statistic(*samples, axis=-1)), found)
-
-
-def position_interval(sample: ArrayLike, zero: ArrayLike, one: ArrayLike) -> Interval:
-    """Where the mean of a sample lies from that of `zero`, 0, to that of `one`, 1; BCa."""
-
-    def place(*samples: Array, axis: int) -> Array:
-        middle, start, end = (part.mean(axis=axis) for part in samples)
-        return (middle - start) / (end - start)
-
-    return samples_interval([sample, zero, one], place)
 
 
 @contextmanager
@@ -133,16 +125,16 @@ def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
     return Interval(np.array(hits / k), np.array(low), np.array(high))
 
 
-def bootstrap_weights(k: int, seed: int = 0, resamples: int = 2000) -> Array:
+def bootstrap_weights(k: int) -> Array:
     """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1.
 
     Resamples of one realisation alone are left out: they have no variance.
     """
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
+    drawn = np.random.default_rng(0).multinomial(k, np.full(k, 1.0 / k), size=_RESAMPLES)
     return drawn[drawn.max(axis=1) < k] / k
 
 
-def bootstrap_interval(statistic: Callable[[Array], Array], k: int, seed: int = 0) -> Interval:
+def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     """Any statistic of k realisations with its 95 % BCa interval, (...).
 
     `statistic` turns sets of weights of the realisations, (b, k), each of sum 1, into values,
@@ -160,7 +152,7 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int, seed: int = 
     value = statistic(np.full((1, k), 1.0 / k))[0]
     if k < 3:
         return Interval(value, np.full(value.shape, np.nan), np.full(value.shape, np.nan))
-    resampled = statistic(bootstrap_weights(k, seed))
+    resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
     options: dict[str, Any] = {"vectorized": True, "n_resamples": 0, "bootstrap_result": given}
     with _degenerate_allowed():
@@ -173,19 +165,17 @@ def _weights_of(drawn: NDArray[np.intp], k: int) -> Array:
     return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
 
 
-def half_widths(
-    values: Array, sizes: Iterable[int], subsets: int = 30, seed: int = 0
-) -> dict[int, float]:
+def half_widths(values: Array, sizes: Iterable[int]) -> dict[int, float]:
     """Half the width of the interval of a mean over fewer of the k realisations, (k,), by number.
 
     Means over random subsets; numbers beyond k are left out.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     widths: dict[int, float] = {}
     for size in sizes:
         if size > len(values):
             break
-        drawn = [rng.permutation(values)[:size] for _ in range(subsets)]
+        drawn = [rng.permutation(values)[:size] for _ in range(_SUBSETS)]
         _, low, high = mean_interval(np.stack(drawn, axis=1))
         widths[size] = float(np.mean(high - low)) / 2.0
     return widths

@@ -52,9 +52,9 @@ class Clusters(NamedTuple):
     ratio_mixed: Interval  #: observed over mixed
 
 
-def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
+def clusters(runs: Sequence[Record]) -> Clusters:
     """Sizes of clusters of precursors, and of what chance would make of them."""
-    rng, contact = np.random.default_rng(seed), runs[0].scene.contact
+    rng, contact = np.random.default_rng(0), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
     observed = np.array([mean_size(mask) for mask in masks])
     anywhere = np.array(

@@ -13,8 +13,8 @@ from springblock.analysis.estimate import UNKNOWN, Estimate, Proportion
 from springblock.analysis.statistics import (
     difference_interval,
     mean_interval,
-    position_interval,
     proportion_interval,
+    samples_interval,
 )
 from springblock.claims import ranges
 from springblock.claims.rule import Evidence, Finding, Range, describe
@@ -126,7 +126,7 @@ def compared(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
-    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1.
+    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; BCa.
 
     The interval is NaN where those of `zero` and `one` cannot be told apart.
     """
@@ -134,7 +134,12 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
     scale, fewest = difference(one, zero), min(map(len, samples))
     if fewest < 2 or scale.ci_low <= 0.0 <= scale.ci_high:
         return UNKNOWN
-    return Estimate.of(position_interval(*samples), fewest)
+
+    def relative_place(*parts: Array, axis: int) -> Array:
+        middle, start, end = (part.mean(axis=axis) for part in parts)
+        return (middle - start) / (end - start)
+
+    return Estimate.of(samples_interval(samples, relative_place), fewest)
 
 
 def found_on(
