@@ -4,16 +4,7 @@ Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the p
 words ("similar", "uniform", "the same"), the claimed range says how close is close enough.
 """
 
-from springblock.claims import (
-    flat,
-    grooves,
-    lengths,
-    loading,
-    pillars,
-    sides,
-    sizes,
-    stress,
-)
+from springblock.claims import flat, grooves, lengths, loading, pillars, sides, sizes, stress
 from springblock.claims.rule import Claim
 
 _CHAPTERS = (loading, stress, flat, pillars, sizes, sides, grooves, lengths)

@@ -52,8 +52,9 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
     for claim in claims:
         findings = list(claim.test(evidence))
         judged, depends_on = verdict(findings)
+        missing = Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}")
         said = {"claim": claim.name, "section": claim.section, "statement": claim.statement}
-        found = zip(findings, outcomes(findings), strict=True) if findings else [_nothing(claim)]
+        found = zip(findings or [missing], outcomes(findings) or ["open"], strict=True)
         for finding, outcome in found:
             row = _row(finding, max(1, len(findings)))
             row |= {"outcome": outcome, "verdict": judged, "depends_on": depends_on}
@@ -79,7 +80,3 @@ def _row(finding: Finding, together: int) -> Row:
         "settled_by": finding.settled_by(together),
         "rests_on": finding.rests_on,
     }
-
-
-def _nothing(claim: Claim) -> tuple[Finding, str]:
-    return Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}"), "open"
