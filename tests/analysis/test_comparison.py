@@ -5,7 +5,7 @@ import pyarrow as pa
 import pytest
 from scipy.special import ndtr
 
-from springblock.analysis.comparison import apart, estimates
+from springblock.analysis.comparison import discrepancies, significant
 from springblock.model.scene import Scene
 
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
@@ -23,16 +23,16 @@ def realisations(rng, shift=0.0, k=10):
     return pa.Table.from_pylist(rows)
 
 
-def test_studies_of_one_truth_are_seldom_apart(rng):
+def test_studies_of_one_truth_are_seldom_significant(rng):
     """In 5 of 100 pairs at most, and four standard errors of that number."""
-    pairs = [estimates(realisations(rng), realisations(rng)) for _ in range(100)]
+    pairs = [discrepancies(realisations(rng), realisations(rng)) for _ in range(100)]
     assert {len(found) for found in pairs} == {15}
-    assert sum(bool(apart(found)) for found in pairs) <= 5 + 4 * np.sqrt(5 * 0.95)
+    assert sum(bool(significant(found)) for found in pairs) <= 5 + 4 * np.sqrt(5 * 0.95)
 
 
 def test_a_mean_that_is_eight_errors_off_is_named(rng):
     error = 0.1 * np.sqrt(2 / 10)
-    found = apart(estimates(realisations(rng), realisations(rng, shift=8 * error)))
+    found = significant(discrepancies(realisations(rng), realisations(rng, shift=8 * error)))
     assert [str(each).partition(":")[0] for each in found] == [
         "static_friction of n_blocks = 12, level = 1, n_p = 6, n_s = 6, direction = y, n_rows = 12"
     ]
@@ -46,12 +46,12 @@ def test_lengths_are_compared_by_their_limits(difference, errors):
         pa.table({"side": ["x"], "l_c": [l_c], "ci_low": [l_c - half], "ci_high": [l_c + half]})
         for l_c in (3.0, 3.0 + difference)
     ]
-    (found,) = estimates(*tables)
+    (found,) = discrepancies(*tables)
     assert found.p_value == pytest.approx(2.0 * ndtr(-errors), rel=1e-5)
-    assert bool(apart([found])) == (errors > 2.0)
+    assert bool(significant([found])) == (errors > 2.0)
 
 
 def test_a_study_is_not_apart_from_itself(rng):
     table = realisations(rng)
-    assert len(estimates(table, table)) == 15
-    assert not apart(estimates(table, table))
+    assert len(discrepancies(table, table)) == 15
+    assert not significant(discrepancies(table, table))

@@ -11,7 +11,7 @@ from springblock.analysis.statistics import (
     bootstrap_interval,
     bootstrap_weights,
     cluster_sizes,
-    common_curve,
+    cut,
     difference_interval,
     half_widths,
     lesser_prominence,
@@ -20,12 +20,13 @@ from springblock.analysis.statistics import (
     mean_of_rest,
     pillar_map,
     pillar_ring,
+    proportion_interval,
     repeatability,
-    share_interval,
     standard_error,
     students_t,
     whole_curve,
 )
+from springblock.simulation.run import friction
 
 
 def run(samples=21, normal_force=2.0, **more):
@@ -107,8 +108,8 @@ def test_surfaces_are_compared_as_independent_samples(rng):
 
 def test_the_interval_of_a_share_is_exact():
     """All of 20: a share of 0.025^(1/20) would still show as many once in forty times."""
-    assert tuple(share_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
-    share, low, high = share_interval(6, 20)
+    assert tuple(proportion_interval(20, 20)) == pytest.approx((1.0, 0.025 ** (1.0 / 20.0), 1.0))
+    share, low, high = proportion_interval(6, 20)
     assert share == 0.3
     assert low + high == pytest.approx(0.119 + 0.543, abs=2e-3)  # tables of Clopper and Pearson
 
@@ -129,19 +130,19 @@ def test_a_single_realisation_has_no_interval():
     assert np.isinf(standard_error(np.ones((1, 2)))).all()
 
 
-def test_curves_end_with_the_shortest_run():
-    curve = common_curve([run(21), run(12, normal_force=4.0)])
-    np.testing.assert_array_equal(curve.time, 0.5 * np.arange(12))
-    np.testing.assert_allclose(curve.friction, np.arange(12) / np.array([[2.0], [4.0]]))
-    assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+def test_curves_are_cut_to_the_shortest_run():
+    runs = [run(21), run(12, normal_force=4.0)]
+    time, forces = cut(runs, [friction(each) for each in runs])
+    np.testing.assert_array_equal(time, 0.5 * np.arange(12))
+    np.testing.assert_allclose(forces, np.arange(12) / np.array([[2.0], [4.0]]))
 
 
 def test_a_whole_curve_ends_with_the_longest_run():
     """A run that has ended has no force, and no block is left that could detach."""
     runs = [run(21), run(12, normal_force=4.0)]
-    curve, common = whole_curve(runs), common_curve(runs)
+    curve = whole_curve(runs)
     np.testing.assert_array_equal(curve.time, runs[0].time)
-    np.testing.assert_array_equal(curve.friction[:, :12], common.friction)
+    np.testing.assert_allclose(curve.friction[:, :12], np.arange(12) / np.array([[2.0], [4.0]]))
     assert np.isfinite(curve.friction[0]).all()
     assert np.isnan(curve.friction[1, 12:]).all()
     assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
@@ -167,10 +168,10 @@ def test_the_lesser_peak_is_measured_from_the_valley():
 
 
 def test_bins_hold_whole_samples_and_every_detachment_once():
-    edges, shares = common_curve([run(12)]).binned(1.5)
+    edges, shares = whole_curve([run(12)]).binned(1.5)
     np.testing.assert_allclose(edges, [0.0, 1.5, 3.0, 4.5])  # two samples are left out
     np.testing.assert_allclose(shares, [[75.0, 25.0, 0.0]])
-    edges, shares = common_curve([run(12)]).binned(0.1)  # finer than the samples
+    edges, shares = whole_curve([run(12)]).binned(0.1)  # finer than the samples
     np.testing.assert_allclose(edges, 0.5 * np.arange(12))
     assert shares.sum() == 100.0
 

@@ -9,14 +9,12 @@ from springblock.beyond.lattice import (
     QUESTION,
     Layer,
     evenly_disordered,
-    exponents,
     fits,
     layers,
-    length_exponents,
     minimum_exponents,
     refined,
 )
-from springblock.beyond.resampling import area, means
+from springblock.beyond.resampling import area, exponents, length_exponents, means
 from springblock.model.scene import Scene
 
 LAWS = {
@@ -47,18 +45,20 @@ def close(interval, expected, within):
 def test_lengths_without_scatter_have_exact_exponents(name):
     length, expected = LAWS[name]
     places = [Layer(*map(float, at)) for at in PLACES]
-    samples = [[np.full(3, length(*at))] for at in places]
+    samples = [np.full(3, length(*at)) for at in places]
     found = exponents(rates(places), samples, lambda *drawn, axis: means(drawn, axis))
     np.testing.assert_allclose([each.mean for each in found], expected, atol=1e-12)
 
 
-@pytest.mark.parametrize(("name", "estimate"), [("lattice", fit_tail), ("layer", area)])
-def test_the_exponents_of_l_c_are_found_again(name, estimate):
+@pytest.mark.parametrize(("name", "fit"), [("lattice", fit_tail), ("layer", area)])
+def test_the_exponents_of_l_c_are_found_again(name, fit):
     """Where lengths are a block or more, and the range holds three of them."""
     length, expected = LAWS[name]
-    made = surfaces(lambda *at: 0.6 * length(*at), runs=40 if estimate is fit_tail else 120)
-    fitted = {at: fits(sizes, estimate)[SIZES[-1]] for at, sizes in refined(made).items()}
-    for found, exponent in zip(length_exponents(rates(fitted), fitted), expected, strict=True):
+    made = surfaces(lambda *at: 0.6 * length(*at), runs=40 if fit is fit_tail else 120)
+    fitted = {at: fits(sizes, fit)[SIZES[-1]] for at, sizes in refined(made).items()}
+    spacings = [at.spacing for at in fitted]
+    exponents_found = length_exponents(fitted.values(), rates(fitted), spacings)
+    for found, exponent in zip(exponents_found, expected, strict=True):
         close(found, exponent, 0.3)
 
 

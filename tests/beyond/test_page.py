@@ -15,10 +15,6 @@ def test_questions_without_realisations_say_what_they_need():
     assert all(f"## {i}. {each.title}\n" in text for i, each in enumerate(QUESTIONS, 1))
 
 
-def test_lines_fit_a_screen_but_for_tables_and_answers():
-    assert all(len(line) <= 100 for line in page(QUESTIONS, {}).splitlines())
-
-
 @pytest.mark.parametrize("surfaces", [friction.friction_map, lattice.layers, scatter.by_scatter])
 def test_grooves_without_pillars_are_no_pillars(surfaces):
     grooved = Scene(120, n_p2=8, n_s2=2)

@@ -7,14 +7,8 @@ from beyond.made_up import ensemble
 from springblock.analysis.correlation import side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import number, power
-from springblock.beyond.resampling import SideLength, difference, interval, lowest, means, slopes
+from springblock.beyond.resampling import SideLength, difference, interval, lowest, means
 from springblock.model.scene import Scene
-
-
-def test_exponents_of_a_power_law_are_exact():
-    places = np.array([(1.0, 1.0), (2.0, 1.0), (4.0, 3.0), (1.0, 5.0)])
-    values = 7.0 * places[:, 0] ** 0.5 * places[:, 1] ** -2.0
-    np.testing.assert_allclose(slopes(np.log(places)) @ np.log(values), (0.5, -2.0))
 
 
 def test_the_lowest_point_of_a_parabola_lies_between_the_places():

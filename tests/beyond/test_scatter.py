@@ -63,11 +63,7 @@ def along_grooves(lengths):
     """Grooved pillars whose times are correlated as far as given, by sliding direction."""
     found = {}
     for direction, length in lengths.items():
-        scene = (
-            Scene(60, 28, 32, 5, 2, direction=direction)
-            if False
-            else Scene(60, 28, 32, 8, 2, direction=direction)
-        )
+        scene = Scene(60, 28, 32, 8, 2, direction=direction)
         found[scene] = ensemble(scene, length=length, runs=30)
     return found
 

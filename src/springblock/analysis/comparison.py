@@ -93,8 +93,8 @@ def _values(value: pa.Scalar) -> object:
     return value.values.to_numpy(zero_copy_only=False) if is_list else value.as_py()
 
 
-class Estimate(NamedTuple):
-    """A value that two studies have found, and how far apart it would lie by chance."""
+class Discrepancy(NamedTuple):
+    """A value that two studies have found, and how often chance alone would set it so far apart."""
 
     name: str
     first: float
@@ -105,7 +105,7 @@ class Estimate(NamedTuple):
         return f"{self.name}: {self.first:.5g} and {self.second:.5g}, p = {self.p_value:.1e}"
 
 
-def estimates(first: pa.Table, second: pa.Table) -> list[Estimate]:
+def discrepancies(first: pa.Table, second: pa.Table) -> list[Discrepancy]:
     """Values of the same scene in two tables whose difference has an interval.
 
     Means of realisations are compared by Welch's test (1947, doi:10.1093/biomet/34.1-2.28),
@@ -119,12 +119,12 @@ def estimates(first: pa.Table, second: pa.Table) -> list[Estimate]:
     return list(_with_limits(first, second, value)) if value else []
 
 
-def apart(found: list[Estimate]) -> list[Estimate]:
+def significant(found: list[Discrepancy]) -> list[Discrepancy]:
     """Those that differ by more than 95 % intervals of all of them together allow (Bonferroni)."""
     return [each for each in found if each.p_value < (1.0 - _LEVEL) / len(found)]
 
 
-def _means(first: pa.Table, second: pa.Table) -> Iterator[Estimate]:
+def _means(first: pa.Table, second: pa.Table) -> Iterator[Discrepancy]:
     from scipy.stats import ttest_ind  # slow to load
 
     samples = [_by_scene(table) for table in (first, second)]
@@ -136,7 +136,7 @@ def _means(first: pa.Table, second: pa.Table) -> Iterator[Estimate]:
             if min(len(one), len(other)) > 1 and np.ptp([*one, *other]) > 0.0:
                 p_value = ttest_ind(one, other, equal_var=False).pvalue
                 what = f"{name} of {_in_words(scene)}"
-                yield Estimate(what, one.mean(), other.mean(), float(p_value))
+                yield Discrepancy(what, one.mean(), other.mean(), float(p_value))
 
 
 def _by_scene(table: pa.Table) -> dict[Key, NDArray[np.float64]]:
@@ -148,7 +148,7 @@ def _by_scene(table: pa.Table) -> dict[Key, NDArray[np.float64]]:
     return {scene: np.array(values) for scene, values in found.items()}
 
 
-def _with_limits(first: pa.Table, second: pa.Table, value: str) -> Iterator[Estimate]:
+def _with_limits(first: pa.Table, second: pa.Table, value: str) -> Iterator[Discrepancy]:
     from scipy.special import ndtr, ndtri
 
     keys = [name for name in _KEYS if name in first.column_names]
@@ -163,7 +163,7 @@ def _with_limits(first: pa.Table, second: pa.Table, value: str) -> Iterator[Esti
         error = np.hypot(*halves) / ndtri(0.5 + 0.5 * _LEVEL)
         if difference and np.isfinite(error) and error > 0.0:
             p_value = 2.0 * ndtr(-abs(difference) / error)
-            yield Estimate(f"{value} of {_in_words(key)}", one[value], other[value], p_value)
+            yield Discrepancy(f"{value} of {_in_words(key)}", one[value], other[value], p_value)
 
 
 def _in_words(key: Key) -> str:

@@ -21,8 +21,11 @@ from springblock.model.pattern import Pattern
 from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
+_RESAMPLES = 2000
+_SUBSETS = 30  #: over which the width of an interval is averaged
 #: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
 _LOAD_PEAK = 0.9
+_PROMINENT = 0.01  #: prominence of a load peak over the largest force, at least
 
 
 class Interval(NamedTuple):
@@ -71,22 +74,26 @@ def difference_interval(first: ArrayLike, second: ArrayLike) -> Interval:
     return Interval(mean, mean - half, mean + half)
 
 
-def position_interval(sample: ArrayLike, zero: ArrayLike, one: ArrayLike) -> Interval:
-    """Where the mean of a sample lies from that of `zero`, 0, to that of `one`, 1; BCa.
+def samples_interval(
+    samples: Sequence[ArrayLike],
+    statistic: Callable[..., Array],
+    resamples: int = _RESAMPLES,
+    batch: int | None = None,
+) -> Interval:
+    """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
 
-    Three independent samples, (k,), (l,) and (m,), of two realisations or more.
+    `statistic` takes samples, (..., k), and their `axis`, and returns values, (...). Every sample,
+    of two realisations or more, is resampled by itself, in batches that decide what is drawn.
+    Limits are percentiles where no realisation alone changes anything.
     """
     from scipy.stats import bootstrap  # slow to load, and most jobs do without
 
-    def place(*samples: Array, axis: int = -1) -> Array:
-        middle, start, end = (part.mean(axis=axis) for part in samples)
-        return (middle - start) / (end - start)
-
-    samples = tuple(np.asarray(part, dtype=float) for part in (sample, zero, one))
-    options: dict[str, Any] = {"random_state": np.random.default_rng(0), "n_resamples": 2000}
+    samples = tuple(np.asarray(part) for part in samples)
+    options: dict[str, Any] = {"random_state": np.random.default_rng(0), "vectorized": True}
+    options |= {"n_resamples": resamples, "batch": batch}
     with _degenerate_allowed():
-        found = bootstrap(samples, place, method="BCa", vectorized=True, **options)
-    return _or_percentiles(np.asarray(place(*samples)), found)
+        found = bootstrap(samples, statistic, method="BCa", **options)
+    return _or_percentiles(np.asarray(statistic(*samples, axis=-1)), found)
 
 
 @contextmanager
@@ -101,8 +108,8 @@ def _degenerate_allowed() -> Iterator[None]:
 
 def _or_percentiles(value: Array, found: Any) -> Interval:
     """A value with its BCa limits, or percentiles where these are NaN."""
-    resampled, share = found.bootstrap_distribution, 50.0 * (1.0 - _LEVEL)
-    plain = np.percentile(resampled, (share, 100.0 - share), axis=-1)
+    tail = 50.0 * (1.0 - _LEVEL)
+    plain = np.percentile(found.bootstrap_distribution, (tail, 100.0 - tail), axis=-1)
     low, high = (
         np.where(np.isnan(limit), percentile, limit)
         for limit, percentile in zip(found.confidence_interval, plain, strict=True)
@@ -110,24 +117,24 @@ def _or_percentiles(value: Array, found: Any) -> Interval:
     return Interval(value, low, high)
 
 
-def share_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
-    """Share of k realisations, with the exact interval of Clopper and Pearson 1934."""
+def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
+    """Proportion of k realisations, with the exact interval of Clopper and Pearson 1934."""
     from scipy.stats import binomtest  # slow to load, and most jobs do without
 
     low, high = binomtest(hits, k).proportion_ci(level)
     return Interval(np.array(hits / k), np.array(low), np.array(high))
 
 
-def bootstrap_weights(k: int, seed: int = 0, resamples: int = 2000) -> Array:
+def bootstrap_weights(k: int) -> Array:
     """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1.
 
     Resamples of one realisation alone are left out: they have no variance.
     """
-    drawn = np.random.default_rng(seed).multinomial(k, np.full(k, 1.0 / k), size=resamples)
+    drawn = np.random.default_rng(0).multinomial(k, np.full(k, 1.0 / k), size=_RESAMPLES)
     return drawn[drawn.max(axis=1) < k] / k
 
 
-def bootstrap_interval(statistic: Callable[[Array], Array], k: int, seed: int = 0) -> Interval:
+def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     """Any statistic of k realisations with its 95 % BCa interval, (...).
 
     `statistic` turns sets of weights of the realisations, (b, k), each of sum 1, into values,
@@ -145,7 +152,7 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int, seed: int = 
     value = statistic(np.full((1, k), 1.0 / k))[0]
     if k < 3:
         return Interval(value, np.full(value.shape, np.nan), np.full(value.shape, np.nan))
-    resampled = statistic(bootstrap_weights(k, seed))
+    resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
     options: dict[str, Any] = {"vectorized": True, "n_resamples": 0, "bootstrap_result": given}
     with _degenerate_allowed():
@@ -158,19 +165,17 @@ def _weights_of(drawn: NDArray[np.intp], k: int) -> Array:
     return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
 
 
-def half_widths(
-    values: Array, sizes: Iterable[int], subsets: int = 30, seed: int = 0
-) -> dict[int, float]:
+def half_widths(values: Array, sizes: Iterable[int]) -> dict[int, float]:
     """Half the width of the interval of a mean over fewer of the k realisations, (k,), by number.
 
     Means over random subsets; numbers beyond k are left out.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     widths: dict[int, float] = {}
     for size in sizes:
         if size > len(values):
             break
-        drawn = [rng.permutation(values)[:size] for _ in range(subsets)]
+        drawn = [rng.permutation(values)[:size] for _ in range(_SUBSETS)]
         _, low, high = mean_interval(np.stack(drawn, axis=1))
         widths[size] = float(np.mean(high - low)) / 2.0
     return widths
@@ -185,7 +190,7 @@ def standard_error(values: Array) -> Array:
 
 
 def repeatability(fields: Array) -> Interval:
-    """Share of the variance over places that is the same in all k fields, (k, places).
+    """Fraction of the variance over places that is the same in all k fields, (k, places).
 
     It is the mean covariance of two fields over their mean variance, the means of both taken
     out: zero, but for scatter, where no place differs from another on average, and one where all
@@ -201,11 +206,11 @@ def repeatability(fields: Array) -> Interval:
     variances = np.diag(products)
     crossed = products.sum(axis=1) - variances
 
-    def share(covariance: Array, variance: Array, n: int) -> Array:
+    def ratio(covariance: Array, variance: Array, n: int) -> Array:
         return covariance / (n - 1) / variance
 
-    whole = share(crossed.sum(), variances.sum(), k)
-    without = share(crossed.sum() - 2.0 * crossed, variances.sum() - variances, k - 1)
+    whole = ratio(crossed.sum(), variances.sum(), k)
+    without = ratio(crossed.sum() - 2.0 * crossed, variances.sum() - variances, k - 1)
     half = students_t(k - 1) * np.sqrt(k - 1) * without.std()
     return Interval(whole, whole - half, whole + half)
 
@@ -243,13 +248,6 @@ class Curve:
         bins = (len(self.time) - 1) // size
         counts = self.detachments[:, 1 : bins * size + 1]
         return self.time[: bins * size + 1 : size], counts.reshape(-1, bins, size).sum(axis=2)
-
-
-def common_curve(runs: Sequence[Run]) -> Curve:
-    """Cut the force and detachment curves of an ensemble to its shortest run."""
-    time, forces = cut(runs, [friction(run) for run in runs])
-    _, shares = cut(runs, [percent(run, run.detachments) for run in runs])
-    return Curve(time, forces, shares)
 
 
 def whole_curve(runs: Sequence[Run]) -> Curve:
@@ -328,16 +326,16 @@ def cluster_sizes(blocks: NDArray[np.bool_], by_corners: bool = False) -> NDArra
     return np.bincount(places.ravel())[1:]
 
 
-def load_peaks(curve: Array, scatter: ArrayLike, share: float = 0.01) -> NDArray[np.intp]:
+def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
     """Find the peaks of a force curve, (n,), under load; their indices.
 
     A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
-    by `share` of the largest force, which keeps out the small waves of loading; and it must reach
-    `_LOAD_PEAK` of the largest force, which keeps out those of sliding. Section 3.3.
+    by `_PROMINENT` of the largest force, which keeps out the small waves of loading; and it must
+    reach `_LOAD_PEAK` of the largest force, which keeps out those of sliding. Section 3.3.
     """
     from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
 
-    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), share * curve.max())
+    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), _PROMINENT * curve.max())
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 

@@ -5,22 +5,7 @@ by scene and find the answer. The surfaces are those of Costagliola, Bosia & Pug
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from springblock.beyond import (
-    clusters,
-    friction,
-    lattice,
-    peaks,
-    scatter,
-    sliding,
-    variance,
-)
+from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
 
-QUESTIONS = (
-    lattice.QUESTION,
-    peaks.QUESTION,
-    friction.QUESTION,
-    sliding.QUESTION,
-    clusters.QUESTION,
-    scatter.QUESTION,
-    variance.QUESTION,
-)
+_MODULES = (lattice, peaks, friction, sliding, clusters, scatter, variance)
+QUESTIONS = tuple(module.QUESTION for module in _MODULES)

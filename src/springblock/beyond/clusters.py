@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.statistics import Interval, cluster_sizes, mean_interval
-from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
+from springblock.beyond.question import Ensembles, Question, is_even, number
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
@@ -52,9 +52,9 @@ class Clusters(NamedTuple):
     ratio_mixed: Interval  #: observed over mixed
 
 
-def clusters(runs: Sequence[Record], seed: int = 0) -> Clusters:
+def clusters(runs: Sequence[Record]) -> Clusters:
     """Sizes of clusters of precursors, and of what chance would make of them."""
-    rng, contact = np.random.default_rng(seed), runs[0].scene.contact
+    rng, contact = np.random.default_rng(0), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
     observed = np.array([mean_size(mask) for mask in masks])
     anywhere = np.array(
@@ -83,8 +83,7 @@ def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
 def _is_one(scene: Scene) -> bool:
     if scene.varied or scene.direction not in ("x", "y"):
         return False
-    pillars = has_pillars_alone(scene) and scene.n_p == scene.n_s
-    return not scene.level or pillars or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
+    return not scene.level or is_even(scene) or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
 
 
 def _answers(ensembles: Ensembles) -> Iterator[str]:

@@ -72,16 +72,16 @@ def designs(pillars: Sequence[Pillars]) -> dict[str, Array]:
 
 
 def explained(found: Map) -> dict[str, Interval]:
-    """Share of the variance of mean static friction over the map that each model explains."""
+    """Fraction of the variance of mean static friction over the map that each model explains."""
     shares = {}
     for name, design in designs(list(found)).items():
         left = np.eye(len(design)) - design @ np.linalg.pinv(design)
 
-        def share(*drawn: Array, axis: int, left: Array = left) -> Array:
+        def fraction(*drawn: Array, axis: int, left: Array = left) -> Array:
             values = means(drawn, axis)
             return 1.0 - ((values @ left) ** 2).mean(axis=-1) / values.var(axis=-1)
 
-        shares[name] = interval(list(found.values()), share)
+        shares[name] = interval(list(found.values()), fraction)
     return shares
 
 
@@ -114,11 +114,10 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
 
 
 def _cells(kind: Fraction, sizes: Mapping[int, Array]) -> list[str]:
-    share = 1.0 / float(1 + kind) ** 2
+    contact = 1.0 / float(1 + kind) ** 2
     lowest = min(sizes.values(), key=lambda values: float(values.mean()))
-    place = lowest_place(np.array(list(sizes)), list(sizes.values()))
-    counted = f"{min(sizes)} to {max(sizes)}"
-    return [str(kind), f"{share:.1%}", counted, number(place), number(mean_interval(lowest))]
+    place, friction = number(lowest_place(sizes)), number(mean_interval(lowest))
+    return [str(kind), f"{contact:.1%}", f"{min(sizes)} to {max(sizes)}", place, friction]
 
 
 QUESTION = Question(

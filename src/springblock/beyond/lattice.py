@@ -1,7 +1,6 @@
 """Lattice or layer: what sets the lengths that the paper finds?"""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from functools import partial
 from statistics import mode
 from typing import NamedTuple
 
@@ -10,23 +9,21 @@ import numpy as np
 from springblock.analysis.correlation import fit_tail, side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number, power
+from springblock.beyond.question import Ensembles, Question, is_even, number, power
 from springblock.beyond.resampling import (
     FEWEST,
-    Estimate,
+    LengthFit,
     Sample,
     SideLength,
-    Statistic,
     area,
-    interval,
+    exponents,
+    length_exponents,
     lowest,
     lowest_place,
     means,
-    slopes,
 )
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
 MICRO = 1e6  #: µm per m
@@ -50,7 +47,7 @@ def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
     """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer."""
     found: dict[float, dict[Layer, dict[float, Sequence[Record]]]] = {}
     for scene, runs in ensembles.items():
-        if not _is_one(scene):
+        if not is_even(scene, _VARIED):
             continue
         material = runs[0].material
         spacing, thickness = (
@@ -61,11 +58,6 @@ def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
         side.setdefault(at, {})[scene.n_p * spacing] = runs
     most = max(found.values(), key=len, default={})
     return {at: dict(sorted(most[at].items())) for at in sorted(most)}
-
-
-def _is_one(scene: Scene) -> bool:
-    alike = has_pillars_alone(scene) and scene.n_p == scene.n_s
-    return alike and set(dict(scene.varied)) <= _VARIED
 
 
 def usual(surfaces: Surfaces) -> Layer:
@@ -90,43 +82,15 @@ def evenly_disordered(surfaces: Surfaces) -> dict[Layer, Sizes]:
     }
 
 
-def fits(sizes: Sizes, estimate: Estimate = fit_tail) -> dict[float, SideLength]:
+def fits(sizes: Sizes, fit: LengthFit = fit_tail) -> dict[float, SideLength]:
     """l_c on pillars that are long enough, by their size in µm: from r = 1 to a third of a side."""
     found = {}
     for size, runs in sizes.items():
         scene = runs[0].scene
         if "x" in scene.sides and scene.n_p // 3 >= _SHORTEST and len(runs) >= FEWEST:
             times = side_times(runs, scene.pattern, "x")
-            found[size] = SideLength(times, scene.n_p // 3, estimate)
+            found[size] = SideLength(times, scene.n_p // 3, fit)
     return found
-
-
-Samples = Sequence[Sequence[Sample]]  #: one after another, of each surface together
-
-
-def exponents(rates: Array, samples: Samples, lengths: Statistic) -> list[Interval]:
-    """Exponents of a length that goes with powers of what varies, of which `rates` are logarithms.
-
-    `rates` are (surfaces, exponents). `lengths` takes all samples and returns (..., surfaces).
-    """
-    matrix = slopes(rates)
-    flat = [sample for group in samples for sample in group]
-
-    def exponent(*drawn: Sample, axis: int, row: int) -> Array:
-        return np.log(lengths(*drawn, axis=axis)) @ matrix[row]
-
-    return [interval(flat, partial(exponent, row=row)) for row in range(len(matrix))]
-
-
-def length_exponents(rates: Array, fitted: Mapping[Layer, SideLength]) -> list[Interval]:
-    """Exponents of a correlation length in metres."""
-    found, spacings = list(fitted.values()), [layer.spacing for layer in fitted]
-
-    def lengths(*drawn: Sample, axis: int) -> Array:
-        each = [fit(numbers) for fit, numbers in zip(found, drawn, strict=True)]
-        return np.stack(each, axis=-1) * spacings
-
-    return exponents(rates, [[fit.realisations] for fit in found], lengths)
 
 
 def minimum_exponents(rates: Array, surfaces: Surfaces) -> list[Interval]:
@@ -134,8 +98,8 @@ def minimum_exponents(rates: Array, surfaces: Surfaces) -> list[Interval]:
 
     It must lie inside the sizes of each surface.
     """
-    samples = [[static_friction(runs) for runs in sizes.values()] for sizes in surfaces.values()]
-    ends = np.cumsum([len(group) for group in samples])[:-1]
+    samples = [static_friction(runs) for sizes in surfaces.values() for runs in sizes.values()]
+    ends = np.cumsum([len(sizes) for sizes in surfaces.values()])[:-1]
 
     def lengths(*drawn: Sample, axis: int) -> Array:
         parts = np.split(means(drawn, axis), ends, axis=-1)
@@ -146,17 +110,18 @@ def minimum_exponents(rates: Array, surfaces: Surfaces) -> list[Interval]:
 
 
 def _inside(sizes: Sizes) -> bool:
+    """Whether static friction is lowest on neither the smallest nor the largest pillars."""
     at = int(np.argmin([static_friction(runs).mean() for runs in sizes.values()]))
     return 0 < at < len(sizes) - 1
 
 
 def minimum(sizes: Sizes) -> Interval:
     """Size of the pillars with the lowest static friction, µm, with its 95 % interval."""
-    return lowest_place(np.array(list(sizes)), [static_friction(runs) for runs in sizes.values()])
+    return lowest_place({size: static_friction(runs) for size, runs in sizes.items()})
 
 
 #: Lengths along the sides of pillars, by what they are called.
-_LENGTHS: dict[str, Estimate] = {"l_c": fit_tail, "area below c(r)": area}
+_LENGTHS: dict[str, LengthFit] = {"l_c": fit_tail, "area below c(r)": area}
 _MINIMUM = "friction-minimising pillar"
 
 
@@ -178,9 +143,9 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
 def _by_name(surfaces: Surfaces) -> dict[str, dict[Layer, SideLength]]:
     """Lengths on pillars of each size that three lattices or more resolve."""
     named: dict[str, dict[Layer, SideLength]] = {}
-    for name, estimate in _LENGTHS.items():
+    for name, fit in _LENGTHS.items():
         for at, sizes in surfaces.items():
-            for size, length in fits(sizes, estimate).items():
+            for size, length in fits(sizes, fit).items():
                 named.setdefault(f"{name} on pillars of {size:g} µm", {})[at] = length
     return {name: found for name, found in named.items() if len({a.spacing for a in found}) >= 3}
 
@@ -189,10 +154,12 @@ def _laws(
     surfaces: Surfaces, lengths: Mapping[str, Mapping[Layer, SideLength]], unknowns: int
 ) -> Iterator[str]:
     """Powers of l and l_z of each length, or of l alone at the same disorder per area."""
-    for name, found in lengths.items():
-        here = {at: length for at, length in found.items() if at in surfaces}
+    for name, fitted in lengths.items():
+        here = {at: fit for at, fit in fitted.items() if at in surfaces}
         if _suffice(here, unknowns):
-            yield _law(name, length_exponents(_rates(here, unknowns), here))
+            spacings = [at.spacing for at in here]
+            found = length_exponents(here.values(), _rates(here, unknowns), spacings)
+            yield _law(name, found)
     inside = {at: sizes for at, sizes in surfaces.items() if _inside(sizes)}
     if _suffice(inside, unknowns):
         yield _law(_MINIMUM, minimum_exponents(_rates(inside, unknowns), inside))

@@ -1,6 +1,6 @@
 """What a question is, and how its numbers are written."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,6 +39,12 @@ def by_scene(records: Sequence[Record]) -> dict[Scene, list[Record]]:
 def has_pillars_alone(scene: Scene) -> bool:
     """Whether it has pillars without grooves, and slides along x."""
     return scene.lengths.keys() == {"n_p", "n_s"} and scene.direction == "x"
+
+
+def is_even(scene: Scene, varied: Collection[str] = ()) -> bool:
+    """Whether it has pillars alone, as far apart as wide, and no other constants of its own."""
+    own = {name for name, _ in scene.varied}
+    return has_pillars_alone(scene) and scene.n_p == scene.n_s and own <= {*varied}
 
 
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:

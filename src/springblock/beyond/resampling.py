@@ -4,20 +4,20 @@ Bias-corrected and accelerated bootstrap over realisations (BCa; Efron & Tibshir
 doi:10.1201/9780429246593, chapter 14). Ensembles are independent of each other.
 """
 
-import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.correlation import Correlation, fit_tail
-from springblock.analysis.statistics import Interval, bootstrap_weights
+from springblock.analysis.statistics import Interval, bootstrap_weights, samples_interval
 from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
 Statistic = Callable[..., Array]  #: of samples, (..., k) each, and their axis: (...)
-Estimate = Callable[[Array, Array], Array]
+LengthFit = Callable[[Array, Array], Array]  #: from c(r), (b, r), and its errors, (r,), to (b,)
 _RESAMPLES = 1000
 #: Realisations that a correlation needs here: no resample of so many is one of them alone.
 FEWEST = 10
@@ -27,23 +27,11 @@ _NONE = 0.1  #: blocks, stands for no correlation
 def interval(samples: Sequence[Sample], statistic: Statistic) -> Interval:
     """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
 
-    Limits are percentiles where no realisation alone changes anything, and NaN where a sample
-    has fewer than three.
+    Limits are NaN where a sample has fewer than three realisations.
     """
-    from scipy.stats import DegenerateDataWarning, bootstrap  # slow to load
-
-    value = np.asarray(statistic(*samples, axis=-1))
     if min(len(sample) for sample in samples) < 3:
-        return Interval(value, np.array(np.nan), np.array(np.nan))
-    options: dict[str, Any] = {"n_resamples": _RESAMPLES, "vectorized": True}
-    options |= {"random_state": np.random.default_rng(0), "batch": 100}
-    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
-        warnings.simplefilter("ignore", DegenerateDataWarning)
-        found = bootstrap(tuple(samples), statistic, method="BCa", **options)
-    low, high = found.confidence_interval
-    if np.isnan([low, high]).any():
-        low, high = np.percentile(found.bootstrap_distribution, (2.5, 97.5))
-    return Interval(value, np.array(low), np.array(high))
+        return Interval(np.asarray(statistic(*samples, axis=-1)), *np.full(2, np.nan))
+    return samples_interval(samples, statistic, _RESAMPLES, batch=100)
 
 
 def difference(first: Array, second: Array) -> Interval:
@@ -59,6 +47,18 @@ def slopes(rates: Array) -> Array:
     """
     design = np.column_stack([np.ones(len(rates)), rates])
     return np.linalg.pinv(design)[1:]
+
+
+def exponents(rates: Array, samples: Sequence[Sample], values: Statistic) -> list[Interval]:
+    """Exponents of values that go with powers of what varies, of which `rates` are logarithms.
+
+    `rates` are (places, exponents). `values` takes all samples and returns (..., places).
+    """
+
+    def exponent(*drawn: Sample, axis: int, slope: Array) -> Array:
+        return np.log(values(*drawn, axis=axis)) @ slope
+
+    return [interval(samples, partial(exponent, slope=slope)) for slope in slopes(rates)]
 
 
 def lowest(places: Array, heights: Array) -> Array:
@@ -88,9 +88,10 @@ def means(samples: Sequence[Array], axis: int) -> Array:
     return np.stack([sample.mean(axis=axis) for sample in samples], axis=-1)
 
 
-def lowest_place(places: Array, samples: Sequence[Array]) -> Interval:
-    """Where the means of samples at these places are lowest, with its 95 % interval."""
-    return interval(samples, lambda *each, axis: lowest(places, means(each, axis)))
+def lowest_place(samples: Mapping[Any, Array]) -> Interval:
+    """Where the means of samples, by their places, are lowest, with its 95 % interval."""
+    places = np.array(list(samples))
+    return interval([*samples.values()], lambda *each, axis: lowest(places, means(each, axis)))
 
 
 def area(curve: Array, error: Array) -> Array:
@@ -105,13 +106,13 @@ class SideLength:
     """Correlation length along sides in one ensemble, from r = 1 to `last`, in blocks.
 
     Called with numbers of realisations, as a bootstrap draws them, (..., k), it returns lengths,
-    (...). `estimate` takes c(r), (b, r), and its errors, (r,), which stay those of all
-    realisations. `times` are those of `springblock.analysis.correlation.side_times`.
+    (...). The errors that `fit` takes stay those of all realisations. `times` are those of
+    `springblock.analysis.correlation.side_times`.
     """
 
-    def __init__(self, times: Array, last: int, estimate: Estimate = fit_tail) -> None:
+    def __init__(self, times: Array, last: int, fit: LengthFit = fit_tail) -> None:
         self.realisations = np.arange(len(times))
-        self._found, self._last, self._estimate = Correlation(times), last, estimate
+        self._found, self._last, self._fit = Correlation(times), last, fit
         self._error = self._curve(bootstrap_weights(len(times))).std(axis=0)
 
     def _curve(self, weights: Array) -> Array:
@@ -121,10 +122,23 @@ class SideLength:
         k = len(self.realisations)
         draws, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
         weights = np.stack([np.bincount(numbers, minlength=k) for numbers in draws])
-        lengths = self._estimate(self._curve(weights / draws.shape[1]), self._error)
+        lengths = self._fit(self._curve(weights / draws.shape[1]), self._error)
         return lengths[which].reshape(drawn.shape[:-1])
 
     @property
     def interval(self) -> Interval:
         """The length with its 95 % interval, blocks."""
         return interval([self.realisations], lambda drawn, axis: self(drawn))
+
+
+def length_exponents(
+    fits: Iterable[SideLength], rates: Array, units: Sequence[float]
+) -> list[Interval]:
+    """Exponents of correlation lengths in units, each of another ensemble."""
+    found = list(fits)
+
+    def lengths(*drawn: Sample, axis: int) -> Array:
+        each = [fit(numbers) for fit, numbers in zip(found, drawn, strict=True)]
+        return np.stack(each, axis=-1) * np.array(units)
+
+    return exponents(rates, [fit.realisations for fit in found], lengths)

@@ -7,12 +7,15 @@ import numpy as np
 from springblock.analysis.correlation import side_times
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
-from springblock.beyond.resampling import FEWEST, Sample, SideLength, interval, lowest_place, slopes
+from springblock.beyond.question import Ensembles, Question, is_even, number
+from springblock.beyond.resampling import (
+    FEWEST,
+    SideLength,
+    length_exponents,
+    lowest_place,
+)
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.model.scene import Scene
-from springblock.simulation.run import Array
 
 _SHORTEST = 9  #: n_p from which on three distances can be fitted
 LAST = 6  #: blocks, the end of all fits here, or a third of shorter sides
@@ -24,16 +27,11 @@ def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
     """Pillars by the standard deviation of their static coefficients, and by n_p."""
     found: dict[int, dict[float, dict[int, Sequence[Record]]]] = {}
     for scene, runs in ensembles.items():
-        if _is_one(scene) and len(runs) >= FEWEST:
+        if is_even(scene, ["mu_static_std"]) and len(runs) >= FEWEST:
             at = found.setdefault(scene.n_blocks, {})
             at.setdefault(runs[0].material.mu_static_std, {})[scene.n_p] = runs
     scatters = max(found.values(), key=len, default={})
     return {std: dict(sorted(scatters[std].items())) for std in sorted(scatters)}
-
-
-def _is_one(scene: Scene) -> bool:
-    alike = has_pillars_alone(scene) and scene.n_p == scene.n_s
-    return alike and set(dict(scene.varied)) <= {"mu_static_std"}
 
 
 def shared(scatters: Mapping[float, Sizes]) -> dict[float, Sizes]:
@@ -62,13 +60,8 @@ def fits(scatters: Mapping[float, Sizes], n_p: int) -> dict[float, SideLength]:
 
 def exponent(fitted: Mapping[float, SideLength]) -> Interval:
     """Exponent of l_c over the standard deviation."""
-    (row,) = slopes(np.log(np.array(list(fitted)))[:, None])
-
-    def slope(*drawn: Sample, axis: int) -> Array:
-        each = [fit(numbers) for fit, numbers in zip(fitted.values(), drawn, strict=True)]
-        return np.log(np.stack(each, axis=-1)) @ row
-
-    return interval([fit.realisations for fit in fitted.values()], slope)
+    (found,) = length_exponents(fitted.values(), np.log(list(fitted))[:, None], [1.0] * len(fitted))
+    return found
 
 
 def _answers(ensembles: Ensembles) -> Iterator[str]:
@@ -89,9 +82,9 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
     for std, sizes_here in scatters.items():
         samples = {n_p: static_friction(runs) for n_p, runs in sizes_here.items()}
         lowest = min(samples.values(), key=lambda values: float(values.mean()))
-        place = lowest_place(np.array(list(samples)), list(samples.values()))
+        place = number(lowest_place(samples))
         found = [number(lengths[n_p][std].interval) for n_p in sizes]
-        lines.append([f"{std:g}", *found, number(place), number(mean_interval(lowest))])
+        lines.append([f"{std:g}", *found, place, number(mean_interval(lowest))])
     yield markdown_table(header, lines)
 
 

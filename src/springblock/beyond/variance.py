@@ -7,7 +7,7 @@ import numpy as np
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
-from springblock.beyond.resampling import interval, slopes
+from springblock.beyond.resampling import exponents, interval
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
@@ -33,13 +33,12 @@ def variance(values: Array) -> Interval:
 
 def exponent(sizes: Mapping[int, Array]) -> Interval:
     """x in a variance that goes with n^-x, n = N² blocks, with its 95 % interval."""
-    (row,) = -slopes(2.0 * np.log(np.array(list(sizes)))[:, None])
 
-    def slope(*drawn: Array, axis: int) -> Array:
-        variances = [values.var(axis=axis, ddof=1) for values in drawn]
-        return np.log(np.stack(variances, axis=-1)) @ row
+    def variances(*drawn: Array, axis: int) -> Array:
+        return np.stack([values.var(axis=axis, ddof=1) for values in drawn], axis=-1)
 
-    return interval(list(sizes.values()), slope)
+    (found,) = exponents(-2.0 * np.log(list(sizes))[:, None], list(sizes.values()), variances)
+    return found
 
 
 def name(pattern: Pattern) -> str:

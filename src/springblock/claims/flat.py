@@ -1,28 +1,25 @@
 """Flat surfaces: isolated precursors anywhere, then the front (section 3.1 of the paper)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import bootstrap_interval, repeatability
-from springblock.claims.rule import Claim, Estimate, Evidence, Finding, Range
+from springblock.claims import ranges
+from springblock.claims.ranges import INF, within
+from springblock.claims.rule import Evidence, Finding, Range, claim
 from springblock.claims.samples import (
-    ALIKE,
-    COMPARABLE,
-    INF,
-    MOST,
-    NEARLY_ALL,
-    NEGATIVE,
-    NEGLIGIBLE,
-    POSITIVE,
+    Quantity,
     before_peak,
     first_patch,
-    in_files,
+    found_on,
     in_table,
     isolated,
     mean,
+    means_of_runs,
     neighbours,
     over_rows,
     over_runs,
@@ -44,13 +41,12 @@ _BURST = 0.02  #: of t_max, over which detachments are counted
 _FLAT = "realisations of the flat surface"
 
 
-def lonely(run: Run) -> float:
-    """Share of the blocks detaching before 0.9 t_max around which no other has by t_max.
-
-    None of these has started a front by itself in a tenth of t_max.
-    """
-    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_max), axis=0)
-    return share_of(alone, run.t_det < _EARLY * run.t_max)
+def _means(
+    evidence: Evidence, statistic: str, quantity: Quantity, claimed: Range, unit: str = "1"
+) -> Iterator[Finding]:
+    """Mean of a quantity over the realisations of each flat surface."""
+    flat = scenes_along_x(evidence.records, 0)
+    return means_of_runs(evidence, flat, statistic, quantity, claimed, unit)
 
 
 def shuffled(run: Record, until: float) -> float:
@@ -68,6 +64,29 @@ def clustering(observed: Array, chance: Array) -> Estimate:
     return Estimate.of(found, len(near))
 
 
+@claim("Isolated precursors on flat surfaces", "3.1", 3, _FLAT)
+def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """Slip precursors occur as single detachment events before the macroscopic sliding phase.
+
+    Tested: most are isolated, and those that are not are less than twice as many as by chance.
+    """
+    for scene in scenes_along_x(evidence.records, 0):
+        for until in (_EARLY, 1.0):
+            case, runs = {"t/t_max below": until}, evidence.records[scene]
+            observed = over_runs(partial(isolated, until=until), runs)
+            chance = over_runs(partial(shuffled, until=until), runs)
+            name = (
+                "share of the blocks detached by then that let go while all eight neighbours were "
+                "at rest since the start"
+            )
+            yield found_on(scene, name, mean(observed), ranges.MOST, **case, measure="share")
+            if not len(observed):
+                continue
+            name = "share of the others, over that of the same detachment times shuffled"
+            claimed, ratio = (-INF, ranges.COMPARABLE[1]), clustering(observed, chance)
+            yield found_on(scene, name, ratio, claimed, **case, measure="chance")
+
+
 def weakest(run: Record) -> float:
     """Share of the m blocks detached before t_max that are among the m weakest of the surface."""
     early = run.t_det < run.t_max
@@ -76,9 +95,58 @@ def weakest(run: Record) -> float:
     return share_of(thresholds <= bound, early)
 
 
+@claim("Precursors are the weakest blocks", "3.1", 3, _FLAT)
+def weakest_first(evidence: Evidence) -> Iterator[Finding]:
+    """Slip precursors occur corresponding to the weakest microscopic static friction thresholds.
+
+    Tested: most of them.
+    """
+    name = "share of the m blocks detached before t_max that have one of the m lowest mu_static"
+    return _means(evidence, name, weakest, ranges.MOST)
+
+
+def lonely(run: Run) -> float:
+    """Share of the blocks detaching before 0.9 t_max around which no other has by t_max.
+
+    None of these has started a front by itself in a tenth of t_max.
+    """
+    alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_max), axis=0)
+    return share_of(alone, run.t_det < _EARLY * run.t_max)
+
+
+@claim("Not every precursor starts a front", "3.1", 3, _FLAT)
+def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
+    """From these events rupture waves may nucleate; not all the precursors trigger a rupture wave
+    front.
+
+    Tested: more than a tenth of them stay alone, and less than nine tenths.
+    """
+    name = "share of the blocks detached before 0.9 t_max around which no other has by t_max"
+    return _means(evidence, name, lonely, (1.0 - 0.9, 0.9))
+
+
+@claim("t_max is the onset of propagation on flat surfaces", "3.1", 2, _FLAT)
+def onset(evidence: Evidence) -> Iterator[Finding]:
+    """The time instant t_max corresponds to the onset of propagation.
+
+    Tested: less than a tenth of the surface has detached before.
+    """
+    name = "share of the blocks detached before t_max"
+    return _means(evidence, name, before_peak, ranges.NEGLIGIBLE)
+
+
 def avalanche_lag(run: Run) -> float:
     """Time of the most detachments minus t_max, s."""
     return float(run.time[np.argmax(rates(run, _BURST * run.t_max))]) - run.t_max
+
+
+@claim("The main avalanche follows t_max on flat surfaces", "3.1", 2, _FLAT)
+def avalanche_follows(evidence: Evidence) -> Iterator[Finding]:
+    """After t_max there is the main sliding avalanche, highlighted by the peak of the number of
+    detachments.
+    """
+    name = "time of the most detachments, within 2 % of t_max, minus t_max"
+    return _means(evidence, name, avalanche_lag, ranges.POSITIVE, "s")
 
 
 def rate_at_peak(run: Run) -> float:
@@ -87,188 +155,49 @@ def rate_at_peak(run: Run) -> float:
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
 
-def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Precursors come one by one, and hardly less so than by chance."""
-    for scene in scenes_along_x(evidence.records, 0):
-        for until in (_EARLY, 1.0):
-            case = {"N": scene.n_blocks, "t/t_max below": until}
-            runs = evidence.records[scene]
-            shares = over_runs(partial(isolated, until=until), runs)
-            chance = over_runs(partial(shuffled, until=until), runs)
-            yield Finding(
-                case | {"measure": "share"},
-                "share of the blocks detached by then that let go while all eight neighbours were "
-                "at rest since the start",
-                mean(shares),
-                (MOST, INF),
-                in_files(scene),
-            )
-            both = sorted(shares.keys() & chance.keys())
-            if not both:
-                continue
-            yield Finding(
-                case | {"measure": "chance"},
-                "share of the others, over that of the same detachment times shuffled",
-                clustering(*(np.array([s[seed] for seed in both]) for s in (shares, chance))),
-                (-INF, COMPARABLE),
-                in_files(scene),
-            )
-
-
-def _of_runs(
-    evidence: Evidence,
-    quantity: Callable[[Record], float],
-    statistic: str,
-    claimed: Range,
-    unit: str = "1",
-) -> Iterator[Finding]:
-    """Mean of a quantity of the realisations of each flat surface."""
-    for scene in scenes_along_x(evidence.records, 0):
-        sample = over_runs(quantity, evidence.records[scene])
-        yield Finding(place(scene), statistic, mean(sample), claimed, in_files(scene), unit)
-
-
-def weakest_first(evidence: Evidence) -> Iterator[Finding]:
-    """Precursors are the blocks with the lowest thresholds, which the seed tells."""
-    name = "share of the m blocks detached before t_max that have one of the m lowest mu_static"
-    return _of_runs(evidence, weakest, name, (MOST, INF))
-
-
-def not_all_nucleate(evidence: Evidence) -> Iterator[Finding]:
-    """Some early precursors stay alone until the force maximum, and some do not."""
-    name = "share of the blocks detached before 0.9 t_max around which no other has by t_max"
-    return _of_runs(evidence, lonely, name, (1.0 - NEARLY_ALL, NEARLY_ALL))
-
-
-def onset(evidence: Evidence) -> Iterator[Finding]:
-    """At t_max next to nothing has detached."""
-    name = "share of the blocks detached before t_max"
-    return _of_runs(evidence, before_peak, name, (-INF, NEGLIGIBLE))
-
-
-def avalanche_follows(evidence: Evidence) -> Iterator[Finding]:
-    """The most blocks let go after t_max."""
-    name = "time of the most detachments, within 2 % of t_max, minus t_max"
-    return _of_runs(evidence, avalanche_lag, name, POSITIVE, "s")
-
-
+@claim("Force and detachments peak apart on flat surfaces", "3.1", 2, _FLAT)
 def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
-    """At t_max the rate of detachments is below half of its largest."""
+    """The two peaks, of force and of detachments, are clearly separated.
+
+    Tested: at the one, detachments are below half of the other.
+    """
     name = "detachments within 2 % of t_max around it, over the most in such a time"
-    return _of_runs(evidence, rate_at_peak, name, (-INF, MOST))
+    return _means(evidence, name, rate_at_peak, ranges.FEWER_THAN_HALF)
 
 
+@claim("t_max < t_avg on flat surfaces", "3.1", 2, _FLAT)
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
-    """t_max < t_avg on flat surfaces."""
+    """The force maximum occurs before the average detachment time."""
     for scene in scenes_along_x(evidence.summaries, 0):
-        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
-        yield Finding(place(scene), "t_max - t_avg", mean(lag), NEGATIVE, in_table(scene), "s")
+        lag = mean(over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene]))
+        source = in_table(scene)
+        yield Finding(place(scene), "t_max - t_avg", lag, ranges.NEGATIVE, source, "s")
 
 
-def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
-    """The patch that detaches first lies as far from the edge as any."""
-    name = f"share of places nearer to the edge than the {_PATCH} x {_PATCH} blocks detaching first"
-    claimed = (MOST - _SMALL, MOST + _SMALL)
-    return _of_runs(evidence, lambda run: first_patch(run.t_det, _PATCH), name, claimed)
-
-
+@claim("Detachment times are uniform on flat surfaces", "3.2", 3, f"three {_FLAT} or more")
 def uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Place does not matter: within the core, and at the outermost blocks against the core."""
+    """In repeated simulations the spatial distribution of the initial detachment time is
+    uniform.
+    """
     for scene in scenes_along_x(evidence.records, 0):
         n = scene.n_blocks
         from_edge = np.minimum(np.arange(n), np.arange(n)[::-1])
         depth = np.minimum.outer(from_edge, from_edge)
         core = depth >= min(_CORE, n // 4)
         times = np.stack([run.t_det for run in evidence.records[scene]])
-        yield Finding(
-            {"N": n, "part": "core"},
-            "share of the variance of t_det that place explains (jackknife)",
-            Estimate.of(repeatability(times[:, core]), len(times)),
-            (-INF, ALIKE),
-            in_files(scene),
-        )
-        late = [(t[depth == 0].mean() - t[core].mean()) / t.std() for t in times]
-        yield Finding(
-            {"N": n, "part": "outermost blocks"},
-            "mean t_det minus that of the core",
-            mean(np.array(late)),
-            (-_SMALL, _SMALL),
-            in_files(scene),
-            "standard deviations of t_det",
-        )
+        by_place = Estimate.of(repeatability(times[:, core]), len(times))
+        name = "share of the variance of t_det that place explains (jackknife)"
+        yield found_on(scene, name, by_place, ranges.ALIKE, part="core")
+        late = mean([(t[depth == 0].mean() - t[core].mean()) / t.std() for t in times])
+        name, unit = "mean t_det minus that of the core", "standard deviations of t_det"
+        yield found_on(scene, name, late, within(_SMALL), unit, part="outermost blocks")
 
 
-CLAIMS = (
-    Claim(
-        "Isolated precursors on flat surfaces",
-        "3.1",
-        "Slip precursors occur as single detachment events before the macroscopic sliding phase. "
-        "Tested: most are isolated, and those that are not are less than twice as many as by "
-        "chance.",
-        _FLAT,
-        isolated_precursors,
-    ),
-    Claim(
-        "Precursors are the weakest blocks",
-        "3.1",
-        "Slip precursors occur corresponding to the weakest microscopic static friction "
-        "thresholds. Tested: most of them.",
-        _FLAT,
-        weakest_first,
-    ),
-    Claim(
-        "Not every precursor starts a front",
-        "3.1",
-        "From these events rupture waves may nucleate; not all the precursors trigger a rupture "
-        "wave front. Tested: more than a tenth of them stay alone, and less than nine tenths.",
-        _FLAT,
-        not_all_nucleate,
-    ),
-    Claim(
-        "t_max is the onset of propagation on flat surfaces",
-        "3.1",
-        "The time instant t_max corresponds to the onset of propagation. Tested: less than a tenth "
-        "of the surface has detached before.",
-        _FLAT,
-        onset,
-    ),
-    Claim(
-        "The main avalanche follows t_max on flat surfaces",
-        "3.1",
-        "After t_max there is the main sliding avalanche, highlighted by the peak of the number of "
-        "detachments.",
-        _FLAT,
-        avalanche_follows,
-    ),
-    Claim(
-        "Force and detachments peak apart on flat surfaces",
-        "3.1",
-        "The two peaks, of force and of detachments, are clearly separated. Tested: at the one, "
-        "detachments are below half of the other.",
-        _FLAT,
-        peaks_apart,
-    ),
-    Claim(
-        "t_max < t_avg on flat surfaces",
-        "3.1",
-        "The force maximum occurs before the average detachment time.",
-        _FLAT,
-        peak_before_average,
-    ),
-    Claim(
-        "Detachment times are uniform on flat surfaces",
-        "3.2",
-        "In repeated simulations the spatial distribution of the initial detachment time is "
-        "uniform.",
-        f"three {_FLAT} or more",
-        uniform,
-    ),
-    Claim(
-        "Nucleation anywhere on flat surfaces",
-        "3.2",
-        "On average, each point of the surface has the same probability of being a nucleation "
-        "point. Tested: how far from the edge the first patch of 5 x 5 blocks detaches.",
-        _FLAT,
-        nucleation_anywhere,
-    ),
-)
+@claim("Nucleation anywhere on flat surfaces", "3.2", 3, _FLAT)
+def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
+    """On average, each point of the surface has the same probability of being a nucleation point.
+
+    Tested: how far from the edge the first patch of 5 x 5 blocks detaches.
+    """
+    name = f"share of places nearer to the edge than the {_PATCH} x {_PATCH} blocks detaching first"
+    return _means(evidence, name, lambda run: first_patch(run.t_det, _PATCH), within(_SMALL, 0.5))

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Sequence
 from itertools import groupby
+from pathlib import Path
 
-from springblock.claims.untested import UNTESTED
 from springblock.io.rows import Row, markdown_table
 
 _LINE = 160  #: characters of a verdict in the list of statements
@@ -19,74 +19,16 @@ _SECTIONS = {
     "5": "Conclusions",
 }
 
-_PAGE = """# What becomes of the paper's statements
-
-Written by `snakemake claims` from the table `claims`, which rests on the tables `realisations`,
-`correlation`, `correlation_length` and `work_precision`, on the realisations of flat, pillared
-and grooved surfaces and on their preludes. Units are SI, lengths count blocks.
-
-## The rule
-
-Every statement claims a range for some statistic, in one or several cases. These are surfaces with
-twenty realisations or more: some are the study's, others `snakemake more` and `snakemake beyond`
-simulate, and the page takes up what is there. The ranges were fixed before the numbers. Where the
-paper has words, all statements take them alike: what it says without exception means more than nine
-tenths, "most" more than half, "negligible" less than a tenth, "comparable" within a factor of two.
-
-A finding *holds* where the interval of the statistic lies within the claimed range, *fails* where
-it lies wholly outside, and is *open* where it lies across an edge. Intervals that decide together
-are wider than each alone: those of a statement's k findings are at 1 - 0.05/k (Bonferroni; both
-arms grow as those of Student's t), so that all hold together with 95 %. Of forty statements about
-two may still owe their verdict to chance.
-
-An open finding is *underpowered* where it would hold less than four times in five if its true
-value were the median of those findings of the same statistic that hold. The page names how many
-realisations an open finding needs, if its value is the true one.
-
-All findings of a case must hold for the case to hold; one that fails makes it fail, and one that is
-underpowered leaves it so. The statement, which is made of all its cases,
-
-- **depends on** what differs between cases where some hold and some fail, whatever open ones
-  become,
-- is **not reproduced** where some case fails and none holds: no open case could save it, though one
-  may yet show that it depends on something,
-- is **reproduced** where cases hold, none fails, and those still open are underpowered and fewer,
-- is **not settled** otherwise: nothing fails, and a case that could decide is open, or too many
-  cannot,
-- is **not tested** where what it needs was not simulated or measured, or not often enough.
-
-## The intervals
-
-They are 95 % intervals over realisations: Student's t for means, Welch's for differences between
-surfaces, which are independent samples though they share their seeds, Clopper's and Pearson's for
-shares of realisations, and the bias-corrected and accelerated bootstrap (BCa) for all else, unless
-the statistic says otherwise. Differences within a realisation are paired. Stress before the first
-detachment has no scatter, and its intervals no width.
-
-Other seeds must not change a verdict called reproduced:
-
-    snakemake --config first_seed=1000 results=results/offset
-
-## The statements
-
-{summary}
-
-## Not tested
-
-{untested}
-
-{sections}
-"""
+#: The rule, what the intervals are, and what is not tested.
+_PAGE = Path(__file__).with_name("page.md")
 
 
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
     numbered = list(enumerate(by_claim, 1))
-    untested = [[section, what, why] for section, what, why in UNTESTED]
-    return _PAGE.format(
+    return _PAGE.read_text(encoding="utf-8").format(
         summary="\n\n".join(_contents(numbered)),
-        untested=markdown_table(["section", "statement", "why not"], untested),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
 

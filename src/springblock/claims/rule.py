@@ -7,18 +7,18 @@ from itertools import groupby
 from statistics import median
 from typing import Any
 
-from springblock.analysis.statistics import Interval, share_interval, students_t
+from springblock.analysis.estimate import Estimate
+from springblock.analysis.statistics import students_t
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-Table = Mapping[Scene, Sequence[Row]]  #: rows of a table, by scene
+RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
 
 ENOUGH = 20  #: realisations from which on a surface is looked at by itself
-_DOUBT = 0.05  #: chance that one of the intervals of a statement misses its true value
 _POWER = 0.84  #: standard errors that four in five estimates stay below
 _MANY = 10**6  #: realisations beyond which nobody would go
 
@@ -28,9 +28,9 @@ class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
     records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)  #: realisations
-    summaries: Table = field(default_factory=dict)  #: the table `realisations`
-    correlation: Table = field(default_factory=dict)
-    correlation_length: Table = field(default_factory=dict)
+    summaries: RowsByScene = field(default_factory=dict)  #: the table `realisations`
+    correlation: RowsByScene = field(default_factory=dict)
+    correlation_length: RowsByScene = field(default_factory=dict)
     #: Tangential force on each block before the first lets go, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
@@ -48,46 +48,6 @@ def _runs(items: Sequence[Any]) -> int:
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A statistic with the limits of its 95 % interval."""
-
-    value: float
-    low: float
-    high: float
-    runs: int = 0  #: realisations of the surface that has the fewest; 0: chance plays no part
-
-    @classmethod
-    def of(cls, interval: Interval, runs: int) -> "Estimate":
-        """An interval of numbers that so many realisations have led to."""
-        mean, low, high = interval
-        return cls(float(mean), float(low), float(high), runs)
-
-    def limits(self, together: int, runs: int | None = None) -> Range:
-        """Limits of an interval that is one of several which must all be right (Bonferroni).
-
-        Both arms grow as those of Student's t do, from 95 % to 1 - 0.05/together. With other
-        `runs` they are those to expect of so many realisations with the same scatter.
-        """
-        if not self.runs:
-            return self.low, self.high
-        runs = runs or self.runs
-        now, then = students_t(self.runs - 1), students_t(runs - 1, 1.0 - _DOUBT / together)
-        wider = float(then / now) * math.sqrt(self.runs / runs)
-        below, above = self.value - self.low, self.high - self.value
-        return self.value - wider * below, self.value + wider * above
-
-
-class Share(Estimate):
-    """A share of realisations, whose limits are exact at any level."""
-
-    def limits(self, together: int, runs: int | None = None) -> Range:
-        """As those of any estimate, and never beyond 0 and 1."""
-        runs = runs or self.runs
-        found = share_interval(round(self.value * runs), runs, 1.0 - _DOUBT / together)
-        return float(found.low), float(found.high)
-
-
-@dataclass(frozen=True)
 class Finding:
     """A statistic with its interval, and the open range in which the claim puts it."""
 
@@ -98,14 +58,14 @@ class Finding:
     rests_on: str  #: separated by "; "
     unit: str = "1"
 
-    def outcome(self, together: int = 1, runs: int | None = None) -> str:
+    def outcome(self, together: int = 1, n: int | None = None) -> str:
         """Whether the claim "holds", "fails" or stays "open" here, as one of several findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
-        outside, and is open where it does neither or there is no interval. With other `runs` it
+        outside, and is open where it does neither or there is no interval. With another `n` it
         is the outcome to expect of so many realisations with the same value.
         """
-        (low, high), (lowest, highest) = self.estimate.limits(together, runs), self.claimed
+        (low, high), (lowest, highest) = self.estimate.limits(together, n), self.claimed
         if lowest < low and high < highest:
             return "holds"
         return "fails" if high <= lowest or low >= highest else "open"
@@ -115,23 +75,26 @@ class Finding:
 
         To 2 %; infinite if a million would not do, NaN where it is decided or has no interval.
         """
-        runs = self.estimate.runs
-        if self.outcome(together) != "open" or runs < 2:
+        n = self.estimate.n
+        if self.outcome(together) != "open" or n < 2:
             return math.nan
-        while runs < _MANY:
-            runs = math.ceil(1.02 * runs)
-            if self.outcome(together, runs) != "open":
-                return runs
+        while n < _MANY:
+            n = math.ceil(1.02 * n)
+            if self.outcome(together, n) != "open":
+                return n
         return math.inf
 
     def had_power_at(self, value: float, together: int) -> bool:
         """Whether it would hold four times in five if this were the true value."""
         low, high = self.estimate.limits(together)
         alone = self.estimate.limits(1)
-        error = (alone[1] - alone[0]) / 2.0 / float(students_t(self.estimate.runs - 1))
+        error = (alone[1] - alone[0]) / 2.0 / float(students_t(self.estimate.n - 1))
         shift, (lowest, highest) = value - self.estimate.value, self.claimed
         spare = _POWER * error
         return lowest < low + shift - spare and high + shift + spare < highest
+
+
+Test = Callable[[Evidence], Iterable[Finding]]
 
 
 @dataclass(frozen=True)
@@ -141,8 +104,22 @@ class Claim:
     name: str
     section: str
     statement: str
+    figure: int  #: of the paper, which shows what the statement speaks of
     needs: str  #: what must have been simulated or measured
-    test: Callable[[Evidence], Iterable[Finding]]
+    test: Test
+
+
+def claim(name: str, section: str, figure: int, needs: str) -> Callable[[Test], Claim]:
+    """Make a claim of a test, which yields findings from evidence.
+
+    Its docstring is the statement: what the paper says and, after "Tested:", what number a word
+    without one stands for. `section` and `figure` are the paper's.
+    """
+
+    def made(test: Test) -> Claim:
+        return Claim(name, section, " ".join((test.__doc__ or "").split()), figure, needs, test)
+
+    return made
 
 
 def outcomes(findings: Sequence[Finding]) -> list[str]:
@@ -163,7 +140,7 @@ def outcomes(findings: Sequence[Finding]) -> list[str]:
         ]
         if outcome != "open" or not holding:
             return outcome
-        powerful = not finding.estimate.runs or finding.had_power_at(median(holding), together)
+        powerful = not finding.estimate.n or finding.had_power_at(median(holding), together)
         return "open" if powerful else "underpowered"
 
     return [finally_judged(*pair) for pair in zip(findings, first, strict=True)]

@@ -1,36 +1,34 @@
-"""Scenes that claims are about, and samples: one number per realisation, by its seed."""
+"""Scenes that claims are about, samples of one number per realisation, and findings from them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby, pairwise
+from operator import attrgetter
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from springblock.analysis.estimate import UNKNOWN, Estimate, Proportion
 from springblock.analysis.statistics import (
     difference_interval,
     mean_interval,
-    position_interval,
-    share_interval,
+    proportion_interval,
+    samples_interval,
 )
-from springblock.claims.rule import Case, Estimate, Finding, Share, describe
+from springblock.claims import ranges
+from springblock.claims.rule import Evidence, Finding, Range, describe
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
 Mask = NDArray[np.bool_]
-Sample = Mapping[int, float]  #: a number per realisation, by its seed
-
-INF = float("inf")
-POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
+Quantity = Callable[[Record], float]  #: of a realisation
 
 SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
-#: What the paper says in words, the same for all statements: a rule without exception, most, a
-#: part that can be neglected, a factor between what is comparable or about the same.
-NEARLY_ALL, MOST, NEGLIGIBLE, COMPARABLE = 0.9, 0.5, 0.1, 2.0
-ALIKE = 0.2  #: share of the variance that place may explain where the paper calls it uniform
 ALONG = "x"  #: the paper's sliding direction
+static_friction: Quantity = attrgetter("static_friction")
 
 
 def scenes_along_x(scenes: Iterable[Scene], level: int, smallest: int = 0) -> list[Scene]:
@@ -64,6 +62,12 @@ def family_place(scene: Scene) -> dict[str, int | str]:
     return {"N": scene.n_blocks, "n_s/n_p": str(ratio(scene))}
 
 
+def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
+    """Parts of a field over the surface, (N, N), that lie on each pillar, (n_p, n_p)."""
+    size = scene.n_p
+    return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
+
+
 def in_table(*scenes: Scene) -> str:
     """Name the rows of the table of realisations that hold these scenes."""
     return "; ".join(f"tables/realisations: {scene.folder}" for scene in scenes)
@@ -80,72 +84,109 @@ def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     return f"tables/{table}: {describe(keys)}"
 
 
+def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
+    """A number per realisation, (k,), without those in which it is not defined, NaN."""
+    values = np.array([quantity(run) for run in runs], dtype=float)
+    return values[np.isfinite(values)]
+
+
+def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> Array:
+    """A number per realisation, (k,), from rows of the table `realisations`."""
+    return np.array([function(row) for row in rows])
+
+
 def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Estimate:
     """A value of a row with its interval."""
     return Estimate(float(row[value]), float(row[low]), float(row[high]), row["realisations"])
 
 
-def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> dict[int, float]:
-    """A number per realisation, by its seed, from rows of the table `realisations`."""
-    return {row["seed"]: function(row) for row in rows}
+def mean(sample: ArrayLike) -> Estimate:
+    """Mean of a sample, (k,), with its interval; NaN for an empty one."""
+    values = np.asarray(sample)
+    return Estimate.of(mean_interval(values), len(values)) if len(values) else UNKNOWN
 
 
-def mean(sample: Sample | Array) -> Estimate:
-    """Mean of a sample with its interval; NaN for an empty one."""
-    values = list(sample.values()) if isinstance(sample, Mapping) else sample
-    if not len(values):
-        return Estimate(np.nan, np.nan, np.nan)
-    return Estimate.of(mean_interval(values), len(values))
+def proportion(flags: NDArray[np.bool_]) -> Estimate:
+    """Proportion of the realisations, (k,), in which something is so, with its exact interval."""
+    return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
-def share(sample: Sample | NDArray[np.bool_]) -> Estimate:
-    """Share of the realisations in which something is so, with its exact interval."""
-    flags = list(sample.values()) if isinstance(sample, Mapping) else sample
-    return Share.of(share_interval(int(np.sum(flags)), len(flags)), len(flags))
-
-
-def difference(first: Sample, second: Sample) -> Estimate:
+def difference(first: Array, second: Array) -> Estimate:
     """Mean of a sample minus that of one of another surface: both are independent (Welch).
 
     The same seeds do not help: realisations of different surfaces are hardly correlated.
     """
-    if not first or not second:
-        return mean({})
-    samples = [list(sample.values()) for sample in (first, second)]
-    return Estimate.of(difference_interval(*samples), min(map(len, samples)))
+    fewest = min(len(first), len(second))
+    return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
-def position(sample: Sample, zero: Sample, one: Sample) -> Estimate:
-    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1.
+def compared(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene) -> Estimate:
+    """Mean of a quantity over the realisations of one scene minus that over those of another."""
+    return difference(*(over_runs(quantity, evidence.records[s]) for s in (first, second)))
+
+
+def position(sample: Array, zero: Array, one: Array) -> Estimate:
+    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; BCa.
 
     The interval is NaN where those of `zero` and `one` cannot be told apart.
     """
-    samples = [list(values.values()) for values in (sample, zero, one)]
-    scale, runs = difference(one, zero), min(map(len, samples))
-    if runs < 2 or scale.low <= 0.0 <= scale.high:
-        return mean({})
-    return Estimate.of(position_interval(*samples), runs)
+    samples = sample, zero, one
+    scale, fewest = difference(one, zero), min(map(len, samples))
+    if fewest < 2 or scale.ci_low <= 0.0 <= scale.ci_high:
+        return UNKNOWN
+
+    def relative_place(*parts: Array, axis: int) -> Array:
+        middle, start, end = (part.mean(axis=axis) for part in parts)
+        return (middle - start) / (end - start)
+
+    return Estimate.of(samples_interval(samples, relative_place), fewest)
+
+
+def found_on(
+    scene: Scene,
+    statistic: str,
+    estimate: Estimate,
+    claimed: Range,
+    unit: str = "1",
+    /,
+    **more: Any,
+) -> Finding:
+    """Finding that rests on the realisations of a scene; `more` says which part of it."""
+    return Finding(place(scene) | more, statistic, estimate, claimed, in_files(scene), unit)
+
+
+def means_of_runs(
+    evidence: Evidence,
+    scenes: Iterable[Scene],
+    statistic: str,
+    quantity: Quantity,
+    claimed: Range,
+    unit: str = "1",
+) -> Iterator[Finding]:
+    """Mean of a quantity over the realisations of each scene."""
+    for scene in scenes:
+        sample = over_runs(quantity, evidence.records[scene])
+        yield found_on(scene, statistic, mean(sample), claimed, unit)
 
 
 def in_order(
-    case: Case, parts: Mapping[str, Array], rests_on: str, time: str = "t_max"
+    scene: Scene, parts: Mapping[str, Array], time: str = "t_max", /, **more: Any
 ) -> Iterator[Finding]:
     """Each part of a pillar detaches before the next; mean t_det over `time` of each, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
         statistic = f"t_det/{time} of the {late} minus that of the {early}"
-        yield Finding(case, statistic, mean(after - before), POSITIVE, rests_on)
-
-
-def over_runs(function: Callable[[Record], float], runs: Iterable[Record]) -> dict[int, float]:
-    """A number per realisation, by its seed, without those in which it is not defined, NaN."""
-    values = {run.seed: function(run) for run in runs}
-    return {seed: value for seed, value in values.items() if np.isfinite(value)}
+        yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE, **more)
 
 
 def before_peak(run: Run) -> float:
     """Share of all detaching blocks that detach before t_max."""
     times = run.t_det[np.isfinite(run.t_det)]
     return float(np.mean(times < run.t_max))
+
+
+def relative_lag(run: Run) -> float:
+    """t_max - t_avg over t_max."""
+    return (run.t_max - run.t_avg) / run.t_max
 
 
 def neighbours(field: Array, outside: float) -> Array:
@@ -165,7 +206,7 @@ def isolated(run: Run, until: float) -> float:
 
 
 def share_of(blocks: Mask, among: Mask) -> float:
-    """Share of some blocks that are among others; NaN where there are none."""
+    """Share of the blocks `among` that are `blocks`, too; NaN where there are none."""
     return float(blocks[among].mean()) if among.any() else float("nan")
 
 
@@ -179,7 +220,7 @@ def rates(run: Run, width: float) -> Array:
 def first_patch(times: Array, size: int) -> float:
     """Where the patch of `size` by `size` blocks lies that detaches first, (n, n) s.
 
-    The share of all such patches that lie nearer to the edge, half of those just as near included:
+    The fraction of all such patches that lie nearer to the edge, and half of those just as near:
     1/2 on average if every place is as good, 0 at the edge, 1 at the centre.
     """
     windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))

@@ -1,20 +1,19 @@
 """How the transition depends on the size of pillars (section 3.2 of the paper)."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from operator import attrgetter, itemgetter
+from collections.abc import Iterable, Iterator, Mapping
+from operator import itemgetter
 
 import numpy as np
 
-from springblock.claims.rule import Claim, Estimate, Evidence, Finding
+from springblock.analysis.estimate import Estimate
+from springblock.claims import ranges
+from springblock.claims.ranges import within
+from springblock.claims.rule import Evidence, Finding, claim
 from springblock.claims.samples import (
-    COMPARABLE,
-    INF,
-    NEGATIVE,
-    NEGLIGIBLE,
-    POSITIVE,
     SMALLEST,
-    Sample,
+    Quantity,
     before_peak,
+    compared,
     difference,
     families,
     family_place,
@@ -23,20 +22,21 @@ from springblock.claims.samples import (
     in_table,
     interval,
     mean,
+    means_of_runs,
     over_rows,
     over_runs,
     place,
     position,
+    relative_lag,
     scenes_along_x,
+    static_friction,
 )
-from springblock.io.records import Record
 from springblock.io.rows import select
 from springblock.model.scene import Scene
-from springblock.simulation.run import Run
+from springblock.simulation.run import Array, Run
 
-Quantities = Mapping[str, Callable[[Record], float]]  #: of a realisation, by their names
-
-_HIGH = 0.95  #: share of the largest force that the width of its peak is taken at
+_HIGH = 0.95  #: of the largest force, where the width of its peak is taken
+_PRECURSORS = "share of the contact blocks that detach before t_max"
 _WIDTH = "time with a force above 95 % of its maximum over t_max"
 _DURATION = "time between a tenth and nine tenths of the detachments over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
@@ -66,14 +66,19 @@ def duration(run: Run) -> float:
     return float(late - early) / run.t_max
 
 
-def relative_lag(run: Run) -> float:
-    """t_max - t_avg over t_max."""
-    return (run.t_max - run.t_avg) / run.t_max
-
-
+@claim(
+    "Pillars with n_p <= 3 behave like a flat surface",
+    "3.2",
+    6,
+    "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
+)
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Pillars with n_p <= 3 are off the flat surface by less than half of the paper's example."""
-    quantities: Quantities = {
+    """For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. Static
+    friction, which the paper allows to differ, is left out.
+
+    Tested: off by less than half of what pillars with n_p = 20 are off by.
+    """
+    quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": relative_lag,
         "precursors": before_peak,
         "width of the force peak": width,
@@ -90,37 +95,35 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
                     place(scene) | {"quantity": name},
                     f"position between the flat surface, 0, and n_p = {larger.n_p}",
                     position(*samples),
-                    (-0.5, 0.5),
+                    within(0.5),
                     in_files(scene, flat, larger),
                 )
 
 
-def _above_flat(evidence: Evidence, quantities: Quantities) -> Iterator[Finding]:
+def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
     """What pillars have more of than the flat surface."""
     for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
         flat = Scene(scene.n_blocks)
         if flat not in evidence.records:
             continue
         for name, quantity in quantities.items():
-            samples = [over_runs(quantity, evidence.records[s]) for s in (scene, flat)]
-            yield Finding(
-                place(scene),
-                f"{name}, minus that of the flat surface",
-                difference(*samples),
-                POSITIVE,
-                in_files(scene, flat),
-            )
+            statistic = f"{name}, minus that of the flat surface"
+            apart, source = compared(evidence, quantity, scene, flat), in_files(scene, flat)
+            yield Finding(place(scene), statistic, apart, ranges.POSITIVE, source)
 
 
+@claim("More and earlier precursors on pillars", "3.2", 6, _BOTH)
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """On pillars precursors are more, and begin longer before t_max, than on a flat surface."""
-    share = "share of the contact blocks that detach before t_max"
+    """For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time
+    interval before t_max.
+    """
     time = "time from the first detachment to t_max over t_max"
-    return _above_flat(evidence, {share: before_peak, time: warning})
+    return _above_flat(evidence, {_PRECURSORS: before_peak, time: warning})
 
 
+@claim("Rounded force peak on pillars", "3.2", 6, _BOTH)
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    """The force peak of pillars is wider than that of the flat surface."""
+    """The force is no longer a sharp peak, and becomes rounded."""
     return _above_flat(evidence, {_WIDTH: width})
 
 
@@ -130,19 +133,30 @@ def _of_several_sizes(scenes: Iterable[Scene]) -> list[list[Scene]]:
     return [family for family in found if family[0].n_p < SMALLEST]
 
 
-def _lowest(samples: Mapping[Scene, Sample]) -> Scene:
+def _frictions(evidence: Evidence, scenes: Iterable[Scene]) -> dict[Scene, Array]:
+    """Static friction of each realisation, (k,), from the table of realisations."""
+    friction = itemgetter("static_friction")
+    return {scene: over_rows(friction, evidence.summaries[scene]) for scene in scenes}
+
+
+def _lowest(samples: Mapping[Scene, Array]) -> Scene:
     """Scene with the lowest mean."""
     return min(samples, key=lambda scene: mean(samples[scene]).value)
 
 
-def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
-    """Both the smallest and the largest pillars stick better than some between them.
+def _lowest_friction(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
+    """Scene with the lowest mean static friction, from its realisations."""
+    return _lowest({s: over_runs(static_friction, evidence.records[s]) for s in scenes})
 
-    The latter are chosen by the same means: small differences would be overrated.
+
+@claim("Lowest static friction at an intermediate n_p", "3.2", 6, _SIZES)
+def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
+    """The smallest static friction is obtained for a specific intermediate value of n_p; for very
+    large pillars it increases again.
     """
-    rows = evidence.summaries
-    for family in _of_several_sizes(rows):
-        samples = {s: over_rows(itemgetter("static_friction"), rows[s]) for s in family}
+    # those between are chosen by the same means: small differences would be overrated
+    for family in _of_several_sizes(evidence.summaries):
+        samples = _frictions(evidence, family)
         lowest = _lowest({scene: samples[scene] for scene in family[1:-1]})
         for end in (family[0], family[-1]):
             yield Finding(
@@ -150,78 +164,56 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
                 f"static friction at n_p = {end.n_p} minus the lowest of those between, at n_p = "
                 f"{lowest.n_p}",
                 difference(samples[end], samples[lowest]),
-                POSITIVE,
+                ranges.POSITIVE,
                 in_table(end, lowest),
             )
 
 
+@claim("Sharper transition of very large pillars", "3.2", 6, _SIZES)
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """The force peak of the largest pillars is narrower than where static friction is lowest."""
-    records = evidence.records
-    for family in _of_several_sizes(records):
-        *smaller, largest = family
-        lowest = _lowest({s: over_runs(attrgetter("static_friction"), records[s]) for s in smaller})
-        samples = [over_runs(width, records[s]) for s in (largest, lowest)]
+    """For very large pillars the transition is sharper than where static friction is lowest."""
+    for *smaller, largest in _of_several_sizes(evidence.records):
+        lowest = _lowest_friction(evidence, smaller)
         yield Finding(
             family_place(largest),
             f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}",
-            difference(*samples),
-            NEGATIVE,
+            compared(evidence, width, largest, lowest),
+            ranges.NEGATIVE,
             in_files(largest, lowest),
         )
 
 
-def _largest_there(
-    evidence: Evidence, name: str, quantity: Callable[[Record], float]
-) -> Iterator[Finding]:
-    """Where static friction is lowest, a quantity is larger than on other pillars."""
-    records = evidence.records
-    for family in _of_several_sizes(records):
-        lowest = _lowest({s: over_runs(attrgetter("static_friction"), records[s]) for s in family})
-        for other in (scene for scene in family if scene != lowest):
-            samples = [over_runs(quantity, records[scene]) for scene in (lowest, other)]
-            yield Finding(
-                family_place(other) | {"n_p": other.n_p},
-                f"{name}, at n_p = {lowest.n_p}, where static friction is lowest, minus that here",
-                difference(*samples),
-                POSITIVE,
-                in_files(lowest, other),
-            )
-
-
-def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """Detachments take longest where static friction is lowest."""
-    return _largest_there(evidence, _DURATION, duration)
-
-
-def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """The force peak is widest where static friction is lowest."""
-    return _largest_there(evidence, _WIDTH, width)
-
-
-def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Precursors are most where static friction is lowest."""
-    name = "share of the contact blocks that detach before t_max"
-    return _largest_there(evidence, name, before_peak)
-
-
+@claim(
+    "Precursors are negligible on very large pillars",
+    "3.2",
+    6,
+    f"realisations of pillars with n_p of {_LARGE} or more",
+)
 def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
-    """On very large pillars next to nothing detaches before t_max."""
-    for scene in scenes_along_x(evidence.records, 1, _LARGE):
-        yield Finding(
-            place(scene),
-            "share of the contact blocks that detach before t_max",
-            mean(over_runs(before_peak, evidence.records[scene])),
-            (-INF, NEGLIGIBLE),
-            in_files(scene),
-        )
+    """For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors becomes
+    negligible with respect to the surface area of the central part.
+
+    Tested: less than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.
+    """
+    large = scenes_along_x(evidence.records, 1, _LARGE)
+    return means_of_runs(evidence, large, _PRECURSORS, before_peak, ranges.NEGLIGIBLE)
 
 
+@claim(
+    "Static friction is lowest where n_p is about l_c",
+    "3.2",
+    7,
+    f"{_SIZES}, and the table of correlation lengths",
+)
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """n_p where static friction is lowest, over l_c on the largest pillars of the family."""
-    rows, tables = evidence.summaries, evidence.correlation_length
-    for family in _of_several_sizes(rows):
-        lowest = _lowest({s: over_rows(itemgetter("static_friction"), rows[s]) for s in family})
+    """When the characteristic correlation length is comparable to the total length of the pillars,
+    static friction is smallest.
+
+    Tested: within a factor of two.
+    """
+    tables = evidence.correlation_length
+    for family in _of_several_sizes(evidence.summaries):
+        lowest = _lowest(_frictions(evidence, family))
         broad = [s for s in family if s in tables and s.n_p >= _EXAMPLE]
         fits = select(tables[broad[-1]], side="x") if broad else []
         if not fits:
@@ -230,91 +222,45 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(
             family_place(lowest),
             f"n_p = {n_p}, where static friction is lowest, over l_c at n_p = {broad[-1].n_p}",
-            Estimate(n_p / l_c.value, n_p / l_c.high, n_p / l_c.low, l_c.runs),
-            (1.0 / COMPARABLE, COMPARABLE),
+            Estimate(n_p / l_c.value, n_p / l_c.ci_high, n_p / l_c.ci_low, l_c.n),
+            ranges.COMPARABLE,
             f"{in_table(lowest)}; {in_rows('correlation_length', broad[-1], side='x')}",
         )
 
 
-CLAIMS = (
-    Claim(
-        "Pillars with n_p <= 3 behave like a flat surface",
-        "3.2",
-        "For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. "
-        "Static friction, which the paper allows to differ, is left out. Tested: off by less than "
-        "half of what pillars with n_p = 20 are off by.",
-        "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
-        small_pillars,
-    ),
-    Claim(
-        "More and earlier precursors on pillars",
-        "3.2",
-        "For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time "
-        "interval before t_max.",
-        _BOTH,
-        many_precursors,
-    ),
-    Claim(
-        "Rounded force peak on pillars",
-        "3.2",
-        "The force is no longer a sharp peak, and becomes rounded.",
-        _BOTH,
-        rounded_peak,
-    ),
-    Claim(
-        "Lowest static friction at an intermediate n_p",
-        "3.2",
-        "The smallest static friction is obtained for a specific intermediate value of n_p; for "
-        "very large pillars it increases again.",
-        _SIZES,
-        intermediate_size,
-    ),
-    Claim(
-        "Sharper transition of very large pillars",
-        "3.2",
-        "For very large pillars the transition is sharper than where static friction is lowest.",
-        _SIZES,
-        sharper_again,
-    ),
-    Claim(
-        "Precursors are negligible on very large pillars",
-        "3.2",
-        "For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors "
-        "becomes negligible with respect to the surface area of the central part. Tested: less "
-        "than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.",
-        f"realisations of pillars with n_p of {_LARGE} or more",
-        negligible_edges,
-    ),
-    Claim(
-        "Static friction is lowest where n_p is about l_c",
-        "3.2",
-        "When the characteristic correlation length is comparable to the total length of the "
-        "pillars, static friction is smallest. Tested: within a factor of two.",
-        f"{_SIZES}, and the table of correlation lengths",
-        size_like_length,
-    ),
-    Claim(
-        "The most precursors where static friction is lowest",
-        "3.2",
-        "An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so "
-        "that the static friction is minimized.",
-        _SIZES,
-        most_precursors,
-    ),
-    Claim(
-        "The roundest force peak where static friction is lowest",
-        "3.2",
-        "This explains why the smallest static friction is obtained for a specific intermediate "
-        "value of n_p, and the force peak at the transition is considerably more rounded.",
-        _SIZES,
-        roundest_peak,
-    ),
-    Claim(
-        "The longest transition where static friction is lowest",
-        "3.2",
-        "In the intermediate regime the detachments are distributed over a longer time interval "
-        "around the maximum of the friction force: a longer duration of the transition.",
-        _SIZES,
-        longest_transition,
-    ),
-)
+def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterator[Finding]:
+    """Where static friction is lowest, a quantity is larger than on other pillars."""
+    for family in _of_several_sizes(evidence.records):
+        lowest = _lowest_friction(evidence, family)
+        for other in (scene for scene in family if scene != lowest):
+            yield Finding(
+                family_place(other) | {"n_p": other.n_p},
+                f"{name}, at n_p = {lowest.n_p}, where static friction is lowest, minus that here",
+                compared(evidence, quantity, lowest, other),
+                ranges.POSITIVE,
+                in_files(lowest, other),
+            )
+
+
+@claim("The most precursors where static friction is lowest", "3.2", 6, _SIZES)
+def most_precursors(evidence: Evidence) -> Iterator[Finding]:
+    """An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so
+    that the static friction is minimized.
+    """
+    return _largest_there(evidence, _PRECURSORS, before_peak)
+
+
+@claim("The roundest force peak where static friction is lowest", "3.2", 6, _SIZES)
+def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
+    """This explains why the smallest static friction is obtained for a specific intermediate value
+    of n_p, and the force peak at the transition is considerably more rounded.
+    """
+    return _largest_there(evidence, _WIDTH, width)
+
+
+@claim("The longest transition where static friction is lowest", "3.2", 6, _SIZES)
+def longest_transition(evidence: Evidence) -> Iterator[Finding]:
+    """In the intermediate regime the detachments are distributed over a longer time interval around
+    the maximum of the friction force: a longer duration of the transition.
+    """
+    return _largest_there(evidence, _DURATION, duration)

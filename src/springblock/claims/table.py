@@ -5,15 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 import pyarrow as pa
 
-from springblock.claims.rule import (
-    Claim,
-    Estimate,
-    Evidence,
-    Finding,
-    describe,
-    outcomes,
-    verdict,
-)
+from springblock.analysis.estimate import UNKNOWN
+from springblock.claims.rule import Claim, Evidence, Finding, describe, outcomes, verdict
 from springblock.io.rows import Row
 from springblock.io.schemas import column
 
@@ -59,8 +52,9 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
     for claim in claims:
         findings = list(claim.test(evidence))
         judged, depends_on = verdict(findings)
+        missing = Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}")
         said = {"claim": claim.name, "section": claim.section, "statement": claim.statement}
-        found = zip(findings, outcomes(findings), strict=True) if findings else [_nothing(claim)]
+        found = zip(findings or [missing], outcomes(findings) or ["open"], strict=True)
         for finding, outcome in found:
             row = _row(finding, max(1, len(findings)))
             row |= {"outcome": outcome, "verdict": judged, "depends_on": depends_on}
@@ -76,18 +70,13 @@ def _row(finding: Finding, together: int) -> Row:
         "statistic": finding.statistic,
         "unit": finding.unit,
         "value": estimate.value,
-        "ci_low": estimate.low,
-        "ci_high": estimate.high,
+        "ci_low": estimate.ci_low,
+        "ci_high": estimate.ci_high,
         "together_low": low,
         "together_high": high,
         "claimed_low": finding.claimed[0],
         "claimed_high": finding.claimed[1],
-        "realisations": estimate.runs,
+        "realisations": estimate.n,
         "settled_by": finding.settled_by(together),
         "rests_on": finding.rests_on,
     }
-
-
-def _nothing(claim: Claim) -> tuple[Finding, str]:
-    unknown = Estimate(np.nan, np.nan, np.nan)
-    return Finding({}, "", unknown, (np.nan, np.nan), f"missing: {claim.needs}"), "open"

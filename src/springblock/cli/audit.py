@@ -43,8 +43,8 @@ def _differences(results: Path, other: Path) -> list[str]:
         if comparison.compare(first, second).same:
             click.echo(f"{name}: the same {first.num_rows} rows, to the bit")
             continue
-        found = comparison.estimates(first, second)
-        apart = comparison.apart(found)
+        found = comparison.discrepancies(first, second)
+        apart = comparison.significant(found)
         click.echo(
             f"{name}: different; of {len(found)} values with intervals that differ, {len(apart)} "
             "do so by more than 95 % intervals of all of them together allow"

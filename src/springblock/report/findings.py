@@ -14,33 +14,12 @@ from springblock.plotting.style import MICRO
 Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
 
 
-class Finding(NamedTuple):
-    """A finding: its subject, one or a few sentences, and the figure that shows it."""
+class Headline(NamedTuple):
+    """What was found on a subject, in one or a few sentences, and the figure that shows it."""
 
     subject: str
     text: str
     figure: str = ""
-
-
-class Size(NamedTuple):
-    """What pillars of one size have come to, each with its interval."""
-
-    surface: str
-    runs: int
-    friction: str
-    lag: str  #: t_max - t_avg, µs
-    along: str  #: l_c of sides along x, blocks; empty where it was not measured
-    across: str
-
-
-class Grooved(NamedTuple):
-    """Static friction along grooves and across them, with intervals."""
-
-    surface: str
-    runs: str
-    along: str
-    across: str
-    difference: str
 
 
 def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
@@ -55,33 +34,42 @@ def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
     return {scene: found[scene] for scene in found if scene.n_blocks == common}
 
 
-def findings(runs: Runs) -> list[Finding]:
+def headlines(runs: Runs) -> list[Headline]:
     """Say what became of static friction, of its time and of grooves, and of energy."""
     told = [_friction(runs), _order(runs), _grooves(runs), _energy(runs)]
-    return [finding for finding in told if finding]
+    return [headline for headline in told if headline]
 
 
-def sizes(runs: Runs, lengths: Sequence[Row]) -> list[Size]:
-    """Return a row for the flat surface and one for pillars of each size, as far apart as wide."""
+def sizes(runs: Runs, lengths: Sequence[Row]) -> list[list[str]]:
+    """Return rows for the flat surface and for pillars of each size, as far apart as wide.
+
+    They hold the surface, the number of runs, static friction, t_max - t_avg in µs, and l_c along
+    x and along y in blocks, empty where it was not measured.
+    """
     table = []
     for scene, rows in _family(runs).items():
-        along, across = (_l_c(scene, side, lengths) for side in "xy")
+        surface = f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat"
         friction = number(_mean(rows, "static_friction"))
         lag = number(mean_interval(_lag(rows)), factor=MICRO)
-        table.append(Size(_name(scene), len(rows), friction, lag, along, across))
+        correlation = (_l_c(scene, side, lengths) for side in "xy")
+        table.append([surface, str(len(rows)), friction, lag, *correlation])
     return table
 
 
-def grooves(runs: Runs) -> list[Grooved]:
-    """Return a row for each pattern of grooves that was pulled both along them and across."""
+def grooves(runs: Runs) -> list[list[str]]:
+    """Return rows for patterns of grooves that were pulled both along them and across.
+
+    They hold the surface, both numbers of runs, static friction along the grooves and across them,
+    and the difference.
+    """
     return [
-        Grooved(
+        [
             surface_in_words(along.lengths),
             f"{len(runs[along])}, {len(runs[across])}",
             number(_mean(runs[along], "static_friction")),
             number(_mean(runs[across], "static_friction")),
             number(_against(runs, along, across)),
-        )
+        ]
         for along, across in _pairs(runs)
     ]
 
@@ -104,7 +92,7 @@ def _family(runs: Runs) -> dict[Scene, Sequence[Row]]:
     return {scene: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
 
 
-def _friction(runs: Runs) -> Finding | None:
+def _friction(runs: Runs) -> Headline | None:
     """Static friction of flat surfaces and pillars."""
     scenes = list(_family(runs))
     if len(scenes) < 2 or scenes[0].n_p:
@@ -118,10 +106,10 @@ def _friction(runs: Runs) -> Finding | None:
     if (largest := pillars[-1]) != lowest:
         change = _told(_against(runs, largest, lowest))
         text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs, largest)}: {change}."
-    return Finding("Friction and the size of pillars", text, "figure_6")
+    return Headline("Friction and the size of pillars", text, "figure_6")
 
 
-def _order(runs: Runs) -> Finding | None:
+def _order(runs: Runs) -> Headline | None:
     """Whether the force peaks before or after the mean detachment."""
     kinds: dict[str, list[Scene]] = {}
     for scene, rows in _family(runs).items():
@@ -133,7 +121,7 @@ def _order(runs: Runs) -> Finding | None:
     first, *others = [f"{kind} {{}} on {_listed(scenes)}" for kind, scenes in kinds.items()]
     told = [first.format("the mean first detachment"), *(other.format("it") for other in others)]
     text = f"The time of the largest force is {'; '.join(told)}."
-    return Finding("Force and detachments", text, "figure_6")
+    return Headline("Force and detachments", text, "figure_6")
 
 
 def _listed(scenes: Sequence[Scene]) -> str:
@@ -143,23 +131,23 @@ def _listed(scenes: Sequence[Scene]) -> str:
     return " and ".join(flat + [f"pillars of n_p = {pillars}"] * bool(pillars))
 
 
-def _grooves(runs: Runs) -> Finding | None:
+def _grooves(runs: Runs) -> Headline | None:
     """Static friction along grooves and across them."""
     found = Counter(_word(_against(runs, *pair)) for pair in _pairs(runs))
     if not found:
         return None
     told = ", ".join(f"{word} on {number}" for word, number in found.items())
     which = "Static friction along the grooves, compared with that across them, is"
-    return Finding("Grooves", f"{which} {told} of {found.total()} grooved surfaces.", "figure_9")
+    return Headline("Grooves", f"{which} {told} of {found.total()} grooved surfaces.", "figure_9")
 
 
-def _energy(runs: Runs) -> Finding | None:
+def _energy(runs: Runs) -> Headline | None:
     """How well the balance of energy closes."""
     errors = [abs(row["energy_error"]) for rows in runs.values() for row in rows]
     if not errors:
         return None
     closes = f"closes to {max(errors):.1e} of the slider's work or better"
-    return Finding("Energy", f"The balance of energy of all {len(errors)} realisations {closes}.")
+    return Headline("Energy", f"The balance of energy of all {len(errors)} realisations {closes}.")
 
 
 def _mean(rows: Sequence[Row], name: str) -> Interval:
@@ -168,12 +156,6 @@ def _mean(rows: Sequence[Row], name: str) -> Interval:
 
 def _lag(rows: Sequence[Row]) -> list[float]:
     return [row["t_max"] - row["t_avg"] for row in rows]
-
-
-def _outward(interval: Interval) -> Interval:
-    """The interval of the modulus of what is surely of one sign."""
-    mean, low, high = interval
-    return Interval(mean, low, high) if mean > 0.0 else Interval(mean, high, low)
 
 
 def _against(runs: Runs, first: Scene, second: Scene) -> Interval:
@@ -196,16 +178,13 @@ def _word(difference: Interval) -> str:
 def _told(difference: Interval) -> str:
     if _open(difference):
         return f"not told apart by their difference, {number(difference)}"
-    return f"{_word(difference)} by {number(Interval(*map(abs, _outward(difference))))}"
+    low, high = sorted(map(abs, (difference.low, difference.high)))
+    return f"{_word(difference)} by {number(Interval(abs(difference.mean), low, high))}"
 
 
 def _stated(runs: Runs, scene: Scene) -> str:
     k = len(runs[scene])
     return f"{number(_mean(runs[scene], 'static_friction'))} ({k} run{'s' * (k > 1)})"
-
-
-def _name(scene: Scene) -> str:
-    return f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat"
 
 
 def _l_c(scene: Scene, side: str, lengths: Sequence[Row]) -> str:

@@ -11,8 +11,7 @@ import pyarrow.parquet as pq
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from springblock.report import findings, media, statements, tables, text
-from springblock.report.symbols import typeset
+from springblock.report import findings, markup, media, statements
 
 #: Parts of the page and their titles, in order; those of the study's own pages come last, as these
 #: are called by their first heading.
@@ -61,7 +60,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
     judged = statements.statements(rows.get("claims", []))
     parts = _parts(kinds[".png"], kinds[".md"], judged)
     return _rendered(
-        findings=findings.findings(runs),
+        headlines=findings.headlines(runs),
         sizes=findings.sizes(runs, rows.get("correlation_length", [])),
         grooves=findings.grooves(runs),
         labels={each.name: each.label for part in parts for each, _ in part.figures},
@@ -71,7 +70,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         shown=[part for part in parts if part.name in FIGURES],
         films=[media.moving(file, batch) for file, batch in films.items()],
         written=[part for part in parts if part.name not in FIGURES],
-        tables=[tables.shown(name, table) for name, table in data.items()],
+        tables=[markup.shown(name, table) for name, table in data.items()],
         origin=_origin(data),
     )
 
@@ -85,7 +84,7 @@ def _rendered(**content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["typeset"] = typeset
+    environment.filters["typeset"] = markup.typeset
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
     return environment.get_template("page.html").render(
@@ -97,7 +96,7 @@ def _parts(
     figures: Iterable[Path], pages: Iterable[Path], judged: Sequence[statements.Statement]
 ) -> list[Part]:
     """Parts of the page that have something to show, in order; a page's figures follow its text."""
-    texts = {file.stem: text.rendered(file.stem, file.read_text("utf-8")) for file in pages}
+    texts = {file.stem: markup.rendered(file.stem, file.read_text("utf-8")) for file in pages}
     pictures: dict[str, list[media.Picture]] = {}
     for picture in map(media.picture, sorted(figures)):
         pictures.setdefault(picture.category.lower(), []).append(picture)

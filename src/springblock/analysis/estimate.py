@@ -1,0 +1,51 @@
+"""A statistic with its 95 % interval, and that interval at other levels."""
+
+import math
+from dataclasses import dataclass
+
+from springblock.analysis.statistics import Interval, proportion_interval, students_t
+
+_MISS = 0.05  #: chance that one of several intervals misses its true value
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A statistic with the limits of its 95 % interval."""
+
+    value: float
+    ci_low: float
+    ci_high: float
+    n: int = 0  #: realisations of the smallest sample; 0 where chance plays no part
+
+    @classmethod
+    def of(cls, interval: Interval, n: int) -> "Estimate":
+        """Return the estimate that an interval of n realisations makes."""
+        mean, low, high = interval
+        return cls(float(mean), float(low), float(high), n)
+
+    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+        """Limits of an interval that is one of several which must all be right (Bonferroni).
+
+        Both arms grow as those of Student's t do, from 95 % to 1 - 0.05/together. With another
+        `n` they are those to expect of so many realisations with the same scatter.
+        """
+        if not self.n:
+            return self.ci_low, self.ci_high
+        n = n or self.n
+        now, then = students_t(self.n - 1), students_t(n - 1, 1.0 - _MISS / together)
+        wider = float(then / now) * math.sqrt(self.n / n)
+        below, above = self.value - self.ci_low, self.ci_high - self.value
+        return self.value - wider * below, self.value + wider * above
+
+
+class Proportion(Estimate):
+    """A proportion of realisations, whose limits are exact at any level."""
+
+    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+        """Limits as those of any estimate, but never beyond 0 and 1."""
+        n = n or self.n
+        found = proportion_interval(round(self.value * n), n, 1.0 - _MISS / together)
+        return float(found.low), float(found.high)
+
+
+UNKNOWN = Estimate(math.nan, math.nan, math.nan)

@@ -1,0 +1,315 @@
+"""Correlation of detachment times along the sides of pillars, sections 3.2 and 3.3.
+
+All lengths are those of A exp(-r/l_c) fitted over the same distances, r = 1 to 6 blocks, on sides
+of 20 blocks or more: on shorter ones the paper finds l_c difficult to estimate.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.analysis.correlation import LAST, side_times
+from springblock.analysis.estimate import Estimate
+from springblock.claims import ranges
+from springblock.claims.ranges import INF, within
+from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
+from springblock.claims.samples import (
+    ALONG,
+    SMALLEST,
+    families,
+    family_place,
+    found_on,
+    in_rows,
+    interval,
+    mean,
+    place,
+    scenes_along_x,
+)
+from springblock.io.rows import Row, select
+from springblock.model.scene import Scene
+from springblock.simulation.run import Array
+
+_FAR = 3  #: blocks, the paper's lower bound of the correlation length
+_ABOUT_THREE_OR_MORE = (2.5, INF)  #: blocks
+_DECAYED = (-INF, float(np.exp(-1.0)))
+#: Realisations from which on correlations of grooved pillars, one on a surface, are compared: as
+#: many as figure 7 has on n_p = 60, where they make intervals 0.1 wide.
+_MANY = 220
+_BROAD = 20  #: n_p from which on l_c is fitted over the same distances
+_CLOSE = 0.1  #: difference between correlation functions that look the same
+_BLOCK = 1.0  #: difference between correlation lengths that are the same, blocks
+#: Of t_max, between detachments of neighbours in one event: in this time the slider adds as
+#: little to the load, and what lets a block go is its neighbour.
+_EVENT = 0.005
+_SHORT = 10  #: n_p, sides no longer than a few l_c
+_SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
+_TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
+_LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
+
+
+def paired_difference(first: Estimate, second: Estimate) -> Estimate:
+    """First - second of the same runs: errors add up, since tables do not say how they go along."""
+    return Estimate(
+        first.value - second.value,
+        first.ci_low - second.ci_high,
+        first.ci_high - second.ci_low,
+        min(first.n, second.n),
+    )
+
+
+def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
+    """First - second of different surfaces, from the intervals of both as if independent.
+
+    Errors add up in squares, each side for itself (Zou & Donner 2008, doi:10.1002/sim.3095).
+    Realisations of different surfaces with the same seeds are hardly correlated.
+    """
+    difference = first.value - second.value
+    below = float(np.hypot(first.value - first.ci_low, second.ci_high - second.value))
+    above = float(np.hypot(first.ci_high - first.value, second.value - second.ci_low))
+    return Estimate(difference, difference - below, difference + above, min(first.n, second.n))
+
+
+def _length(row: Row) -> Estimate:
+    """l_c of A exp(-r/l_c)."""
+    return interval(row, "tail", "tail_low", "tail_high")
+
+
+def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
+    """The row of l_c along these sides, if there is one over the whole range."""
+    return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
+
+
+@claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
+def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
+    """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range."""
+    for scene in scenes_along_x(evidence.correlation, 1, SMALLEST):
+        rows = evidence.correlation[scene]
+        far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
+        near = select(rows, side="y", r=1)
+        if len(far) < 2 or not near:
+            continue
+        yield Finding(
+            place(scene),
+            f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)",
+            paired_difference(*(interval(row, "correlation") for row in far)),
+            ranges.POSITIVE,
+            in_rows("correlation", scene, r=_FAR),
+        )
+        source = in_rows("correlation", scene, side="y", r=1)
+        c_y = interval(near[0], "correlation")
+        yield Finding(place(scene), "c_y(r = 1)", c_y, _DECAYED, source)
+
+
+def events(times: Array) -> NDArray[np.intp]:
+    """Number of events in which sides detach, (...), from t_det/t_max of their blocks, (..., n).
+
+    Neighbours that detach within 0.5 % of t_max of each other belong to one event.
+    """
+    return 1 + np.count_nonzero(np.abs(np.diff(times, axis=-1)) > _EVENT, axis=-1)
+
+
+def mixed(times: Array) -> Array:
+    """The same sides with each block from another realisation: what chance would give."""
+    k, n = len(times), times.shape[-1]
+    blocks = np.arange(n)
+    taken = (np.arange(k)[:, None] + blocks) % k
+    return np.moveaxis(times[taken, ..., blocks], 1, -1)
+
+
+def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array]:
+    """t_det/t_max along the sides without their corners, which have gone before: as they are, and
+    with each block from another realisation, (k, pillars, 2, n_p - 2).
+    """
+    runs = evidence.records[scene]
+    times = side_times(runs, scene.pattern, side)[..., 1:-1]
+    relative = times / np.array([run.t_max for run in runs])[:, None, None, None]
+    return relative, mixed(relative)
+
+
+@claim(
+    "Sides along the sliding direction detach in larger events",
+    "3.2",
+    7,
+    "realisations of pillars with n_p of 4 or more",
+)
+def larger_events(evidence: Evidence) -> Iterator[Finding]:
+    """Although edges parallel to the sliding direction detach slightly after the perpendicular
+    ones, their slip involves a larger number of blocks.
+
+    Tested: more than by chance, without the corners; neighbours that detach within 0.5 % of t_max
+    of each other are one event.
+    """
+    name = (
+        "blocks per event on sides along x minus those on sides along y, each beyond those of "
+        "sides whose blocks come from different realisations"
+    )
+    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+        sizes = {}
+        for side in "xy":
+            number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
+            sizes[side] = (scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1]
+        yield found_on(scene, name, mean(sizes["x"] - sizes["y"]), ranges.POSITIVE, "blocks")
+
+
+@claim("Exponential decay of c_x", "3.2", 7, _LENGTHS)
+def exponential(evidence: Evidence) -> Iterator[Finding]:
+    """The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c).
+
+    Tested: within 0.1 of A exp(-r/l_c), r = 1 to 6, on sides of 20 blocks or more.
+    """
+    for scene in scenes_along_x(evidence.correlation, 1, _BROAD):
+        for row in select(evidence.correlation[scene], side=ALONG):
+            if 1 <= row["r"] <= LAST:
+                yield Finding(
+                    place(scene),
+                    f"c_x(r) - A exp(-r/l_c) at r = {row['r']}",
+                    interval(row, "residual", "residual_low", "residual_high"),
+                    within(_CLOSE),
+                    in_rows("correlation", scene, side="x"),
+                )
+
+
+@claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
+def three_blocks(evidence: Evidence) -> Iterator[Finding]:
+    """It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more.
+
+    Tested: more than 2.5, on sides of 20 blocks or more.
+    """
+    for scene in scenes_along_x(evidence.correlation_length, 1, _BROAD):
+        for fit in _fits(evidence, scene):
+            source, l_c = in_rows("correlation_length", scene, side="x"), _length(fit)
+            yield Finding(place(scene), "l_c of c_x", l_c, _ABOUT_THREE_OR_MORE, source, "blocks")
+
+
+@claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
+def growing_length(evidence: Evidence) -> Iterator[Finding]:
+    """l_c is slightly increasing with n_p."""
+    for family in families(evidence.correlation_length, _BROAD):
+        fits = [fit for scene in family for fit in _fits(evidence, scene)]
+        if len(fits) < 2:
+            continue
+        n, first, last = family[0].n_blocks, fits[0], fits[-1]
+        yield Finding(
+            family_place(family[0]),
+            f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
+            unpaired_difference(_length(last), _length(first)),
+            ranges.POSITIVE,
+            f"tables/correlation_length: N = {n}, n_p = {first['n_p']} and {last['n_p']}, side = x",
+            "blocks",
+        )
+
+
+@claim("One event can detach a whole side", "3.2", 7, "realisations of pillars with n_p of 4 to 10")
+def whole_sides(evidence: Evidence) -> Iterator[Finding]:
+    """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
+    detachment of the whole side.
+
+    Tested: more often than by chance on sides of 10 blocks or less, without the corners, which
+    detach before; neighbours that detach within 0.5 % of t_max of each other are one event.
+    """
+    name = (
+        "share of the sides along x that, but for their corners, detach in one event, minus "
+        "that of sides whose blocks come from different realisations"
+    )
+    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+        if scene.n_p > _SHORT:
+            continue
+        once = [(events(times) == 1).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, "x")]
+        yield found_on(scene, name, mean(once[0] - once[1]), ranges.POSITIVE)
+
+
+def most_like(scene: Scene, whole: Sequence[Scene]) -> Scene:
+    """The one that differs least in N, size of pillars and distance, in this order."""
+
+    def off(other: Scene) -> tuple[int, ...]:
+        pairs = ((getattr(s, key) for s in (scene, other)) for key in ("n_blocks", "n_p", "n_s"))
+        return tuple(abs(a - b) for a, b in pairs)
+
+    return min(whole, key=off)
+
+
+def _with_whole(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
+    """Grooved pillars with many realisations, and those without grooves most like them."""
+    many = [scene for scene, rows in table.items() if rows[0]["realisations"] >= _MANY]
+    whole = scenes_along_x(many, 1, _BROAD)
+    for scene in scenes_along_x(many, 2, _BROAD) if whole else ():
+        yield scene, most_like(scene, whole)
+
+
+@claim(
+    "Correlations keep their shape on grooved pillars",
+    "3.3",
+    7,
+    f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
+)
+def same_shape(evidence: Evidence) -> Iterator[Finding]:
+    """The correlation functions along the longitudinal edges display the same qualitative shape.
+
+    Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.
+    """
+    for scene, like in _with_whole(evidence.correlation):
+        whole = {row["r"]: row for row in select(evidence.correlation[like], side=ALONG)}
+        for side, name in _SIDES.items():
+            for row in select(evidence.correlation[scene], side=side):
+                if 1 <= row["r"] <= LAST:
+                    values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
+                    yield Finding(
+                        place(scene) | {"side": name},
+                        f"c(r) minus c_x(r) on n_p = {like.n_p} without grooves, at r = {row['r']} "
+                        "(from both intervals)",
+                        unpaired_difference(*values),
+                        within(_CLOSE),
+                        in_rows("correlation", scene, side=side),
+                    )
+
+
+@claim(
+    "Grooves leave the correlation length unchanged",
+    "3.3",
+    7,
+    f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
+)
+def same_length(evidence: Evidence) -> Iterator[Finding]:
+    """The typical correlation length along the longitudinal edges is also the same.
+
+    Tested: within a block, on external sides and along the grooves.
+    """
+    for scene, like in _with_whole(evidence.correlation_length):
+        whole = _fits(evidence, like)
+        for side, name in _SIDES.items():
+            for fit in _fits(evidence, scene, side) if whole else []:
+                yield Finding(
+                    place(scene) | {"side": name},
+                    "l_c on grooved pillars minus l_c on sides of "
+                    f"n_p = {whole[0]['n_p']} without grooves (from both intervals)",
+                    unpaired_difference(_length(fit), _length(whole[0])),
+                    within(_BLOCK),
+                    in_rows("correlation_length", scene, side=side),
+                    "blocks",
+                )
+
+
+@claim(
+    "Precursors are uncorrelated when sliding across grooves",
+    "3.3",
+    7,
+    "tables of correlation along grooved pillars that slide across their grooves",
+)
+def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
+    """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
+
+    Tested: correlation below 1/e one block away, on external sides and along the grooves.
+    """
+    for scene in scenes_along_x(evidence.records, 2, SMALLEST):
+        across = replace(scene, direction="y")
+        for side, name in _SIDES.items():
+            for row in select(evidence.correlation.get(across, ()), side=side, r=1):
+                yield Finding(
+                    place(scene) | {"side": name},
+                    "c(r = 1) when sliding across the grooves",
+                    interval(row, "correlation"),
+                    _DECAYED,
+                    in_rows("correlation", across, side=side, r=1),
+                )

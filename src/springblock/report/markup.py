@@ -1,0 +1,144 @@
+"""Text, pages in Markdown and tables, as HTML or ready for it."""
+
+import re
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import pyarrow as pa
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from markupsafe import Markup, escape
+
+from springblock.claims.page import anchor
+
+#: The paper's symbols, which it prints with their indices below the line.
+_SYMBOL = re.compile(r"\b(?:(n)_([ps][23]?)|(l)_([cpz])|(t)_(max|avg|det)|(μ)_([sd]))\b")
+_SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
+_MANY = 20  #: chapters from which on the numbered ones are folded
+
+
+def typeset(text: str) -> Markup:
+    """Return text as HTML, escaped but for what sets its symbols."""
+
+    def symbol(found: re.Match[str]) -> str:
+        letter, index = filter(None, found.groups())
+        return f"<var>{letter}<sub>{index}</sub></var>"
+
+    return Markup(_SYMBOL.sub(symbol, str(escape(text))))
+
+
+class Page(NamedTuple):
+    """A page of a study."""
+
+    name: str
+    title: str
+    body: str  #: HTML, headings and links to them marked with the page's name
+
+
+def rendered(name: str, markdown: str) -> Page:
+    """Render a page, whose first heading is its title.
+
+    What is HTML in it, is shown as it stands.
+    """
+    parser = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = parser.parse(markdown)
+    title = name
+    if tokens and tokens[0].tag == "h1":
+        title, tokens = tokens[1].content, tokens[3:]
+    _mark(name, tokens)
+    chapters = sum(token.type == "heading_open" and token.tag == "h2" for token in tokens)
+    tokens = _boxed(_folded(tokens) if chapters > _MANY else tokens)
+    return Page(name, title, parser.renderer.render(tokens, parser.options, {}))
+
+
+def _mark(name: str, tokens: Sequence[Token]) -> None:
+    """Give headings anchors that are no other page's, keep short cells whole, and set symbols."""
+    for i, token in enumerate(tokens):
+        if token.type == "heading_open":
+            token.attrSet("id", f"{name}-{anchor(tokens[i + 1].content)}")
+        if token.type == "td_open":
+            token.attrSet("class", _width(tokens[i + 1].content))
+        for child in token.children or ():
+            target = str(child.attrGet("href") or "")
+            if target.startswith("#"):
+                child.attrSet("href", f"#{name}-{target[1:]}")
+            if child.type == "text":
+                child.type, child.content = "html_inline", str(typeset(child.content))
+
+
+def _width(content: str) -> str:
+    """How wide a cell is to be, as a class of the style sheet."""
+    size = len(content)
+    return "short" if size <= _SHORT else "long" if size > _LONG else "medium"
+
+
+def _folded(tokens: Sequence[Token]) -> list[Token]:
+    """Fold numbered chapters, each below its heading."""
+    folded: list[Token] = []
+    opened = False
+    for i, token in enumerate(tokens):
+        if token.tag == "h2" and token.type == "heading_open":
+            folded += _html("</details>" * opened)
+            opened = tokens[i + 1].content[:1].isdigit()
+            folded += _html("<details><summary>" * opened)
+        folded.append(token)
+        if token.tag == "h2" and token.type == "heading_close":
+            folded += _html("</summary>" * opened)
+    return folded + _html("</details>" * opened)
+
+
+def _html(text: str) -> list[Token]:
+    return [Token("html_block", "", 0, content=text)] if text else []
+
+
+def _boxed(tokens: Sequence[Token]) -> list[Token]:
+    """Put every table into a box that it may scroll in."""
+    boxed: list[Token] = []
+    for token in tokens:
+        boxed += _html('<div class="table" tabindex="0">' * (token.type == "table_open"))
+        boxed += [token, *_html("</div>" * (token.type == "table_close"))]
+    return boxed
+
+
+class Column(NamedTuple):
+    """A column of a table."""
+
+    name: str
+    unit: str  #: empty for numbers of no unit and for words
+    meaning: str
+    is_number: bool
+
+
+class Shown(NamedTuple):
+    """A table: what is the same in all its rows, and the rows without that."""
+
+    name: str
+    same: list[str]  #: as name = value unit
+    columns: list[Column]
+    rows: list[list[str]]
+
+
+def shown(name: str, table: pa.Table) -> Shown:
+    """Lay out a table; numbers have six digits."""
+    columns = {field.name: _column(field) for field in table.schema}
+    values = {name: [_text(value) for value in table[name].to_pylist()] for name in columns}
+    same = {name: texts[0] for name, texts in values.items() if len(set(texts)) == 1}
+    if table.num_rows == 1:
+        same = {}
+    told = [f"{name} = {text} {columns[name].unit}".strip() for name, text in same.items() if text]
+    kept = [name for name in columns if name not in same]
+    rows = [list(row) for row in zip(*(values[name] for name in kept), strict=True)]
+    return Shown(name, told, [columns[name] for name in kept], rows)
+
+
+def _column(field: pa.Field) -> Column:
+    says = {key.decode(): value.decode() for key, value in (field.metadata or {}).items()}
+    is_number = pa.types.is_floating(field.type) or pa.types.is_integer(field.type)
+    unit = says.get("unit", "1") if is_number else "1"
+    return Column(field.name, "" if unit == "1" else unit, says.get("meaning", ""), is_number)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return "" if value != value else f"{value:.6g}"
+    return "" if value is None else str(value)
