@@ -1,6 +1,6 @@
 # What is drawn: figures and sweeps, what each needs, and what it shows.
 
-from springblock.plotting import declarations
+from springblock.plotting import declarations, drawing
 
 #: Those that figures are drawn from, and their scenes.
 DRAWN = study.for_figures(ENSEMBLES)

@@ -9,7 +9,7 @@ for figure, declared in FIGURES.items():
             made_of(
                 f"figures/{figure}",
                 "springblock.cli.figure",
-                f"springblock.plotting.{figure}",
+                drawing(figure).__module__,
                 options=declared.source.options(
                     config["n_blocks"], config["figures"].get(figure, {})
                 ),
