@@ -15,13 +15,13 @@ from springblock.analysis.statistics import (
     mean_of_rest,
     standard_error,
 )
-from springblock.plotting.style import MICRO
+from springblock.plotting.style import MICRO, Look
 from springblock.simulation.run import Array
 
 BAND = 0.25  #: opacity of the intervals
 SINGLE = 20  #: runs of an ensemble that are shown one by one, at most
 _BIN = 2e-6  #: s, width of the bins of detachments
-REST: dict[str, Any] = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs' end
+REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs' end
 
 #: What captions say of curves that `draw_mean_force` and `draw_detachments` draw.
 ENDS = """Runs end after a set time, or after the first minimum behind their force maximum. From
@@ -86,7 +86,7 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
     plural = "" if len(peaks) == 1 else "s"
     draw_mean_force(ax, curve, color, f"{name}: {len(peaks)} load peak{plural}")
     heights = forces[:, peaks].mean(axis=0)
-    triangle: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
+    triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
     for time, height in zip(MICRO * curve.time[peaks], heights, strict=True):
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
 

@@ -67,13 +67,11 @@ class Source:
 class PatternSource(Source):
     """A pattern with the lengths that the configuration gives under the figure's name.
 
-    It is as large as the study's surfaces, or as it must be to hold so many `pillars` each way.
+    It is as large as the study's surfaces, or as it must be to hold two pillars each way.
     """
 
-    pillars: int = 1
-
     def options(self, n_blocks: int, lengths: Lengths) -> str:
-        needed = self.pillars * (lengths["n_p"] + lengths["n_s"])
+        needed = 2 * (lengths["n_p"] + lengths["n_s"])
         return Scene(max(n_blocks, needed), **lengths).arguments
 
     def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:

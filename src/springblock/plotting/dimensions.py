@@ -1,12 +1,13 @@
 """Arrows and lengths beside what they measure, in a panel's own coordinates."""
 
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import FancyArrowPatch
 
 from springblock.model.direction import heading, normalised
-from springblock.plotting.style import BLACK
+from springblock.plotting.style import BLACK, Look
 
 Axis = Literal["x", "y"]
 Point = tuple[float, float]
@@ -36,16 +37,16 @@ def dimension(
     else:
         arrow(ax, point(start), point(end), _HEADS)
     aside = (0.0, 2.5) if along_x else (3.5, 0.0)  # points
-    look: dict[str, Any] = {"ha": "center" if along_x else "left"}
+    look: Look = {"ha": "center" if along_x else "left"}
     look |= {"va": "bottom" if along_x else "center", "textcoords": "offset points"}
     ax.annotate(label, point(middle), aside, annotation_clip=False, **look)
 
 
 def arrow(ax: Axes, start: Point, end: Point, heads: str = _HEAD, width: float = 0.6) -> None:
     """Draw an arrow whose tip is at `end`, in data coordinates, also outside the panel."""
-    look = {"arrowstyle": heads, "color": BLACK, "linewidth": width, "joinstyle": "miter"}
-    look |= {"mutation_scale": 8.0, "shrinkA": 0.0, "shrinkB": 0.0}
-    ax.annotate("", end, start, arrowprops=look, annotation_clip=False)
+    look: Look = {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
+    look |= {"color": BLACK, "linewidth": width, "joinstyle": "miter", "clip_on": False}
+    ax.add_artist(FancyArrowPatch(start, end, arrowstyle=heads, **look))
 
 
 def draw_sliding(ax: Axes, *directions: str | float) -> None:

@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps
 
-from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION
+from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION, Look
 
 Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
-Look = dict[str, Any]  #: of a line or of markers
 
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
 _STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}

@@ -9,9 +9,17 @@ from matplotlib.colors import CenteredNorm, ListedColormap, Normalize, TwoSlopeN
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NANO, NO_CONTACT, color_bar
+from springblock.plotting.style import (
+    BEFORE_AFTER,
+    BLACK,
+    CONTACT,
+    NANO,
+    NO_CONTACT,
+    Look,
+    color_bar,
+)
 from springblock.simulation.run import Array, Run
 
 _BLOCKS = ListedColormap([NO_CONTACT, CONTACT])
@@ -26,7 +34,7 @@ DISPLACEMENT = r"displacement $|u|$ (nm)"
 _LEAST = 1e-3  #: half width of the scale around t_max, over t_max
 
 
-def draw_map(ax: Axes, values: Array, axes: str = "/l") -> AxesImage:
+def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
     """Show one value or colour per block; block (x, y) covers x ± 1/2, y ± 1/2.
 
     What is drawn later does not stretch the panel. `axes` follows x and y in their names.
@@ -49,7 +57,7 @@ def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l") -> Axes
 def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0)) -> None:
     """Tell single blocks apart, (rows, columns) from `corner` = (y, x) on."""
     (rows, columns), (y, x) = shape, corner
-    look = {"color": "white", "linewidth": 0.4}
+    look: Look = {"color": "white", "linewidth": 0.4}
     ax.vlines(x + np.arange(columns - 1) + 0.5, y - 0.5, y + rows - 0.5, **look)
     ax.hlines(y + np.arange(rows - 1) + 0.5, x - 0.5, x + columns - 0.5, **look)
 
@@ -71,7 +79,7 @@ def scale(run: Run) -> CenteredNorm:
 def draw_times_bar(ax: Axes, run: Run) -> None:
     """Say below a map of one run which colour stands for which time."""
     label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
-    look = {"orientation": "horizontal", "extend": "both"}
+    look: Look = {"orientation": "horizontal", "extend": "both"}
     bar = color_bar(ax, ScalarMappable(scale(run), BEFORE_AFTER), label, **look).ax
     for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
@@ -95,7 +103,7 @@ def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array
 def draw_key(ax: Axes, *names: str) -> None:
     """Name colours of blocks above a map."""
     handles = [Patch(color=_KEY[name], label=name) for name in names]
-    look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
+    look: Look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
 
 

@@ -1,19 +1,18 @@
 """Force and detachments of one run over time, which may stand in front of others."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import Normal, Stroke
 
 from springblock.analysis.statistics import cut
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
 _BAND = (5.0, 95.0)  #: percentiles of the ensemble
 _CASED = [Stroke(linewidth=1.6, foreground="white"), Normal()]  #: visible on any ground
-_MEAN: dict[str, Any] = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}
+_MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
 def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: tuple[float, float]) -> None:

@@ -1,6 +1,6 @@
 """Means of ensembles with their intervals, over what they vary with."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.plotting import style
-from springblock.plotting.style import GREY, MICRO
+from springblock.plotting.style import GREY, MICRO, Look
 from springblock.simulation.run import Array, Run
 
 #: Bars over intervals.
-BAR: dict[str, Any] = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
+BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
 FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
@@ -35,9 +35,9 @@ def draw_point(ax: Axes, place: float, interval: Interval, color: Any, **look: A
     draw_points(ax, [place], [interval], color, linestyle="none", **look)
 
 
-def name_places(ax: Axes, places: Sequence[float]) -> None:
+def name_places(ax: Axes, places: ArrayLike) -> None:
     """Make a logarithmic horizontal axis with a number at each place."""
-    ticks = sorted(set(places))
+    ticks = np.unique(places)
     ax.set_xscale("log")
     ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.xaxis.set_minor_locator(NullLocator())
@@ -68,7 +68,7 @@ def draw_no_lag(ax: Axes) -> None:
 
 
 def draw_series(
-    panels: Sequence[Axes], ensembles: dict[float, Sequence[Run]], color: Any, **look: Any
+    panels: Sequence[Axes], ensembles: Mapping[int, Sequence[Run]], color: Any, **look: Any
 ) -> None:
     """Draw static friction and t_max - t_avg of ensembles over a number that they differ in."""
     places = sorted(ensembles)

@@ -17,6 +17,8 @@ from matplotlib.figure import Figure
 
 from springblock.files import whole_file
 
+Look = dict[str, Any]  #: of a line, of markers or of text
+
 MM = 1.0 / 25.4  #: one millimetre in inches, matplotlib's unit
 MICRO, NANO = 1e6, 1e9  #: µs and ns per s; nm per m
 PERCENT = 100.0
@@ -45,7 +47,7 @@ BEFORE_AFTER = LinearSegmentedColormap.from_list(
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
 
-JOURNAL: dict[str, Any] = {
+JOURNAL: Look = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],  # comes with matplotlib: the same on every computer
     "mathtext.fontset": "dejavusans",
@@ -72,8 +74,6 @@ JOURNAL: dict[str, Any] = {
     "ytick.major.size": 2.5,
     "xtick.minor.size": 1.5,
     "ytick.minor.size": 1.5,
-    "figure.constrained_layout.h_pad": 0.03,  # inches
-    "figure.constrained_layout.w_pad": 0.03,
     "savefig.dpi": 600,
     "pdf.fonttype": 42,  # TrueType: text stays text
     "svg.hashsalt": "springblock",  # the same identifiers every time
@@ -93,13 +93,16 @@ _METADATA: dict[str, dict[str, None]] = {
 def panels(
     width: float, height: float, letters: str = "a", **placing: Any
 ) -> tuple[Figure, list[Axes]]:
-    """Make a figure of `width` x `height` mm with panels where `letters` has them, as "ab;cd".
+    """Make a figure of `width` x `height` mm with panels where `letters` has them.
 
-    Panels come in the order of their letters, with "a)" above each if there are several; capital
-    letters are not shown. `placing` are further arguments of `Figure.subplot_mosaic`.
+    In "ab;cd|ef" semicolons end rows, and below a bar are columns of their own. Panels come in the
+    order of their letters, with "a)" above each if there are several; capital letters are not
+    shown. `placing` are further arguments of `Figure.subplot_mosaic`.
     """
     picture = Figure(figsize=(width * MM, height * MM), layout="constrained")
-    placed = picture.subplot_mosaic(letters, **placing)
+    blocks = [[list(row) for row in block.split(";")] for block in letters.split("|")]
+    mosaic: Any = [[block] for block in blocks] if len(blocks) > 1 else blocks[0]
+    placed = picture.subplot_mosaic(mosaic, **placing)
     for letter, ax in placed.items():
         if letter.islower() and len(placed) > 1:
             ax.set_title(f"{letter})", loc="left", fontweight="bold")
@@ -118,7 +121,8 @@ def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Co
     """Draw a bar of colours as long as a panel, at its right or, with that orientation, below."""
     below = look.get("orientation") == "horizontal"
     place = ax.inset_axes((0.0, -0.24, 1.0, 0.04) if below else (1.05, 0.0, 0.05, 1.0))
-    bar = ax.get_figure(root=True).colorbar(mappable, place, label=label, **look)
+    picture: Any = ax.figure
+    bar: Colorbar = picture.colorbar(mappable, place, label=label, **look)
     bar.outline.set_linewidth(JOURNAL["axes.linewidth"])
     return bar
 
@@ -134,5 +138,6 @@ def save(picture: Figure, path: Path, caption: str | None = None) -> None:
         raise ValueError(f"figures are saved as {', '.join(_METADATA)}, not as {path.suffix!r}")
     described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
     metadata = _METADATA[path.suffix] | (described if caption else {})
+    picture.draw_without_rendering()  # panels with arrows beside them need a second pass of layout
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

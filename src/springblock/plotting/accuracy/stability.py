@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, TableSource
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, journal
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, journal
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -27,7 +27,7 @@ FIGURE = Declaration(
     source=TableSource("stability"),
 )
 
-_INTEGRATORS: dict[str, tuple[str, dict[str, Any]]] = {
+_INTEGRATORS: dict[str, tuple[str, Look]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),
     "rk4": (
         "Runge–Kutta",
@@ -38,7 +38,7 @@ _INTEGRATORS: dict[str, tuple[str, dict[str, Any]]] = {
 _ENDS = {"refused": ("refused at the start", "x"), "raises": ("ended by an exception", "^")}
 _NOTHING = ("as expected, nothing to compare", "d")
 _HEIGHTS = {"x": 0.95, "^": 0.87, "d": 0.79}  #: of these, as shares of the panel
-_ACCEPTED: dict[str, Any] = {"color": GREY, "marker": "_", "markersize": 6.0, "linestyle": ""}
+_ACCEPTED: Look = {"color": GREY, "marker": "_", "markersize": 6.0, "linestyle": ""}
 
 #: Families over a parameter: the name of the axis, and the beginnings of the quantities shown,
 #: each with a label at (share of the axis, error).
@@ -71,7 +71,7 @@ def draw(cases: DataFrame) -> Figure:
     a) Energy residual over step, up to the stability limit and beyond; b) error of all cases
     relative to what is accepted; c) to f) error over the parameter of four families.
     """
-    picture, panels = style.panels(style.DOUBLE, 116.0, "aabb;cdef")
+    picture, panels = style.panels(style.DOUBLE, 116.0, "ab|cdef")
     steps, overview, *families = panels
     _draw_steps(steps, _family(cases, "step"))
     _draw_close_up(steps, _family(cases, "step"))
@@ -170,45 +170,30 @@ def _spread(count: int) -> NDArray[np.float64]:
 
 
 def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, float]]) -> None:
-    """Error of a family over its parameter; a parameter of zero stands beside the axis."""
-    positive = cases["parameter"] > 0.0
-    zero = float(cases.loc[positive, "parameter"].min()) / 20.0
+    """Error of a family over its parameter."""
     for start, (label, across, up) in shown.items():
         same = cases.loc[cases["quantity"].str.startswith(start)]
         for integrator, (_, look) in _INTEGRATORS.items():
-            runs = _of(same, integrator, "agrees").assign(
-                error=lambda d: d["relative_error"].abs().clip(lower=_SMALLEST)
-            )
-            line, alone = runs.loc[runs["parameter"] > 0.0], runs.loc[runs["parameter"] == 0.0]
-            ax.plot(line["parameter"], line["error"], linewidth=0.6, **look)
-            ax.plot(line["parameter"], line["tolerance"], **_ACCEPTED)
-            ax.plot(np.full(len(alone), zero), alone["error"], linestyle="", **look)
-            ax.plot(np.full(len(alone), zero), alone["tolerance"], **_ACCEPTED)
+            runs = _of(same, integrator, "agrees")
+            error = runs["relative_error"].abs().clip(lower=_SMALLEST)
+            ax.plot(runs["parameter"], error, linewidth=0.6, **look)
+            ax.plot(runs["parameter"], runs["tolerance"], **_ACCEPTED)
         place = blended_transform_factory(ax.transAxes, ax.transData)
         ax.text(across, up, label, transform=place, ha="left", va="center")
     _draw_ends(ax, cases)
-    ax.set(xscale="log", yscale="log", ylim=(_SMALLEST / 3.0, 1e3))
+    ax.set(yscale="log", ylim=(_SMALLEST / 3.0, 1e3))
     ax.set_yticks([10.0**k for k in range(-16, 1, 4)])
+    parameters = cases["parameter"]
+    smallest, largest = (np.log10(parameters[parameters > 0.0].agg(end)) for end in ("min", "max"))
+    powers = [10.0**k for k in range(round(smallest), round(largest) + 1, 2)]
+    if (parameters > 0.0).all():
+        ax.set_xscale("log")
+        ax.set_xticks(powers)
+    else:
+        ax.set_xscale("symlog", linthresh=powers[0], linscale=0.5)
+        ax.set_xticks([0.0, *powers])
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_minor_locator(NullLocator())
-    low, high = (
-        round(np.log10(end)) for end in cases.loc[positive, "parameter"].agg(["min", "max"])
-    )
-    powers = range(low, high + 1, 2)
-    labels = [f"$10^{{{k}}}$" for k in powers]
-    if positive.all():
-        ax.set_xticks([10.0**k for k in powers], labels)
-    else:
-        ax.set_xticks([zero, *(10.0**k for k in powers)], ["0", *labels])
-        _draw_break(ax, 4.5 * zero)
-
-
-def _draw_break(ax: Axes, at: float) -> None:
-    """Two strokes through the lower and the upper edge."""
-    for edge in (0.0, 1.0):
-        for shift in (-1.2, 1.2):
-            look = {"textcoords": "offset points", "ha": "center", "va": "center", "fontsize": 6.0}
-            ax.annotate("/", (at, edge), (shift, 0.0), ax.get_xaxis_transform(), **look)
 
 
 def _draw_ends(ax: Axes, cases: DataFrame) -> None:
@@ -218,7 +203,7 @@ def _draw_ends(ax: Axes, cases: DataFrame) -> None:
             _mark(ax, _of(cases, integrator, outcome)["parameter"], height, look, marker)
 
 
-def _mark(ax: Axes, places: Any, height: float, look: dict[str, Any], marker: str) -> None:
+def _mark(ax: Axes, places: Any, height: float, look: Look, marker: str) -> None:
     """Markers at a share of the panel's height."""
     looks = {**look, "marker": marker, "markersize": 4.0, "linestyle": ""}
     ax.plot(places, np.full(len(places), height), transform=ax.get_xaxis_transform(), **looks)
@@ -230,6 +215,6 @@ def _draw_legend(picture: Figure) -> None:
     ]
     kinds.append(Line2D([], [], label="accepted", **_ACCEPTED))
     for label, marker in (*_ENDS.values(), _NOTHING):
-        look: dict[str, Any] = {"color": GREY, "linestyle": "", "marker": marker, "markersize": 4.0}
+        look: Look = {"color": GREY, "linestyle": "", "marker": marker, "markersize": 4.0}
         kinds.append(Line2D([], [], label=label, **look))
     picture.legend(handles=kinds, loc="outside upper center", ncols=6, columnspacing=1.4)

@@ -30,7 +30,7 @@ from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, TableSource
 from springblock.plotting.looks import shades
 from springblock.plotting.points import draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, journal
+from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, Look, journal
 from springblock.simulation.run import Array
 
 if TYPE_CHECKING:
@@ -54,14 +54,14 @@ _DOTS = (1, 10, 100, 1000)  #: seeds marked along a line
 _SPENT = (0.2, 2e3)  #: CPU time of ensembles, s
 
 #: Names and looks of quantities, in a-c) and k).
-_QUANTITIES: dict[str, tuple[str, dict[str, Any]]] = {
+_QUANTITIES: dict[str, tuple[str, Look]] = {
     "static_friction": ("static friction", {"color": BLACK, "marker": "o", "markersize": 3.0}),
     DELAY: (r"$t_\mathrm{max} - t_\mathrm{avg}$", {"color": VERMILION, "marker": "s"}),
     LENGTH: (r"$l_\mathrm{c}$", {"color": BLUE, "marker": "^", "markersize": 3.6}),
 }
-_DASHES: dict[str, Any] = dict(zip(SCENES, ("-", "--", ":"), strict=True))
-_RING: dict[str, Any] = {"marker": "o", "markersize": 8.0, "fillstyle": "none", "color": BLACK}
-_ENVELOPE: dict[str, Any] = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
+_DASHES: Look = dict(zip(SCENES, ("-", "--", ":"), strict=True))
+_RING: Look = {"marker": "o", "markersize": 8.0, "fillstyle": "none", "color": BLACK}
+_ENVELOPE: Look = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
 
 
 @journal
@@ -72,7 +72,7 @@ def draw(table: DataFrame) -> Figure:
     of an ensemble, g-i) of t_max - t_avg, j) of l_c of pillars; k) all steps at the study's
     budgets.
     """
-    picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi;Ljk")
+    picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|Ljk", height_ratios=(3, 1))
     *panels, excesses, legend = panels
     _draw_biases(panels[:3], table)
     colors = shades(table.step)
@@ -127,11 +127,11 @@ def _draw_biases(panels: Sequence[Axes], table: DataFrame) -> None:
     panels[0].set_ylim(1.5 * low, 1.5 * high)
     panels[0].set_ylabel("bias (%), linear within ±0.1 %")
     handles = [Line2D([], [], label=name, **look) for name, look in _QUANTITIES.values()]
-    frame: dict[str, Any] = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
+    frame: Look = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
     panels[0].legend(handles=handles, loc="lower right", **frame)
 
 
-def _draw_bias(ax: Axes, rows: list[Row], aside: float, look: dict[str, Any]) -> None:
+def _draw_bias(ax: Axes, rows: list[Row], aside: float, look: Look) -> None:
     keys = ("bias", "ci_low", "ci_high")
     intervals = [[PERCENT * row[key] / row["scale"] for key in keys] for row in rows]
     draw_points(ax, [aside * row["cpu_seconds"] for row in rows], intervals, **look)
@@ -157,7 +157,7 @@ def _draw_errors(ax: Axes, rows: list[Row], colors: dict[float, Any]) -> None:
     by_bias = [choices(rows, bias) for bias in Bias._fields]
     spent = np.geomspace(*_SPENT, 400)
     for choice, low, high in zip(*by_bias, strict=True):
-        look: dict[str, Any] = {"color": colors[choice.step], "zorder": 2.0 + (choice.step == STEP)}
+        look: Look = {"color": colors[choice.step], "zorder": 2.0 + (choice.step == STEP)}
         ax.plot(spent, _errors(choice, spent), linewidth=_wide(choice.step), **look)
         dots = np.array([choice.spent(seeds) for seeds in _DOTS]) * (1.0 + 1e-12)
         ax.plot(dots, _errors(choice, dots), linestyle="none", marker=".", **look)
@@ -223,7 +223,7 @@ def _draw_legend(ax: Axes, colors: dict[float, Any]) -> None:
     handles: list[Artist] = []
     for step, color in colors.items():
         name = f"{NANO * step:g} ns{', the default' if step == STEP else ''}"
-        look: dict[str, Any] = {"color": color, "linewidth": _wide(step), "marker": "."}
+        look: Look = {"color": color, "linewidth": _wide(step), "marker": "."}
         handles.append(Line2D([], [], label=name, **look))
     handles.append(Line2D([], [], label="the study's seeds", linestyle="none", **_RING))
     handles.append(Line2D([], [], label="least error", **_ENVELOPE))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -27,6 +27,7 @@ from springblock.plotting.style import (
     PERCENT,
     PURPLE,
     VERMILION,
+    Look,
     journal,
 )
 
@@ -45,7 +46,7 @@ FIGURE = Declaration(
 )
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
-_METHODS: dict[str, tuple[str, dict[str, Any]]] = {
+_METHODS: dict[str, tuple[str, Look]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o", "markersize": 4.2}),
     "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
     PLAIN: (
@@ -53,25 +54,25 @@ _METHODS: dict[str, tuple[str, dict[str, Any]]] = {
         {"color": GREY, "marker": "^", "markersize": 3.4},
     ),
 }
-_TWINS: dict[str, dict[str, Any]] = {
+_TWINS: dict[str, Look] = {
     "flat": {"color": BLACK, "marker": "D", "markersize": 2.8},
     "pillared": {"color": GREEN, "marker": "v", "markersize": 3.6},
     "grooved": {"color": PURPLE, "marker": "P", "markersize": 3.8},
 }
-_ORDER_TWO: dict[str, Any] = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
-_FLOOR: dict[str, Any] = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
-_SCATTER: dict[str, Any] = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
-_RINGS: dict[str, dict[str, Any]] = {
+_ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
+_FLOOR: Look = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
+_SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
+_RINGS: dict[str, Look] = {
     "default": {"marker": "o", "markersize": 8.5},
     "paper": {"marker": "D", "markersize": 7.5},
 }
-_RING: dict[str, Any] = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
+_RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
 
 _COSTS = {"force_evaluations": "force evaluations", "cpu_seconds": "CPU time (s)"}
 _BIASES = {
-    "static_friction": "friction",
-    "t_max": r"$t_\mathrm{max}$",
-    "t_avg": r"$t_\mathrm{avg}$",
+    "static_friction": "bias of static\nfriction (%)",
+    "t_max": "bias of\n$t_\\mathrm{max}$ (%)",
+    "t_avg": "bias of\n$t_\\mathrm{avg}$ (%)",
 }
 _DIFFERENCES = {
     "t_det before peak": "RMS difference of\n$t_\\mathrm{det}/t_\\mathrm{max}$ before peak",
@@ -89,8 +90,7 @@ def draw(table: DataFrame) -> Figure:
     the default of `simulate` and the step of the paper. g-i) Ensembles with paired seeds: bias
     with its 95 % interval. j-l) Runs against themselves with thresholds changed by a little.
     """
-    letters = "abc;def;ghi;GHI;JKL;jkl"
-    ratios = (35, 35, 18, 18, 18, 31)
+    letters, ratios = "abc;def|ghi;GHI;JKL|jkl", (94, 78, 43)
     picture, panels = style.panels(style.DOUBLE, 225.0, letters, height_ratios=ratios)
     times, frictions, *biases, twins = (panels[i : i + 3] for i in (0, 3, 6, 12, 15, 9))
     single = table[table.comparison == "reference"]
@@ -175,7 +175,7 @@ def _draw_biases(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
     every = [ax for row in panels for ax in row]
     style.share_axes(every)
-    for row, (quantity, name) in zip(panels, _BIASES.items(), strict=True):
+    for row, (quantity, label) in zip(panels, _BIASES.items(), strict=True):
         for ax, spread in _by_scene(row, scatter[scatter.quantity == quantity]):
             half = _half_width(spread)
             ax.axhspan(-half, half, **_SCATTER)
@@ -183,7 +183,7 @@ def _draw_biases(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
         for ax, biases in _by_scene(row, paired[paired.quantity == quantity]):
             _draw_bias(ax, biases)
             ax.tick_params(labelleft=ax is row[0], labelbottom=row is panels[-1])
-        row[0].set_ylabel(f"bias of\n{name} (%)")
+        row[0].set_ylabel(label)
     for ax in panels[-1]:
         ax.set_xlabel("integration step (ns)")
     _name_scenes(panels[0], paired)

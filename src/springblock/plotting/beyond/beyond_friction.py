@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import chain
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +16,7 @@ from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, RealisationsSource
 from springblock.plotting.looks import shades
 from springblock.plotting.points import FRICTION, draw_points, name_places
-from springblock.plotting.style import GREY, color_bar, journal
+from springblock.plotting.style import GREY, Look, color_bar, journal
 
 FIGURE = Declaration(
     title="Size of pillars and contact fraction",
@@ -71,7 +70,7 @@ def _draw_lines(ax: Axes, found: Map) -> None:
         draw_points(ax, places, means, color, marker="o", label=label)
         here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
         model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
-        look: dict[str, Any] = {"linestyle": "none", "marker": "_", "markersize": 7.0}
+        look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
         ax.plot(list(model), list(model.values()), color=color, **look)
     name_places(ax, sorted({n_p for n_p, _ in found}))
     ax.set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import chain
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,7 +28,7 @@ from springblock.plotting.curves import draw_band
 from springblock.plotting.declaration import Declaration, RealisationsSource
 from springblock.plotting.looks import shades
 from springblock.plotting.points import FRICTION, draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, journal
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, journal
 
 FIGURE = Declaration(
     title="Lattice or layer",
@@ -73,7 +72,7 @@ def _draw_correlation(ax: Axes, lattices: Surfaces) -> None:
         if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
             continue
         found = Correlation(side_times(runs, runs[0].scene.pattern, "x")).interval
-        look: dict[str, Any] = {"marker": "o", "markersize": 2.0, "label": _named(at, "spacing")}
+        look: Look = {"marker": "o", "markersize": 2.0, "label": _named(at, "spacing")}
         draw_band(ax, at.spacing * np.arange(len(found.mean)), found, colors[at.spacing], **look)
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
     ax.set(xlabel="distance along the side $r$ (µm)", ylabel="time correlation $c_x(r)$")
@@ -123,7 +122,7 @@ def _draw_friction(ax: Axes, part: Surfaces, varied: str) -> None:
     for i, (at, sizes) in enumerate(part.items(), 1):
         place, left, right = (float(limit) for limit in minimum(sizes))
         bars = np.nan_to_num([[place - left], [right - place]])
-        look: dict[str, Any] = {"marker": "x", "linewidth": 0.8}
+        look: Look = {"marker": "x", "linewidth": 0.8}
         ax.errorbar([place], [low - i * line], xerr=bars, color=colors[getattr(at, varied)], **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
     name_places(ax, [size for sizes in part.values() for size in sizes])

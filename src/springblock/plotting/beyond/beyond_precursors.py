@@ -18,7 +18,7 @@ from springblock.plotting import style
 from springblock.plotting.curves import draw_band
 from springblock.plotting.declaration import Declaration, RealisationsSource
 from springblock.plotting.looks import pillar_look, pillar_name, shades
-from springblock.plotting.style import GREY, journal
+from springblock.plotting.style import GREY, Look, journal
 
 FIGURE = Declaration(
     title="Clusters of precursors, and correlation by direction",
@@ -79,7 +79,7 @@ def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
     for angle, runs in found.items():
         curve = Correlation(edges(runs)["grooves"]).interval
         shown = Interval(*(part[: _LAST + 1] for part in curve))
-        look: dict[str, Any] = {"marker": "o", "markersize": 2.0, "label": f"{angle:g}°"}
+        look: Look = {"marker": "o", "markersize": 2.0, "label": f"{angle:g}°"}
         draw_band(ax, range(len(shown.mean)), shown, colors[angle], **look)
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
     ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +14,7 @@ from springblock.model.pattern import Pattern
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, Source
 from springblock.plotting.dimensions import Axis, Point, arrow, dimension
-from springblock.plotting.style import BLACK, CONTACT, GREY, NO_CONTACT, journal
+from springblock.plotting.style import BLACK, CONTACT, GREY, NO_CONTACT, Look, journal
 
 FIGURE = Declaration(
     title="The model",
@@ -41,9 +40,9 @@ _SLAB = 0.4  #: height of slider and substrate
 _DRAG = 0.25  #: how far the slider has run ahead of the blocks
 _SWING, _LEAD, _TURNS = 0.08, 0.23, 5  #: of a spring: half width, straight ends, turns per l
 
-_AXIAL: dict[str, Any] = {"colors": BLACK, "linewidths": 0.9}
-_DIAGONAL: dict[str, Any] = {"colors": GREY, "linewidths": 0.6}
-_SHEAR: dict[str, Any] = {"colors": BLACK, "linewidths": 0.7}
+_AXIAL: Look = {"colors": BLACK, "linewidths": 0.9}
+_DIAGONAL: Look = {"colors": GREY, "linewidths": 0.6}
+_SHEAR: Look = {"colors": BLACK, "linewidths": 0.7}
 
 
 @dataclass(frozen=True)
@@ -120,7 +119,7 @@ def _draw_labels(ax: Axes, middle: float, underside: float) -> None:
     ax.text(n - 0.9, underside + _SLAB + 0.25, "$v$", va="center")
 
 
-def _draw_springs(ax: Axes, ends: Iterable[tuple[Point, Point]], look: dict[str, Any]) -> None:
+def _draw_springs(ax: Axes, ends: Iterable[tuple[Point, Point]], look: Look) -> None:
     ax.add_collection(LineCollection([zigzag(*pair) for pair in ends], **look), autolim=False)
 
 

@@ -49,15 +49,13 @@ def draw(runs: Sequence[Run]) -> Figure:
         name_times(upper, run)
         upper.tick_params(labelbottom=False)
         lower.set_xlabel("time (µs)")
-    force, enlarged, blocks, enlarged_blocks = panels
-    for ax in (enlarged, enlarged_blocks):
-        ax.set_ylabel("")
+    force, _, blocks, enlarged = panels
     for ax, name in ((force, "enlarged at the right"), (blocks, None)):
         ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
     early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
     force.legend(loc="lower right" if early else "upper left")
     blocks.legend(loc="upper right" if early else "upper left")
-    _name_precursors(enlarged_blocks, run, zoom[0])
+    _name_precursors(enlarged, run, zoom[0])
     return picture
 
 

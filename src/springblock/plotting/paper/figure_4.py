@@ -1,7 +1,5 @@
 """Figure 4: square pillars, and the coordinates on one of them (section 3.2 of the paper)."""
 
-from typing import Any
-
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
@@ -10,7 +8,7 @@ from springblock.model.pattern import Pattern
 from springblock.plotting.declaration import Declaration, PatternSource
 from springblock.plotting.dimensions import Axis, dimension, draw_sliding
 from springblock.plotting.paper.pillar import draw_pillar_dimensions, surface_and_pillar
-from springblock.plotting.style import BLACK, BLUE, CONTACT, VERMILION, journal
+from springblock.plotting.style import BLACK, BLUE, CONTACT, VERMILION, Look, journal
 
 FIGURE = Declaration(
     title="Square pillars",
@@ -22,7 +20,7 @@ FIGURE = Declaration(
 
 #: Distances of the two lines of text from the side that they describe, as shares of its length.
 _LINES = (0.05, 0.16)
-_POINT: dict[str, Any] = {
+_POINT: Look = {
     "color": "white",
     "markeredgecolor": BLACK,
     "markeredgewidth": 0.6,
@@ -34,15 +32,14 @@ _BEHIND = {"facecolor": CONTACT, "edgecolor": "none", "pad": 0.8}  #: hides bord
 
 
 @journal
-def draw(pattern: Pattern, portion: int | None = None) -> Figure:
-    """Draw a) `portion` x `portion` blocks of the surface and b) one pillar with its sides.
+def draw(pattern: Pattern) -> Figure:
+    """Draw a) the first three pillars each way and b) one pillar with its sides.
 
-    By default the portion holds three pillars each way. The side along x is y_p = 0, the side
+    The side along x is y_p = 0, the side
     along y is x_p = 0; the correlation functions c_x and c_y start at their centres (n_p/2, 0) and
     (0, n_p/2).
     """
-    if portion is None:
-        portion = 3 * sum(level.size + level.gap for level in pattern.levels[:1])
+    portion = 3 * sum(level.size + level.gap for level in pattern.levels[:1])
     picture, surface, pillar = surface_and_pillar(pattern, portion)
     draw_pillar_dimensions(surface, pattern, "$n_p$", "$n_s$")
     size = pattern.levels[0].size

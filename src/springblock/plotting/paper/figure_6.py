@@ -1,7 +1,6 @@
 """Figure 6: friction force and detachments for several sizes of pillars (section 3.2)."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,7 +20,7 @@ from springblock.plotting.points import (
     highest_and_lag,
     name_places,
 )
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, journal
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look, journal
 from springblock.simulation.run import Array, Run
 
 FIGURE = Declaration(
@@ -44,7 +43,7 @@ BySize = Mapping[int, Sequence[Run]]  #: by n_p, 0 for the flat surface
 def draw(ensembles: BySize) -> Figure:
     """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
     ensembles = dict(sorted(ensembles.items()))
-    ratios: dict[str, Any] = {"width_ratios": (105, 46), "height_ratios": (43, 37)}
+    ratios: Look = {"width_ratios": (105, 46), "height_ratios": (43, 37)}
     picture, panels = style.panels(style.DOUBLE, 103.0, "ac;bd", **ratios)
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
@@ -96,7 +95,7 @@ def _draw_sizes(ax: Axes, ensembles: BySize, values: Sequence[Array]) -> None:
             continue
         ax.axhline(float(interval.mean), color=BLACK, linewidth=0.8, linestyle="--")
         ax.axhspan(float(interval.low), float(interval.high), color="0.8", linewidth=0.0, zorder=0)
-        below: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": "top"}
+        below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
         place = (0.45, float(interval.mean))
         ax.annotate("flat", place, (0.0, -2.0), ax.get_yaxis_transform(), **below)
     name_places(ax, [n_p for n_p in ensembles if n_p])

@@ -1,6 +1,6 @@
 """Figure 7: correlation of detachment times along the sides of pillars (section 3.2)."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +16,7 @@ from springblock.plotting.declaration import (
     Declaration,
 )
 from springblock.plotting.points import draw_points, name_places
-from springblock.plotting.style import BLUE, GREY, VERMILION, journal
+from springblock.plotting.style import BLUE, GREY, VERMILION, Look, journal
 
 if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd
@@ -37,7 +37,7 @@ FIGURE = Declaration(
 _SIDES = {"x": (BLUE, "D"), "y": (VERMILION, "s")}
 _EXPONENTIAL = r"$\exp(-r/l_c)$"
 _FREE = r"$A\,$" + _EXPONENTIAL
-_DASHED: dict[str, Any] = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
+_DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 
 
 @journal
@@ -76,7 +76,7 @@ def draw(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
 def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
     """Points and band of c(r) and the fitted exponential, dotted beyond what it was fitted to."""
     color, marker = _SIDES[side]
-    values = Interval(curve["correlation"], curve["ci_low"], curve["ci_high"])
+    values = Interval(*curve[["correlation", "ci_low", "ci_high"]].to_numpy().T)
     look = {"marker": marker, "linestyle": "none", "label": f"$c_{side}(r)$"}
     draw_band(ax, curve["r"], values, color, **look)
     last, end = length["r_last"], curve["r"].max()

@@ -15,7 +15,7 @@ FIGURE = Declaration(
     caption="""Pillars with grooves along x, drawn from the mask that the solver uses, with the
     coordinates of one pillar. Two pillars each way show the distance between them; the surfaces of
     figure 9 hold as many as their N has room for. Figure 8 of the paper.""",
-    source=PatternSource(pillars=2),
+    source=PatternSource(),
 )
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from string import ascii_lowercase
-from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,7 +19,7 @@ from springblock.plotting.curves import (
 )
 from springblock.plotting.declaration import INTERVALS, Declaration, RealisationsSource
 from springblock.plotting.looks import direction_color, direction_name
-from springblock.plotting.style import FORCE, journal
+from springblock.plotting.style import FORCE, Look, journal
 from springblock.simulation.run import Run
 
 FIGURE = Declaration(
@@ -49,7 +48,7 @@ def draw(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     curves = {key: whole_curve(runs) for key, runs in sorted(ensembles.items())}
     rows = sorted({key[:2] for key in curves})
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
-    look: dict[str, Any] = {"width_ratios": (95, 57), "sharex": True}
+    look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 17.0 + 37.5 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):

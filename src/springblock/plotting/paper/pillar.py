@@ -36,21 +36,14 @@ def surface_and_pillar(pattern: Pattern, portion: int) -> tuple[Figure, Axes, Ax
 
 
 def draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str) -> None:
-    """Measure the first pillar and the gap after it, above a panel that shows the surface.
-
-    Where there is no second pillar, measure the half gap before the first.
-    """
-    level, (right, top) = pattern.levels[0], (ax.get_xlim()[1], ax.get_ylim()[1])
+    """Measure the first pillar and the gap after it, above a panel that shows the surface."""
+    level, (_, top) = pattern.levels[0], ax.get_ylim()
     begin = pattern.profile("x", depth=1)[0][0] - 0.5
-    end = begin + level.size
-    gaps = {(end, end + level.gap): spacing, (-0.5, begin): f"{spacing}$/2$"}
-    gap = next((gap for gap in gaps if gap[0] < gap[1] < right), None)
-    lengths = {(begin, end): size} | ({gap: gaps[gap]} if gap else {})
-    edges = sorted({edge for length in lengths for edge in length})
+    edges = (begin, begin + level.size, begin + level.size + level.gap)
     rows = np.flatnonzero(pattern.contact[: round(top + 0.5)].any(axis=1))
     above = top + 0.035 * (top + 0.5)
     ax.vlines(edges, rows[-1] + 0.5, above, color=GREY, linewidth=0.4, clip_on=False)
-    for (start, stop), label in lengths.items():
+    for start, stop, label in zip(edges, edges[1:], (size, spacing), strict=False):
         dimension(ax, "x", start, stop, above, label)
 
 

@@ -28,6 +28,7 @@ from springblock.plotting.style import (
     MICRO,
     MM,
     VERMILION,
+    Look,
     color_bar,
     journal,
 )
@@ -114,8 +115,8 @@ def scenery(run: Run) -> tuple[Figure, Update]:
         ax.set_xlabel("time (µs)")
         ax.axvline(MICRO * run.t_max, color=GREY, linestyle=":", linewidth=0.8, zorder=0.5)
     above = (MICRO * run.t_max, 1.03)
-    name, middle = r"$t_\mathrm{max}$", {"ha": "center", "va": "bottom"}
-    force.text(*above, name, transform=force.get_xaxis_transform(), **middle)
+    middle: Look = {"ha": "center", "va": "bottom", "transform": force.get_xaxis_transform()}
+    force.text(*above, r"$t_\mathrm{max}$", **middle)
 
     def update(now: float, before: float) -> list[Artist]:
         return [artist for move in updates for artist in move(now, before)]

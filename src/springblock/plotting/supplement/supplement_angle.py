@@ -14,7 +14,7 @@ from springblock.plotting.declaration import (
 )
 from springblock.plotting.looks import direction_color
 from springblock.plotting.points import draw_point, friction_and_lag, highest_and_lag
-from springblock.plotting.style import GREY, PERCENT, journal
+from springblock.plotting.style import GREY, PERCENT, Look, journal
 from springblock.simulation.run import Array, Run, friction
 
 FIGURE = Declaration(
@@ -30,7 +30,7 @@ FIGURE = Declaration(
 
 _AXES = {"x": 0.0, "y": 90.0}  #: degrees from the grooves, which run along x
 _SPREAD = 2.0  #: degrees over which single runs are spread
-_DOT = {"marker": ".", "markersize": 2.8, "alpha": 0.5, "markeredgewidth": 0.0}
+_DOT: Look = {"marker": ".", "markersize": 2.8, "alpha": 0.5, "markeredgewidth": 0.0}
 
 
 @journal

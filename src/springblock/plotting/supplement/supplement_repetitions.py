@@ -10,9 +10,9 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from springblock.analysis.statistics import half_widths
 from springblock.plotting import style
 from springblock.plotting.declaration import Declaration, RealisationsSource, main_surfaces
-from springblock.plotting.looks import Key, Look, in_order, surface_look
+from springblock.plotting.looks import Key, in_order, surface_look
 from springblock.plotting.points import highest_and_lag, name_places
-from springblock.plotting.style import GREY, journal
+from springblock.plotting.style import GREY, Look, journal
 from springblock.simulation.run import Array, Run
 
 FIGURE = Declaration(
