@@ -45,7 +45,8 @@ def dimension(
 def arrow(ax: Axes, start: Point, end: Point, heads: str = _HEAD, width: float = 0.6) -> None:
     """Draw an arrow whose tip is at `end`, in data coordinates, also outside the panel."""
     look: Look = {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
-    look |= {"color": BLACK, "linewidth": width, "joinstyle": "miter", "clip_on": False}
+    look |= {"color": BLACK, "linewidth": width, "joinstyle": "miter"}
+    look |= {"clip_on": False, "zorder": 3}
     ax.add_artist(FancyArrowPatch(start, end, arrowstyle=heads, **look))
 
 

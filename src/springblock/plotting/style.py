@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -128,6 +129,20 @@ def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Co
 
 
 @journal
+def settle(picture: Figure) -> None:
+    """Give panels their final places, with the text and arrows beside them on the page.
+
+    Two passes, as these change with the panel; rounded, as the solver sums up in any order.
+    """
+    for _ in range(2):
+        if engine := picture.get_layout_engine():
+            engine.execute(picture)
+    picture.set_layout_engine("none")
+    for ax in picture.axes:
+        ax.set_position(np.round(ax.get_position(original=True).bounds, 6))
+
+
+@journal
 def save(picture: Figure, path: Path, caption: str | None = None) -> None:
     """Write a figure as PDF, PNG (600 dpi) or SVG, as the suffix of `path` says.
 
@@ -138,6 +153,6 @@ def save(picture: Figure, path: Path, caption: str | None = None) -> None:
         raise ValueError(f"figures are saved as {', '.join(_METADATA)}, not as {path.suffix!r}")
     described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
     metadata = _METADATA[path.suffix] | (described if caption else {})
-    picture.draw_without_rendering()  # panels with arrows beside them need a second pass of layout
+    settle(picture)
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

@@ -154,7 +154,7 @@ def _draw_overview(ax: Axes, cases: DataFrame) -> None:
     names = [f"{family} ({counts[family]})" for family in families]
     ax.set_xticks(range(len(families)), names, rotation=35.0, ha="right", rotation_mode="anchor")
     ax.tick_params(axis="x", length=0.0, pad=2.0)
-    ax.set_ylabel("error / accepted error")
+    ax.set(xlabel="family (number of cases)", ylabel="error / accepted error")
 
 
 def _share(runs: DataFrame) -> Series[float]:
@@ -190,7 +190,8 @@ def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, 
         ax.set_xscale("log")
         ax.set_xticks(powers)
     else:
-        ax.set_xscale("symlog", linthresh=powers[0], linscale=0.5)
+        ax.set_xscale("symlog", linthresh=powers[0])
+        ax.set_xlim(-0.2 * powers[0], 5.0 * powers[-1])
         ax.set_xticks([0.0, *powers])
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_minor_locator(NullLocator())

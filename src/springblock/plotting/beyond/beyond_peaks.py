@@ -50,10 +50,7 @@ def draw(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
             _draw_map(ax, part, largest)
         where = "on pillars" if pillars else "whole surface"
         ax.set_title(f"{where}, $n_{{s2}}$ = {n_s2}")
-    for ax in panels[::2]:
-        ax.set_ylabel("width of pawls $n_{p2}$ (blocks)")
-    for ax in panels[-2:]:
-        ax.set_xlabel("angle to grooves (°)")
+        ax.set(xlabel="angle to grooves (°)", ylabel="width of pawls $n_{p2}$ (blocks)")
     colors = ScalarMappable(Normalize(0.0, largest), _COLORS)
     picture.colorbar(colors, ax=panels, label="prominence of the lesser load peak (%)", aspect=40)
     return picture

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.text import Text
 
 from springblock import Pattern
 from springblock.plotting import style
-from springblock.plotting.runs import surface
+from springblock.plotting.runs import contact as picture_of
 
 GROOVED = Pattern.pillars(60, 28, 32).grooved(8, 2)
 SURFACES = {
@@ -17,13 +19,13 @@ SURFACES = {
 
 
 def texts(picture):
-    return " ".join(text.get_text() for text in [*picture.texts, *picture.axes[0].texts])
+    return " ".join(text.get_text() for text in picture.findobj(Text))
 
 
 @pytest.mark.parametrize("name", SURFACES)
 def test_blocks_are_those_of_the_mask(name):
     contact = SURFACES[name]
-    whole, detail = surface.draw(contact, "x").axes
+    whole, detail = picture_of.draw(contact, "x").axes
     np.testing.assert_array_equal(whole.images[0].get_array(), contact)
     assert whole.get_xlim() == (-0.5, contact.shape[1] - 0.5)
     left, right, bottom, top = detail.images[0].get_extent()
@@ -37,30 +39,33 @@ def test_blocks_are_those_of_the_mask(name):
 
 def test_the_share_in_contact_is_said():
     assert "8 of 9 blocks in contact, 88.9 %" in texts(
-        surface.draw(np.arange(9).reshape(3, 3) > 0, "x")
+        picture_of.draw(np.arange(9).reshape(3, 3) > 0, "x")
     )
 
 
 @pytest.mark.parametrize(
     ("direction", "said", "towards"),
     [
-        ("x", "x", (1, 0)),
-        (90, "y", (0, 1)),
+        ("x", "$x$", (1, 0)),
+        (90, "$y$", (0, 1)),
         ("30", "30°", (np.sqrt(0.75), 0.5)),
         (180, "180°", (-1, 0)),
     ],
 )
 def test_the_arrow_goes_where_the_slider_goes(direction, said, towards):
-    whole = surface.draw(GROOVED.contact, direction).axes[0]
-    (arrow,) = (text for text in whole.texts if getattr(text, "arrow_patch", None))
-    way = np.subtract(arrow.xy, arrow.xyann)
-    assert way / np.hypot(*way) == pytest.approx(towards, abs=1e-12)
+    whole = picture_of.draw(GROOVED.contact, direction).axes[0]
+    (arrow,) = whole.findobj(FancyArrowPatch)
+    corners = arrow.get_path().vertices[:-1]  # the last one closes the head
+    way = corners - corners[0]
+    tip = way[np.argmax(np.hypot(*way.T))]
+    assert tip / np.hypot(*tip) == pytest.approx(towards, abs=1e-6)
     assert f"sliding direction {said}" in texts(whole.figure)
 
 
 @pytest.mark.parametrize("name", SURFACES)
 def test_nothing_leaves_the_page(name):
-    picture = surface.draw(SURFACES[name], 30, "its name")
+    picture = picture_of.draw(SURFACES[name], 30, "its name")
+    style.settle(picture)
     box = style.journal(picture.get_tightbbox)()  # inches
     width, height = picture.get_size_inches()
     assert 0.0 <= box.x0 < box.x1 <= width
