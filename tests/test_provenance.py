@@ -24,7 +24,7 @@ def test_a_simulation_depends_on_the_solver_and_on_no_figure():
 
 
 def test_a_figure_depends_on_itself_and_not_on_the_solver():
-    found = names("springblock.cli.figure", "springblock.plotting.figure_3")
+    found = names("springblock.cli.figure", "springblock.plotting.paper.figure_3")
     assert {"figure_3.py", "style.py", "tables.py"} <= found
     assert not {"figure_2.py", "leapfrog.py", "realisation.py"} & found
 

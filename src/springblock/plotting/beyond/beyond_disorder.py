@@ -70,9 +70,8 @@ def _draw_friction(ax: Axes, scatters: Mapping[float, Sizes]) -> None:
 
 
 def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
-    for (pattern, sizes), color in zip(
-        by_pattern(ensembles).items(), (BLUE, VERMILION), strict=False
-    ):
+    patterns = by_pattern(ensembles)
+    for (pattern, sizes), color in zip(patterns.items(), (BLUE, VERMILION), strict=False):
         blocks = [float(n**2) for n in sizes]
         spread = [variance(values) for values in sizes.values()]
         named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
@@ -81,6 +80,7 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
         products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
         independent = np.exp(np.mean(np.log(products))) / np.array(blocks)
         ax.plot(blocks, independent, color=GREY, linewidth=0.5, zorder=0)
-    ax.set(xscale="log", yscale="log")
+    ax.set_yscale("log")
+    name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
     ax.set(xlabel="blocks of the surface $N^2$", ylabel="variance of static friction")
     ax.legend(loc="best")

@@ -80,7 +80,7 @@ def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
         curve = Correlation(edges(runs)["grooves"]).interval
         shown = Interval(*(part[: _LAST + 1] for part in curve))
         look: Look = {"marker": "o", "markersize": 2.0, "label": f"{angle:g}°"}
-        draw_band(ax, range(len(shown.mean)), shown, colors[angle], **look)
+        draw_band(ax, range(len(shown.mean)), shown, colors[angle], 0.12, **look)
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
     ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.legend(loc="upper right", title="sliding at", ncols=2)

@@ -39,7 +39,7 @@ _HOLD = 15  #: of these frames show the end
 _AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
 _FAINT = "0.75"  #: curves that are still to come
 _PIXELS = 5  #: per mm
-_HEIGHT = 108.0  #: mm
+_HEIGHT = 112.0  #: mm
 _MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
 
 Frame = NDArray[np.uint8]  #: (height, width, 3)
