@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, SymmetricalLogLocator
+from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import ArrayLike
 
 from springblock.accuracy.budget import (
@@ -27,6 +27,7 @@ from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.io.rows import Row
 from springblock.model.defaults import STEP
 from springblock.plotting import style
+from springblock.plotting.accuracy.percent import fit_percent
 from springblock.plotting.declaration import Declaration, TableSource
 from springblock.plotting.looks import shades
 from springblock.plotting.points import draw_points, name_places
@@ -117,14 +118,7 @@ def _draw_biases(panels: Sequence[Axes], table: DataFrame) -> None:
         ax.set_title(f"{scene}, {n} × {n} blocks", pad=13.0)
         ax.sharey(panels[0])
         ax.tick_params(labelleft=ax is panels[0])
-    low = min(ax.dataLim.y0 for ax in panels)
-    high = max(ax.dataLim.y1 for ax in panels)
-    axis = panels[0].yaxis
-    panels[0].set_yscale("symlog", linthresh=0.1, linscale=1.0)
-    axis.set_major_locator(FixedLocator([-1.0, -0.1, 0.0, 0.1, 1.0]))
-    axis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=0.1, subs=range(2, 10)))
-    axis.set_major_formatter("{x:g}")
-    panels[0].set_ylim(1.5 * low, 1.5 * high)
+    fit_percent(panels, 0.1, (-1.0, -0.1, 0.0, 0.1, 1.0))
     panels[0].set_ylabel("bias (%), linear within ±0.1 %")
     handles = [Line2D([], [], label=name, **look) for name, look in _QUANTITIES.values()]
     frame: Look = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}

@@ -11,25 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FixedLocator, LogLocator, SymmetricalLogLocator
+from matplotlib.ticker import LogLocator
 
 from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES, order
 from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.plotting import style
+from springblock.plotting.accuracy.percent import fit_percent
 from springblock.plotting.declaration import Declaration, TableSource
 from springblock.plotting.points import draw_points, name_places
-from springblock.plotting.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    NANO,
-    PERCENT,
-    PURPLE,
-    VERMILION,
-    Look,
-    journal,
-)
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -46,27 +35,27 @@ FIGURE = Declaration(
 )
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
-_METHODS: dict[str, tuple[str, Look]] = {
-    "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o", "markersize": 4.2}),
-    "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
+_METHODS: dict[str, tuple[str, style.Look]] = {
+    "leapfrog": ("leapfrog", {"color": style.BLUE, "marker": "o", "markersize": 4.2}),
+    "rk4": ("Runge–Kutta", {"color": style.VERMILION, "marker": "s", "markersize": 2.6}),
     PLAIN: (
         "Runge–Kutta, stage-wise friction",
-        {"color": GREY, "marker": "^", "markersize": 3.4},
+        {"color": style.GREY, "marker": "^", "markersize": 3.4},
     ),
 }
-_TWINS: dict[str, Look] = {
-    "flat": {"color": BLACK, "marker": "D", "markersize": 2.8},
-    "pillared": {"color": GREEN, "marker": "v", "markersize": 3.6},
-    "grooved": {"color": PURPLE, "marker": "P", "markersize": 3.8},
+_TWINS: dict[str, style.Look] = {
+    "flat": {"color": style.BLACK, "marker": "D", "markersize": 2.8},
+    "pillared": {"color": style.GREEN, "marker": "v", "markersize": 3.6},
+    "grooved": {"color": style.PURPLE, "marker": "P", "markersize": 3.8},
 }
-_ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
-_FLOOR: Look = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
-_SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
-_RINGS: dict[str, Look] = {
+_ORDER_TWO: style.Look = {"color": style.BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
+_FLOOR: style.Look = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
+_SCATTER: style.Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
+_RINGS: dict[str, style.Look] = {
     "default": {"marker": "o", "markersize": 8.5},
     "paper": {"marker": "D", "markersize": 7.5},
 }
-_RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
+_RING: style.Look = {"fillstyle": "none", "color": style.BLACK, "linestyle": "none"}
 
 _COSTS = {"force_evaluations": "force evaluations", "cpu_seconds": "CPU time (s)"}
 _BIASES = {
@@ -81,7 +70,7 @@ _DIFFERENCES = {
 }
 
 
-@journal
+@style.journal
 def draw(table: DataFrame) -> Figure:
     """Draw the table of work and precision, a column per scene.
 
@@ -167,11 +156,7 @@ def _write_orders(panels: Sequence[Axes], rows: DataFrame) -> None:
 
 
 def _draw_biases(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
-    """Ensembles with paired seeds, before the scatter of an ensemble as large as the study's.
-
-    All on one axis, linear up to 1 % and logarithmic beyond: neither the intervals of fine steps
-    nor the biases of the coarsest get lost.
-    """
+    """Ensembles with paired seeds, before the scatter of an ensemble as large as the study's."""
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
     every = [ax for row in panels for ax in row]
     style.share_axes(every)
@@ -179,7 +164,7 @@ def _draw_biases(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
         for ax, spread in _by_scene(row, scatter[scatter.quantity == quantity]):
             half = _half_width(spread)
             ax.axhspan(-half, half, **_SCATTER)
-            ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
+            ax.axhline(0.0, color=style.BLACK, linewidth=0.4, zorder=0.5)
         for ax, biases in _by_scene(row, paired[paired.quantity == quantity]):
             _draw_bias(ax, biases)
             ax.tick_params(labelleft=ax is row[0], labelbottom=row is panels[-1])
@@ -187,30 +172,23 @@ def _draw_biases(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
     for ax in panels[-1]:
         ax.set_xlabel("integration step (ns)")
     _name_scenes(panels[0], paired)
-    low = min(-1.0, *(ax.dataLim.y0 for ax in every))
-    high = max(1.0, *(ax.dataLim.y1 for ax in every))
-    axis = every[0].yaxis
-    every[0].set_yscale("symlog", linthresh=1.0, linscale=1.0)
-    axis.set_major_locator(FixedLocator([-5.0, -1.0, 0.0, 1.0, 5.0]))
-    axis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=1, subs=range(2, 10)))
-    axis.set_major_formatter("{x:g}")
-    every[0].set_ylim(1.5 * low, 1.5 * high)
-    name_places(every[0], NANO * np.unique(paired.step))
+    fit_percent(every, 1.0, (-5.0, -1.0, 0.0, 1.0, 5.0))
+    name_places(every[0], style.NANO * np.unique(paired.step))
 
 
 def _half_width(rows: DataFrame) -> float:
     """Where 95 % of the means over as many seeds as in the study lie: ± so many percent."""
     half = 0.5 * (rows.ci_high - rows.ci_low) * np.sqrt(rows.realisations / ENSEMBLE)
-    return PERCENT * float(half.item())
+    return style.PERCENT * float(half.item())
 
 
 def _draw_bias(ax: Axes, rows: DataFrame) -> None:
     """Bias over step; the integrators stand side by side."""
     for method, aside in (("leapfrog", 0.96), ("rk4", 1.04)):
         line = rows[rows.integrator == method].sort_values("step")
-        intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
+        intervals = style.PERCENT * line[["error", "ci_low", "ci_high"]]
         look = _METHODS[method][1] | {"markersize": 2.4}  # no larger than most intervals
-        draw_points(ax, aside * NANO * line.step, intervals, **look)
+        draw_points(ax, aside * style.NANO * line.step, intervals, **look)
 
 
 def _draw_twins(panels: Sequence[Axes], rows: DataFrame) -> None:
@@ -232,10 +210,10 @@ def _draw_legend(picture: Figure, finest: float) -> None:
     handles: list[Artist] = [Line2D([], [], label=name, **look) for name, look in _METHODS.values()]
     handles.append(Line2D([], [], label="order 2", **_ORDER_TWO))
     for name, (method, step) in _ringed().items():
-        label = f"{name}: {_METHODS[method][0].split(',')[0]}, {NANO * step:g} ns"
+        label = f"{name}: {_METHODS[method][0].split(',')[0]}, {style.NANO * step:g} ns"
         handles.append(Line2D([], [], label=label, **_RING, **_RINGS[name]))
     handles += [
-        Patch(label=f"below the leapfrog at {NANO * finest:g} ns", **_FLOOR),
+        Patch(label=f"below the leapfrog at {style.NANO * finest:g} ns", **_FLOOR),
         Patch(label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER),
     ]
     picture.legend(handles=handles, loc="outside upper center", ncols=4)

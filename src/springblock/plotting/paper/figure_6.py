@@ -8,18 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from springblock.analysis.statistics import mean_interval, whole_curve
-from springblock.plotting import style
+from springblock.plotting import points, style
 from springblock.plotting.curves import ENDS, REST, draw_detachments, draw_mean_force
 from springblock.plotting.declaration import INTERVALS, Declaration, RealisationsSource
 from springblock.plotting.looks import pillar_look, pillar_name
-from springblock.plotting.points import (
-    FRICTION,
-    LAG,
-    draw_no_lag,
-    draw_point,
-    highest_and_lag,
-    name_places,
-)
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look, journal
 from springblock.simulation.run import Array, Run
 
@@ -47,13 +39,13 @@ def draw(ensembles: BySize) -> Figure:
     picture, panels = style.panels(style.DOUBLE, 103.0, "ac;bd", **ratios)
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
-    samples = zip(*(highest_and_lag(runs) for runs in ensembles.values()), strict=True)
+    samples = zip(*(points.highest_and_lag(runs) for runs in ensembles.values()), strict=True)
     for ax, values in zip((friction, lag), samples, strict=True):
         _draw_sizes(ax, ensembles, values)
-    draw_no_lag(lag)
-    friction.set_ylabel(FRICTION)
+    points.draw_no_lag(lag)
+    friction.set_ylabel(points.FRICTION)
     friction.tick_params(labelbottom=False)
-    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=LAG)
+    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
     return picture
 
 
@@ -91,11 +83,11 @@ def _draw_sizes(ax: Axes, ensembles: BySize, values: Sequence[Array]) -> None:
     for n_p, sample in zip(ensembles, values, strict=True):
         interval = mean_interval(sample)
         if n_p:
-            draw_point(ax, n_p, interval, **pillar_look(n_p))
+            points.draw_point(ax, n_p, interval, **pillar_look(n_p))
             continue
         ax.axhline(float(interval.mean), color=BLACK, linewidth=0.8, linestyle="--")
         ax.axhspan(float(interval.low), float(interval.high), color="0.8", linewidth=0.0, zorder=0)
         below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
         place = (0.45, float(interval.mean))
         ax.annotate("flat", place, (0.0, -2.0), ax.get_yaxis_transform(), **below)
-    name_places(ax, [n_p for n_p in ensembles if n_p])
+    points.name_places(ax, [n_p for n_p in ensembles if n_p])

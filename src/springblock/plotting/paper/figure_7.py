@@ -77,7 +77,7 @@ def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
     """Points and band of c(r) and the fitted exponential, dotted beyond what it was fitted to."""
     color, marker = _SIDES[side]
     values = Interval(*curve[["correlation", "ci_low", "ci_high"]].to_numpy().T)
-    look = {"marker": marker, "linestyle": "none", "label": f"$c_{side}(r)$"}
+    look: Look = {"marker": marker, "linestyle": "none", "label": f"$c_{side}(r)$"}
     draw_band(ax, curve["r"], values, color, **look)
     last, end = length["r_last"], curve["r"].max()
     for r, line in ((np.linspace(0.0, last), "-"), (np.linspace(last, end), ":")):

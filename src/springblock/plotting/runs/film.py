@@ -13,25 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from springblock.files import whole_file
-from springblock.plotting.maps import (
-    DISPLACEMENT,
-    displacements,
-    draw_key,
-    draw_map,
-    draw_times_bar,
-    painted,
-)
-from springblock.plotting.style import (
-    BLACK,
-    FORCE,
-    GREY,
-    MICRO,
-    MM,
-    VERMILION,
-    Look,
-    color_bar,
-    journal,
-)
+from springblock.plotting import maps, style
 from springblock.simulation.run import Array, Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
@@ -62,7 +44,7 @@ def animate(run: Run, path: str | Path) -> None:
         _WRITERS[file.suffix](frames(run), partial)
 
 
-@journal
+@style.journal
 def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
     """Draw the frames of these times in s, or all: what stands still once, and on it what moves."""
     picture, update = scenery(run)
@@ -97,12 +79,14 @@ def span(run: Run) -> tuple[float, float]:
     return max(0.0, first - around), min(end, last + around)
 
 
-@journal
+@style.journal
 def scenery(run: Run) -> tuple[Figure, Update]:
     """Draw what stands still, and return it with the function that moves the rest."""
     kept = len(run.snapshots) > 0
     curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
-    picture = Figure(figsize=((curves + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
+    picture = Figure(
+        figsize=((curves + 84.0) * style.MM, _HEIGHT * style.MM), dpi=_PIXELS / style.MM
+    )
     picture.suptitle(run.name, y=0.975, fontsize="medium")
     updates = [_blocks(_place(picture, _MAP, _BOTTOM, _SIDE, _SIDE), run)]
     if kept:
@@ -113,9 +97,11 @@ def scenery(run: Run) -> tuple[Figure, Update]:
     updates += [_force(force, run), _detached(detached, run)]
     for ax in (force, detached):
         ax.set_xlabel("time (µs)")
-        ax.axvline(MICRO * run.t_max, color=GREY, linestyle=":", linewidth=0.8, zorder=0.5)
-    above = (MICRO * run.t_max, 1.03)
-    middle: Look = {"ha": "center", "va": "bottom", "transform": force.get_xaxis_transform()}
+        ax.axvline(
+            style.MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5
+        )
+    above = (style.MICRO * run.t_max, 1.03)
+    middle: style.Look = {"ha": "center", "va": "bottom", "transform": force.get_xaxis_transform()}
     force.text(*above, r"$t_\mathrm{max}$", **middle)
 
     def update(now: float, before: float) -> list[Artist]:
@@ -126,21 +112,21 @@ def scenery(run: Run) -> tuple[Figure, Update]:
 
 def _place(picture: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
     """Add axes at a place in mm: blocks of a map are all as many pixels."""
-    across, up = picture.get_size_inches() / MM
+    across, up = picture.get_size_inches() / style.MM
     return picture.add_axes((left / across, bottom / up, width / across, height / up))
 
 
 def _blocks(ax: Axes, run: Run) -> Update:
     """Map of the blocks that have detached so far."""
-    image = draw_map(ax, painted(run, until=0.0))
+    image = maps.draw_map(ax, maps.painted(run, until=0.0))
     image.set_animated(True)
     elsewhere = [] if run.contact.all() else ["not in contact"]
-    draw_key(ax, "not detached", "detaching now", *elsewhere)
+    maps.draw_key(ax, "not detached", "detaching now", *elsewhere)
     if np.isfinite(run.t_det).any():
-        draw_times_bar(ax, run)
+        maps.draw_times_bar(ax, run)
 
     def update(now: float, before: float) -> list[Artist]:
-        image.set_data(painted(run, now, before))
+        image.set_data(maps.painted(run, now, before))
         return [image]
 
     return update
@@ -148,17 +134,19 @@ def _blocks(ax: Axes, run: Run) -> Update:
 
 def _displacement(ax: Axes, run: Run) -> Update:
     """Map of the latest snapshot so far; before the first there is none."""
-    fields, colors = displacements(run.snapshots)
+    fields, colors = maps.displacements(run.snapshots)
     nothing = np.full_like(fields[0], np.nan)
-    image = draw_map(ax, nothing)
+    image = maps.draw_map(ax, nothing)
     image.set(cmap=colors.cmap, norm=colors.norm, animated=True)
     title = ax.set_title("", animated=True)
-    color_bar(ax, colors, DISPLACEMENT, orientation="horizontal")
+    style.color_bar(ax, colors, maps.DISPLACEMENT, orientation="horizontal")
 
     def update(now: float, before: float) -> list[Artist]:
         latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
         image.set_data(fields[latest] if latest >= 0 else nothing)
-        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
+        title.set_text(
+            f"at {style.MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else ""
+        )
         return [image, title]
 
     return update
@@ -167,29 +155,29 @@ def _displacement(ax: Axes, run: Run) -> Update:
 def _force(ax: Axes, run: Run) -> Update:
     """Force of the whole run; what the film shows of it is shaded."""
     start, stop = span(run)
-    ax.axvspan(MICRO * start, MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
-    ax.set(xlim=(0.0, MICRO * run.time[-1]), ylabel=FORCE)
+    ax.axvspan(style.MICRO * start, style.MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
+    ax.set(xlim=(0.0, style.MICRO * run.time[-1]), ylabel=style.FORCE)
     return _curve(ax, run, friction(run))
 
 
 def _detached(ax: Axes, run: Run) -> Update:
     """Share of the contact blocks that have detached, as long as the film takes."""
     start, stop = span(run)
-    ax.set(xlim=(MICRO * start, MICRO * stop), ylabel="detached blocks (%)")
+    ax.set(xlim=(style.MICRO * start, style.MICRO * stop), ylabel="detached blocks (%)")
     return _curve(ax, run, 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact))
 
 
 def _curve(ax: Axes, run: Run, values: Array) -> Update:
     """A curve over time, as far as it has come in black, with a cursor."""
-    time = MICRO * run.time
+    time = style.MICRO * run.time
     ax.plot(time, values, color=_FAINT, linewidth=0.8)
-    (so_far,) = ax.plot([], [], color=BLACK, animated=True)
-    cursor = ax.axvline(0.0, color=VERMILION, linewidth=0.8, animated=True)
+    (so_far,) = ax.plot([], [], color=style.BLACK, animated=True)
+    cursor = ax.axvline(0.0, color=style.VERMILION, linewidth=0.8, animated=True)
 
     def update(now: float, before: float) -> list[Artist]:
         count = int(np.searchsorted(run.time, now, side="right"))
         so_far.set_data(time[:count], values[:count])
-        cursor.set_xdata([MICRO * now] * 2)
+        cursor.set_xdata([style.MICRO * now] * 2)
         return [so_far, cursor]
 
     return update

@@ -4,14 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from springblock.plotting.maps import (
-    DISPLACEMENT,
-    displacements,
-    draw_key,
-    draw_map,
-    draw_times_bar,
-    painted,
-)
+from springblock.plotting import maps
 from springblock.plotting.one_run import draw_blocks, draw_force, mark_times, name_times
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
@@ -69,28 +62,28 @@ def _draw_detachments(force: Axes, blocks: Axes, run: Run) -> None:
 
 def _draw_times(ax: Axes, run: Run) -> None:
     """Where blocks have detached, and when."""
-    draw_map(ax, painted(run))
+    maps.draw_map(ax, maps.painted(run))
     names = {
         "not detached": (run.contact & np.isnan(run.t_det)).any(),
         "not in contact": not run.contact.all(),
     }
-    draw_key(ax, *(name for name, occurs in names.items() if occurs))
+    maps.draw_key(ax, *(name for name, occurs in names.items() if occurs))
     if np.isfinite(run.t_det).any():
-        draw_times_bar(ax, run)
+        maps.draw_times_bar(ax, run)
 
 
 def _draw_snapshots(part: SubFigure, run: Run) -> None:
     """Displacements at up to four times, in the same colours."""
     count = len(run.snapshots)
     chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
-    fields, colors = displacements(run.snapshots[chosen])
+    fields, colors = maps.displacements(run.snapshots[chosen])
     panels = part.subplots(1, _SNAPSHOTS)
     for ax in panels[len(chosen) :]:
         ax.remove()
     for ax, i, field in zip(panels, chosen, fields, strict=False):
-        draw_map(ax, field).set(cmap=colors.cmap, norm=colors.norm)
+        maps.draw_map(ax, field).set(cmap=colors.cmap, norm=colors.norm)
         ax.set_title(f"{MICRO * run.snapshot_times[i]:.4g} µs")
         if i:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
-    color_bar(panels[len(chosen) - 1], colors, DISPLACEMENT)
+    color_bar(panels[len(chosen) - 1], colors, maps.DISPLACEMENT)
