@@ -25,6 +25,8 @@ STEPS: dict[str, tuple[str, ...]] = {
     "plot": ("model", "analysis", "plotting"),
     "report": ("model", "analysis", "plotting", "report"),
 }
+#: Folders whose docstrings are part of what they make: the statements of the paper.
+_SAYING = {"claims"}
 
 
 @cache
@@ -56,28 +58,31 @@ def _of_folder(folder: str) -> str:
     texts = []
     for file in sorted((_ROOT / folder).rglob("*")):
         if file.suffix == ".py":
-            texts += [file.name, *_skeleton(ast.parse(file.read_bytes()))]
-        elif file.suffix in (".html", ".css", ".js"):  # templates of the report
+            texts += [file.name, *_skeleton(ast.parse(file.read_bytes()), folder in _SAYING)]
+        elif file.suffix in (".html", ".css", ".js", ".md"):  # templates of pages
             texts.append(file.read_text(encoding="utf-8"))
     return _short("\n".join(texts))
 
 
-def _skeleton(node: Any) -> Iterator[str]:
-    """Yield what a syntax tree computes with: its nodes without places, docstrings and errors."""
+def _skeleton(node: Any, docstrings: bool) -> Iterator[str]:
+    """Yield what a syntax tree computes with: its nodes without places and errors.
+
+    And without docstrings, unless these are asked for.
+    """
     if isinstance(node, list):
         for part in node:
-            yield from _skeleton(part)
+            yield from _skeleton(part, docstrings)
     elif not isinstance(node, ast.AST):
         yield repr(node)
     elif isinstance(node, ast.Raise):
         yield "Raise"
-    elif not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+    elif docstrings or not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
         yield type(node).__name__
         for field in node._fields:
             value = getattr(node, field, None)
             if value is not None and value != []:
                 yield field
-                yield from _skeleton(value)
+                yield from _skeleton(value, docstrings)
 
 
 def _short(text: str) -> str:

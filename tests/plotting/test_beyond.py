@@ -4,15 +4,13 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
-import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
 from beyond.made_up import ensemble, grooves, lattices, lean, sizes_and_distances
 from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.plotting import (
+from springblock.plotting.beyond import (
     beyond_disorder,
     beyond_friction,
     beyond_lattice,
@@ -82,15 +80,6 @@ def drawn(name: str) -> Figure:
 def bars(ax: Axes) -> dict[str, np.ndarray]:
     """Values with intervals, (n, 2), by their names in the legend."""
     return {c.get_label(): c.lines[0].get_xydata() for c in ax.containers}
-
-
-@pytest.mark.parametrize("name", DRAWINGS)
-def test_axes_say_what_they_show(name):
-    (*panels,) = drawn(name).axes
-    shown = " ".join(text.get_text() for text in drawn(name).findobj(Text))
-    assert "nan" not in shown
-    assert panels[0].get_ylabel()
-    assert panels[-1].get_xlabel() or panels[-1].get_ylabel()  # of a bar of colours
 
 
 def test_friction_is_lowest_where_it_is_said_to_be():

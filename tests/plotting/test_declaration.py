@@ -1,13 +1,9 @@
 """What figures declare, what follows for a study, and the command that draws by it."""
 
 import re
-import subprocess
-import sys
 from dataclasses import replace
-from importlib import import_module
 from inspect import signature
 from pathlib import Path
-from pkgutil import iter_modules
 from typing import get_args
 
 import pytest
@@ -15,7 +11,6 @@ import yaml
 from click.testing import CliRunner
 from snakemake.utils import update_config
 
-import springblock
 from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
 from springblock import Material
 from springblock import plotting as figures
@@ -30,10 +25,6 @@ from springblock.study import configuration as study
 
 CONFIG = Path(__file__).parents[2] / "config"
 FIGURES = figures.declarations()
-MODULES = {
-    name: import_module(f"springblock.plotting.{name}")
-    for _, name, _ in iter_modules(figures.__path__)
-}
 
 
 def configuration(*files: str):
@@ -49,7 +40,7 @@ PAPER = configuration("config.yaml")
 QUICK = configuration("config.yaml", "quick.yaml")
 
 
-@pytest.mark.parametrize("name", [name for name in MODULES if hasattr(MODULES[name], "draw")])
+@pytest.mark.parametrize("name", FIGURES)
 def test_each_figure_declares_all_that_the_study_needs(name):
     declared = FIGURES[name]
     assert declared.title
@@ -60,7 +51,7 @@ def test_each_figure_declares_all_that_the_study_needs(name):
         if declared.is_part_of(groups):
             source, lengths = declared.source, config["figures"].get(name, {})
             given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
-            assert given or not signature(MODULES[name].draw).parameters
+            assert given or not signature(figures.drawing(name)).parameters
 
 
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
@@ -209,33 +200,6 @@ def batch(path: Path, run: Record) -> Path:
     return path
 
 
-def test_a_figure_job_loads_neither_the_solver_nor_what_other_figures_need(tmp_path):
-    job = ["figure", "figure_3", str(batch(tmp_path / "batch", record(0)))]
-    job += ["--output", str(tmp_path / "figure.png")]
-    script = f"""if True:
-        import sys
-        from springblock.cli import main
-        from springblock.cli.figure import declarations
-        declarations()
-        print(*sys.modules)
-        main({job}, standalone_mode=False)
-        print(*sys.modules)
-    """
-    outcome = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-    assert outcome.returncode == 0, outcome.stderr
-    declared, drawn = (set(line.split()) for line in outcome.stdout.splitlines())
-    assert {f"springblock.plotting.{name}" for name in FIGURES} <= declared
-    assert not {"numba", "scipy", "snakemake", "pandas", "seaborn"} & declared
-    assert not {"numba", "scipy", "snakemake", "seaborn"} & drawn
-    assert (tmp_path / "figure.png").is_file()
-
-
-def test_the_solver_is_there_for_those_who_ask_for_it():
-    assert all(hasattr(springblock, name) for name in springblock.__all__)
-    assert set(springblock.__all__) <= set(dir(springblock))
-    assert not hasattr(springblock, "simulated")
-
-
 def refusal(*arguments: str) -> str:
     """The last line that a figure's command ends with."""
     outcome = CliRunner().invoke(main, ["figure", *arguments])
@@ -275,6 +239,6 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
     lengths = ["--n-blocks", "40", "--n-p", "2", "--n-s", "2"]
     output = ["--output", str(tmp_path / "figure.png")]
     assert CliRunner().invoke(main, ["figure", "figure_4", *lengths, *output]).exit_code == 0
-    surface, _ = MODULES["figure_4"].draw(Scene(40, 2, 2).pattern).axes
+    surface, _ = figures.drawing("figure_4")(Scene(40, 2, 2).pattern).axes
     assert surface.images[0].get_array().shape == (12, 12)
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)

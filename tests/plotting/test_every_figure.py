@@ -9,27 +9,25 @@ from importlib import import_module
 from pathlib import Path
 from string import ascii_lowercase
 
+import matplotlib
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from springblock.plotting import declarations, style
+from springblock.plotting import declarations, drawing, style
 
 TESTS = [file.stem for file in Path(__file__).parent.glob("test_*.py") if file != Path(__file__)]
 DRAWINGS: dict[str, Callable[[], Figure]] = {}
 for test in sorted(TESTS):
     DRAWINGS |= getattr(import_module(f"plotting.{test}"), "DRAWINGS", {})
 
-#: Letters of panels; those of other figures begin with a), too, if there are any.
-LETTERS = dict.fromkeys([f"figure_{number}" for number in (1, 4, 5, 8)], "ab")
-LETTERS |= dict.fromkeys([f"figure_{number}" for number in (2, 6, 9)], "abcd")
-LETTERS |= {"stability": "abcdef", "work_precision": "abcdefghijkl", "total_error": "abcdefghijk"}
-
 
 @cache
 def drawn(name: str) -> Figure:
-    """A figure for tests that only look at it."""
-    return DRAWINGS[name]()
+    """A figure whose panels have their places."""
+    picture = DRAWINGS[name]()
+    style.settle(picture)
+    return picture
 
 
 def test_every_figure_is_drawn_here():
@@ -37,19 +35,31 @@ def test_every_figure_is_drawn_here():
 
 
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_panels_carry_letters(name):
-    texts = [text.get_text() for text in drawn(name).findobj(Text)]
-    shown = sorted(text for text in texts if text[1:] == ")")
-    letters = LETTERS.get(name.split()[0], ascii_lowercase[: len(shown)])
-    assert shown == [f"{x})" for x in letters]
+def test_panels_carry_letters_and_numbers_have_names(name):
+    panels = drawn(name).axes
+    letters = sorted(filter(None, (ax.get_title("left")[:2] for ax in panels)))
+    if name.split()[0] != "surfaces":  # whose rows have names
+        assert letters == [f"{letter})" for letter in ascii_lowercase[: len(letters)]]
+        assert len(letters) > 1 or len(panels) == 1
+    for ax in panels:
+        for axis in (ax.xaxis, ax.yaxis):
+            numbers = [text for text in axis.get_ticklabels() if text.get_text()]
+            if ax.axison and any(text.get_visible() for text in numbers):
+                assert axis.get_label_text()
+    assert not any("nan" in text.get_text() for text in drawn(name).findobj(Text))
 
 
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_nothing_leaves_the_page(name):
+def test_nothing_leaves_the_page_and_panels_do_not_overlap(name):
     box = style.journal(drawn(name).get_tightbbox)()  # inches
     width, height = drawn(name).get_size_inches()
     assert 0.0 <= box.x0 < box.x1 <= width
     assert 0.0 <= box.y0 < box.y1 <= height
+    assert width in (w * style.MM for w in (style.COLUMN, style.ONE_AND_A_HALF, style.DOUBLE))
+    panels = [ax.get_window_extent() for ax in drawn(name).axes if ax.get_label() != "<colorbar>"]
+    for i, panel in enumerate(panels):
+        assert min(panel.width, panel.height) > 30.0  # pixels of 0.25 mm
+        assert not any(panel.overlaps(other) for other in panels[:i])
 
 
 @pytest.mark.parametrize(
@@ -69,3 +79,16 @@ def test_the_same_figure_is_the_same_file(name, suffix, tmp_path, monkeypatch):
         contents.append(path.read_bytes())
     assert contents[0] == contents[1]
     assert b"atplotlib version" not in contents[0]
+
+
+def test_other_formats_are_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"\.pdf, \.png, \.svg"):
+        style.save(Figure(), tmp_path / "figure.jpg")
+
+
+def test_figures_do_not_follow_the_settings_of_the_reader(tmp_path):
+    draw = drawing("figure_1")
+    style.save(draw(), tmp_path / "mine.pdf")
+    with matplotlib.rc_context({"font.size": 20.0, "lines.linewidth": 5.0, "pdf.fonttype": 3}):
+        style.save(draw(), tmp_path / "yours.pdf")
+    assert (tmp_path / "mine.pdf").read_bytes() == (tmp_path / "yours.pdf").read_bytes()

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from springblock.plotting import figure_7, style
+from springblock.plotting.paper import figure_7
 
 SIZES = [6, 20, 60]
 LENGTH = {"x": 3.0, "y": 0.5}
@@ -57,17 +57,6 @@ def drawn(name: str) -> Figure:
     return DRAWINGS[name]()
 
 
-def test_axes_say_what_they_show_and_in_which_unit():
-    for name in DRAWINGS:
-        assert drawn(name).get_size_inches()[0] == pytest.approx(style.COLUMN * style.MM)
-    curves, inset = drawn("figure_7").axes
-    assert "(blocks)" in curves.get_xlabel()
-    assert "$c(r)$" in curves.get_ylabel()
-    assert "$n_p$ (blocks)" in inset.get_xlabel()
-    assert "(blocks)" in inset.get_ylabel()
-    assert [tick.get_text() for tick in inset.get_xticklabels()] == ["6", "20", "60"]
-
-
 def points(ax: Axes) -> list[np.ndarray]:
     """Data of what is drawn with markers alone, (n, 2) each."""
     return [
@@ -78,7 +67,7 @@ def points(ax: Axes) -> list[np.ndarray]:
 
 
 def test_curves_and_bands_are_those_of_the_table():
-    curves, _ = drawn("figure_7").axes
+    (curves,) = drawn("figure_7").axes
     bands = [part for part in curves.collections if isinstance(part, PolyCollection)]
     for (_, side), shown, band in zip(
         correlation().groupby("side"), points(curves), bands, strict=True
@@ -89,7 +78,7 @@ def test_curves_and_bands_are_those_of_the_table():
 
 
 def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
-    curves, _ = drawn("figure_7").axes
+    (curves,) = drawn("figure_7").axes
     for pattern, span in (("-", (0.0, 5.0)), (":", (5.0, 24.0))):
         drawn_so = [line for line in curves.get_lines() if line.get_linestyle() == pattern]
         lines = [line.get_xydata() for line in drawn_so if len(line.get_xydata()) > 25]
@@ -101,7 +90,7 @@ def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
 
 def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
     """Its A lies on the points: here they are exp(-r/3), which any other length tilts."""
-    curves, _ = drawn("figure_7").axes
+    (curves,) = drawn("figure_7").axes
     dashed = [line.get_xydata() for line in curves.get_lines() if line.get_linestyle() == "--"]
     shown = [line for line in dashed if len(line) > 25]
     assert [(line[0, 0], line[-1, 0]) for line in shown] == [(1.0, 5.0)] * 2
@@ -109,7 +98,7 @@ def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
     c, decay = np.exp(-r / LENGTH["x"]), np.exp(-r / tail)
     best = (c @ decay) / (decay @ decay)
     np.testing.assert_allclose(shown[0][:, 1], best * np.exp(-shown[0][:, 0] / tail))
-    smallest, _ = drawn("figure_7 of the smallest pillars").axes
+    (smallest,) = drawn("figure_7 of the smallest pillars").axes
     lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
     assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
     names = [text.get_text() for text in curves.get_legend().get_texts()]
@@ -117,7 +106,7 @@ def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
 
 
 def test_the_inset_shows_the_lengths_along_x_with_their_intervals():
-    _, inset = drawn("figure_7").axes
+    (inset,) = drawn("figure_7").axes[0].child_axes
     fitted, tail = inset.containers
     expected = lengths().query("side == 'x'")
     np.testing.assert_allclose(fitted.lines[0].get_ydata(orig=False), expected["l_c"])

@@ -12,7 +12,7 @@ from springblock import Material
 from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
-from springblock.plotting import surfaces
+from springblock.plotting.supplement import surfaces
 from springblock.study.configuration import Ensemble
 
 ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
@@ -36,13 +36,13 @@ DRAWINGS = {"surfaces": lambda: drawing(3), "surfaces of one run": lambda: drawi
 
 
 def test_a_row_shows_the_mask_the_mean_times_and_the_force():
-    mask, times, _, force = drawing(3).axes[:4]
+    mask, times, force = drawing(3).axes[:3]
     np.testing.assert_array_equal(mask.images[0].get_array(), ISLANDS)
     expected = np.where(ISLANDS, np.linspace(0.8, 1.2, 9) + 0.01, np.nan)
     shown = np.ma.filled(times.images[0].get_array(), np.nan)
     np.testing.assert_allclose(shown, expected)
     assert force.get_ylim()[0] == 0.0
-    assert len(drawing(3).axes) == 8
+    assert len(drawing(3).axes) == 6
 
 
 def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
@@ -54,7 +54,7 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
 
 
 def test_each_row_is_named_after_its_scene():
-    names = [text.get_text() for ax in drawing(1).axes for text in ax.texts]
+    names = [ax.get_title("left") for ax in drawing(1).axes]
     assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
 
 
@@ -76,6 +76,6 @@ def test_its_caption_names_what_is_ones_own():
 
 @pytest.mark.parametrize("number", [1, 3])
 def test_every_run_has_its_curve(number):
-    force = drawing(number).axes[3]
+    force = drawing(number).axes[2]
     thin = [line for line in force.get_lines() if line.get_linewidth() == 0.3]
     assert len(thin) == number

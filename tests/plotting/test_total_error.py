@@ -12,7 +12,7 @@ from springblock.accuracy.budget import Bias, choices, excess, study_budget
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import STEPS
 from springblock.model.defaults import STEP
-from springblock.plotting import total_error
+from springblock.plotting.accuracy import total_error
 
 #: Panels of total errors, and what they are of.
 CASES = [*(("static_friction", scene) for scene in SCENES), *((DELAY, scene) for scene in SCENES)]
@@ -35,7 +35,7 @@ DRAWINGS = {"total_error": lambda: total_error.draw(table())}
 
 def panel(letter):
     """The axes that carry this letter."""
-    return next(ax for ax in drawn().axes if any(t.get_text() == f"{letter})" for t in ax.texts))
+    return next(ax for ax in drawn().axes if ax.get_title("left") == f"{letter})")
 
 
 def rows(quantity, scene):

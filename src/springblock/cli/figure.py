@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from functools import partial
-from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -13,8 +12,14 @@ from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, 
 from springblock.io.parquet import load, read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
-from springblock.plotting import declarations
-from springblock.plotting.declaration import Correlations, Realisations, Source, Surface, Table
+from springblock.plotting import declarations, drawing
+from springblock.plotting.declaration import (
+    CorrelationsSource,
+    PatternSource,
+    RealisationsSource,
+    Source,
+    TableSource,
+)
 from springblock.plotting.style import save
 
 Paths = tuple[Path, ...]
@@ -33,7 +38,7 @@ def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
     return found
 
 
-def _realisations(source: Realisations, batches: Paths) -> list[Any]:
+def _realisations(source: RealisationsSource, batches: Paths) -> list[Any]:
     if source.keys:
         return [ensembles(batches, *source.keys)]
     scenes = ensembles(batches, "folder")
@@ -42,7 +47,7 @@ def _realisations(source: Realisations, batches: Paths) -> list[Any]:
     return list(scenes.values())
 
 
-def _correlations(source: Correlations, correlation: Path, lengths: Paths) -> list[Any]:
+def _correlations(source: CorrelationsSource, correlation: Path, lengths: Paths) -> list[Any]:
     tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
     refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
     return [table.to_pandas() for table in tables]
@@ -53,10 +58,10 @@ _many = partial(_one, nargs=-1, required=True)
 #: What the command of a figure takes, and how that becomes what `draw` takes, by kind of source.
 _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     Source: ([], lambda source: []),
-    Surface: ([scene_options], lambda source, scene: [scene.pattern]),
-    Table: ([_one("table")], lambda source, table: [load(table).to_pandas()]),
-    Realisations: ([_many("batches")], _realisations),
-    Correlations: ([_one("correlation"), _many("lengths")], _correlations),
+    PatternSource: ([scene_options], lambda source, scene: [scene.pattern]),
+    TableSource: ([_one("table")], lambda source, table: [load(table).to_pandas()]),
+    RealisationsSource: ([_many("batches")], _realisations),
+    CorrelationsSource: ([_one("correlation"), _many("lengths")], _correlations),
 }
 _OUTPUTS = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -78,9 +83,8 @@ class _Figures(click.Group):
         takes, given = _SOURCES[type(declared.source)]
 
         def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
-            draw = import_module(f"springblock.plotting.{cmd_name}").draw
             with one_sentence():
-                picture = draw(*given(declared.source, **inputs))
+                picture = drawing(cmd_name)(*given(declared.source, **inputs))
                 for output in outputs:
                     save(picture, output, caption or declared.caption)
 

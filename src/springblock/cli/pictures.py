@@ -11,7 +11,7 @@ from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
 from springblock.model.scene import Scene
-from springblock.plotting.runs import film, still, surface, sweep
+from springblock.plotting.runs import contact, film, still, sweep
 from springblock.plotting.style import save
 
 _RUN = [
@@ -94,5 +94,5 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 def show(scene: Scene, output: Path) -> None:
     """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
     with one_sentence():
-        picture = surface.draw(scene.contact, scene.direction, str(scene))
-        save(picture, output, surface.CAPTION)
+        picture = contact.draw(scene.contact, scene.direction, str(scene))
+        save(picture, output, contact.CAPTION)

@@ -1,17 +1,22 @@
 """What a figure says of itself: what it shows, and what it is drawn from.
 
-A module of this folder with a constant `FIGURE` and a function `draw` is a figure of the study:
-the command line and the workflow learn all else from its declaration.
+A module of `plotting` with a constant `FIGURE` and a function `draw` is a figure of the study: the
+command line and the workflow learn all else from its declaration.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.plotting.caption import material_in_words, sample_in_words, surface_in_words
+
+if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
+    from springblock.study.configuration import Ensemble
+
+    Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
 Scenes = Sequence[Scene]
@@ -21,21 +26,6 @@ Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for 
 #: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
 INTERVALS = "95 % t intervals over realisations"
 CORRELATION_INTERVALS = "95 % BCa bootstrap intervals over realisations"
-
-
-class Ensemble(Protocol):
-    """What figures know of `study.Ensemble`, which would bring the solver into their digest."""
-
-    @property
-    def scene(self) -> Scene:
-        """What is simulated."""
-
-    @property
-    def seeds(self) -> range:
-        """Seeds of its realisations."""
-
-
-Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 
 class Need(NamedTuple):
@@ -61,7 +51,7 @@ class Source:
         """Return what the command takes beside tables."""
         return ""
 
-    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+    def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         """Return what it is in a study, in whole sentences: surfaces, seeds and material."""
         groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
         known = {e.scene: e.seeds for members in ensembles.values() for e in members}
@@ -74,24 +64,22 @@ class Source:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Surface(Source):
+class PatternSource(Source):
     """A pattern with the lengths that the configuration gives under the figure's name.
 
-    It is as large as the study's surfaces, or as it must be to hold so many `pillars` each way.
+    It is as large as the study's surfaces, or as it must be to hold two pillars each way.
     """
 
-    pillars: int = 1
-
     def options(self, n_blocks: int, lengths: Lengths) -> str:
-        needed = self.pillars * (lengths["n_p"] + lengths["n_s"])
+        needed = 2 * (lengths["n_p"] + lengths["n_s"])
         return Scene(max(n_blocks, needed), **lengths).arguments
 
-    def in_words(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+    def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         return f"Drawn with {surface_in_words(lengths)}."
 
 
 @dataclass(frozen=True)
-class Table(Source):
+class TableSource(Source):
     """A table of the whole study."""
 
     name: str
@@ -101,7 +89,7 @@ class Table(Source):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Realisations(Source):
+class RealisationsSource(Source):
     """Realisations of scenes, which `draw` takes by the values of `keys`.
 
     These tell the scenes apart: of several with the same values the first is drawn. Without keys
@@ -119,7 +107,7 @@ class Realisations(Source):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Correlations(Source):
+class CorrelationsSource(Source):
     """Correlations of the scene that has the configuration's lengths, and l_c for each n_p."""
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
@@ -142,7 +130,7 @@ class Declaration:
     def __post_init__(self) -> None:
         object.__setattr__(self, "caption", " ".join(self.caption.split()))
 
-    def caption_in(self, ensembles: Ensembles, lengths: Lengths, material: Material) -> str:
+    def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         """Return the caption, and after it what the figure is drawn from in a study."""
         return f"{self.caption} {self.source.in_words(ensembles, lengths, material)}".strip()
 

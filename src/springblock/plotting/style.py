@@ -1,27 +1,34 @@
-"""One look for all figures: sizes, colours, panel letters, and files that are always the same.
+"""One look for all figures: sizes, colours, lettered panels, and files that are always the same.
 
 Figures are drawn without pyplot, so that nothing depends on global state: `draw` functions wear
 the decorator `journal`, which puts the style in force whatever the reader's own settings are.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
 from springblock.files import whole_file
 
+Look = dict[str, Any]  #: of a line, of markers or of text
+
 MM = 1.0 / 25.4  #: one millimetre in inches, matplotlib's unit
-MICRO = 1e6  #: µs per s
+MICRO, NANO = 1e6, 1e9  #: µs and ns per s; nm per m
+PERCENT = 100.0
+FORCE = r"friction force $F_\mathrm{fr}/F_n$"
 COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's columns, mm
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
 # black is flat, blue goes along x, vermilion along y and green askew, whether it is a side or the
-# slider; purple is a third level. Pillars have the colours of `ensembles.pillar_look`.
+# slider; purple is a third level. Pillars have the colours of `looks.pillar_look`.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
@@ -41,7 +48,7 @@ BEFORE_AFTER = LinearSegmentedColormap.from_list(
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
 
-JOURNAL: dict[str, Any] = {
+JOURNAL: Look = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],  # comes with matplotlib: the same on every computer
     "mathtext.fontset": "dejavusans",
@@ -84,30 +91,55 @@ _METADATA: dict[str, dict[str, None]] = {
 }
 
 
-def figure(width: float, height: float) -> Figure:
-    """Make an empty figure of `width` x `height` mm."""
-    return Figure(figsize=(width * MM, height * MM))
+def panels(
+    width: float, height: float, letters: str = "a", **placing: Any
+) -> tuple[Figure, list[Axes]]:
+    """Make a figure of `width` x `height` mm with panels where `letters` has them.
+
+    In "ab;cd|ef" semicolons end rows, and below a bar are columns of their own. Panels come in the
+    order of their letters, with "a)" above each if there are several; capital letters are not
+    shown. `placing` are further arguments of `Figure.subplot_mosaic`.
+    """
+    picture = Figure(figsize=(width * MM, height * MM), layout="constrained")
+    blocks = [[list(row) for row in block.split(";")] for block in letters.split("|")]
+    mosaic: Any = [[block] for block in blocks] if len(blocks) > 1 else blocks[0]
+    placed = picture.subplot_mosaic(mosaic, **placing)
+    for letter, ax in placed.items():
+        if letter.islower() and len(placed) > 1:
+            ax.set_title(f"{letter})", loc="left", fontweight="bold")
+    return picture, [placed[letter] for letter in sorted(placed, key=lambda x: (x.isupper(), x))]
 
 
-def axes(parent: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
-    """Add axes to `parent` at a place in mm from its lower left corner."""
-    across, up = parent.get_size_inches() / MM
-    return parent.add_axes((left / across, bottom / up, width / across, height / up))
+def share_axes(row: Sequence[Axes]) -> None:
+    """Give panels side by side the same axes, with numbers at the left only."""
+    for ax in row[1:]:
+        ax.sharex(row[0])
+        ax.sharey(row[0])
+        ax.tick_params(labelleft=False)
 
 
-def panel_letter(ax: Axes, letter: str, left: float = 0.0, above: float = 2.0) -> Text:
-    """Write "a)" above the upper left corner of a panel, `left` and `above` mm from it."""
-    points = 72.0 * MM
-    return ax.annotate(
-        f"{letter})",
-        (0.0, 1.0),
-        (-left * points, above * points),
-        xycoords="axes fraction",
-        textcoords="offset points",
-        fontsize=NORMAL,
-        fontweight="bold",
-        annotation_clip=False,
-    )
+def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Colorbar:
+    """Draw a bar of colours as long as a panel, at its right or, with that orientation, below."""
+    below = look.get("orientation") == "horizontal"
+    place = ax.inset_axes((0.0, -0.24, 1.0, 0.04) if below else (1.05, 0.0, 0.05, 1.0))
+    picture: Any = ax.figure
+    bar: Colorbar = picture.colorbar(mappable, place, label=label, **look)
+    bar.outline.set_linewidth(JOURNAL["axes.linewidth"])
+    return bar
+
+
+@journal
+def settle(picture: Figure) -> None:
+    """Give panels their final places, with the text and arrows beside them on the page.
+
+    Two passes, as these change with the panel; rounded, as the solver sums up in any order.
+    """
+    for _ in range(2):
+        if engine := picture.get_layout_engine():
+            engine.execute(picture)
+    picture.set_layout_engine("none")
+    for ax in picture.axes:
+        ax.set_position(np.round(ax.get_position(original=True).bounds, 6))
 
 
 @journal
@@ -121,5 +153,6 @@ def save(picture: Figure, path: Path, caption: str | None = None) -> None:
         raise ValueError(f"figures are saved as {', '.join(_METADATA)}, not as {path.suffix!r}")
     described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
     metadata = _METADATA[path.suffix] | (described if caption else {})
+    settle(picture)
     with whole_file(path) as partial:
         picture.savefig(partial, format=path.suffix[1:], metadata=metadata)

@@ -9,8 +9,8 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from springblock import Pattern, Realisation, animate, draw_friction, simulate
+from springblock.plotting.maps import painted
 from springblock.plotting.runs import film
-from springblock.plotting.runs.maps import painted
 from springblock.plotting.style import VERMILION
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -53,7 +53,7 @@ def test_each_frame_shows_its_time(run, columns):
     edges = np.append(-1.0, run.time)
     run = replace(run, **cut, detachments=np.histogram(cut["t_det"][first], edges)[0])
     picture, update = film.scenery(run)
-    blocks, _, snapshot, _, force, share = picture.axes
+    blocks, snapshot, force, share = picture.axes
     now, before = np.nanpercentile(run.t_det, [50, 40])
     update(now, before)
     np.testing.assert_array_equal(blocks.images[0].get_array(), painted(run, now, before))

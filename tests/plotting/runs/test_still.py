@@ -8,8 +8,8 @@ from matplotlib.colors import to_rgb
 
 from springblock import Pattern, Realisation, draw_friction, plot, simulate
 from springblock.plotting import style
+from springblock.plotting.maps import painted, scale
 from springblock.plotting.runs import still
-from springblock.plotting.runs.maps import painted, scale
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -52,14 +52,16 @@ def test_what_is_still_to_come_is_not_seen_and_what_has_just_come_is_black(run):
 @pytest.mark.parametrize("shape", [lambda run: run, oblong])
 def test_a_run_is_drawn_with_all_that_it_holds(run, shape):
     run = shape(run)
-    force, blocks, times, bar, *snapshots, displacement = plot(run).axes
+    force, times, blocks, *snapshots = plot(run).axes
     np.testing.assert_array_equal(force.get_lines()[0].get_ydata(), run.force / run.normal_force)
     assert blocks.patches
     np.testing.assert_array_equal(times.images[0].get_array(), painted(run))
+    (bar,) = times.child_axes
     assert "t_\\mathrm{det}" in bar.get_xlabel()
     for ax, field in zip(snapshots, run.snapshots, strict=True):
         np.testing.assert_allclose(ax.images[0].get_array(), 1e9 * np.hypot(*field))
     assert [ax.get_title() for ax in snapshots] == ["100 µs", "150 µs"]
+    (displacement,) = snapshots[-1].child_axes
     assert displacement.get_ylabel().endswith("(nm)")
 
 
@@ -81,6 +83,7 @@ def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
 @pytest.mark.parametrize("shape", [lambda run: run, oblong])
 def test_nothing_leaves_the_page(run, shape):
     picture = still.plot(shape(run))
+    style.settle(picture)
     box = style.journal(picture.get_tightbbox)()  # inches
     width, height = picture.get_size_inches()
     assert 0.0 <= box.x0 < box.x1 <= width

@@ -8,23 +8,12 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from springblock.files import whole_file
-from springblock.plotting import style
-from springblock.plotting.runs.maps import (
-    DISPLACED,
-    draw_key,
-    draw_map,
-    draw_times_bar,
-    painted,
-    size_of_displacement,
-)
-from springblock.plotting.style import BLACK, GREY, MICRO, VERMILION, journal
+from springblock.plotting import maps, style
 from springblock.simulation.run import Array, Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
@@ -32,8 +21,8 @@ _HOLD = 15  #: of these frames show the end
 _AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
 _FAINT = "0.75"  #: curves that are still to come
 _PIXELS = 5  #: per mm
-_HEIGHT = 108.0  #: mm
-_MAP, _BOTTOM, _SIDE = 13.0, 25.0, 72.0  #: left and lower edge and side, mm: 360 pixels
+_HEIGHT = 112.0  #: mm
+_MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
 
 Frame = NDArray[np.uint8]  #: (height, width, 3)
 #: Moves a panel on to a time, given the time of the frame before, s; returns what has moved.
@@ -55,7 +44,7 @@ def animate(run: Run, path: str | Path) -> None:
         _WRITERS[file.suffix](frames(run), partial)
 
 
-@journal
+@style.journal
 def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
     """Draw the frames of these times in s, or all: what stands still once, and on it what moves."""
     picture, update = scenery(run)
@@ -90,32 +79,30 @@ def span(run: Run) -> tuple[float, float]:
     return max(0.0, first - around), min(end, last + around)
 
 
-@journal
+@style.journal
 def scenery(run: Run) -> tuple[Figure, Update]:
     """Draw what stands still, and return it with the function that moves the rest."""
     kept = len(run.snapshots) > 0
     curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
-    picture = style.figure(curves + 84.0, _HEIGHT)
-    picture.set_dpi(_PIXELS / style.MM)
-    title = picture.text(0.5, 0.975, run.name, ha="center", va="top")
-    title.set_fontsize(style.NORMAL)
-    updates = [_blocks(picture, run)]
-    if kept:
-        updates.append(_displacement(picture, run))
-    force = style.axes(picture, curves, 63.0, 80.0, 37.0)
-    updates.append(_force(force, run))
-    share = style.axes(picture, curves, 11.0, 80.0, 37.0)
-    updates.append(_share(share, run))
-    for ax in (force, share):
-        ax.set_xlabel("time (µs)")
-        ax.axvline(MICRO * run.t_max, color=GREY, linestyle=":", linewidth=0.8, zorder=0.5)
-    force.text(
-        *(MICRO * run.t_max, 1.03),
-        r"$t_\mathrm{max}$",
-        ha="center",
-        va="bottom",
-        transform=force.get_xaxis_transform(),
+    picture = Figure(
+        figsize=((curves + 84.0) * style.MM, _HEIGHT * style.MM), dpi=_PIXELS / style.MM
     )
+    picture.suptitle(run.name, y=0.975, fontsize="medium")
+    updates = [_blocks(_place(picture, _MAP, _BOTTOM, _SIDE, _SIDE), run)]
+    if kept:
+        ax = _place(picture, _MAP + _SIDE + 14.0, _BOTTOM, _SIDE, _SIDE)
+        updates.append(_displacement(ax, run))
+    force = _place(picture, curves, 63.0, 80.0, 37.0)
+    detached = _place(picture, curves, 11.0, 80.0, 37.0)
+    updates += [_force(force, run), _detached(detached, run)]
+    for ax in (force, detached):
+        ax.set_xlabel("time (µs)")
+        ax.axvline(
+            style.MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5
+        )
+    above = (style.MICRO * run.t_max, 1.03)
+    middle: style.Look = {"ha": "center", "va": "bottom", "transform": force.get_xaxis_transform()}
+    force.text(*above, r"$t_\mathrm{max}$", **middle)
 
     def update(now: float, before: float) -> list[Artist]:
         return [artist for move in updates for artist in move(now, before)]
@@ -123,41 +110,43 @@ def scenery(run: Run) -> tuple[Figure, Update]:
     return picture, update
 
 
-def _blocks(picture: Figure, run: Run) -> Update:
+def _place(picture: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
+    """Add axes at a place in mm: blocks of a map are all as many pixels."""
+    across, up = picture.get_size_inches() / style.MM
+    return picture.add_axes((left / across, bottom / up, width / across, height / up))
+
+
+def _blocks(ax: Axes, run: Run) -> Update:
     """Map of the blocks that have detached so far."""
-    ax = style.axes(picture, _MAP, _BOTTOM, _SIDE, _SIDE)
-    image = draw_map(ax, painted(run, until=0.0))
+    image = maps.draw_map(ax, maps.painted(run, until=0.0))
     image.set_animated(True)
     elsewhere = [] if run.contact.all() else ["not in contact"]
-    draw_key(ax, "not detached", "detaching now", *elsewhere)
+    maps.draw_key(ax, "not detached", "detaching now", *elsewhere)
     if np.isfinite(run.t_det).any():
-        draw_times_bar(picture, style.axes(picture, _MAP, 8.5, _SIDE, 3.0), run)
+        maps.draw_times_bar(ax, run)
 
     def update(now: float, before: float) -> list[Artist]:
-        image.set_data(painted(run, now, before))
+        image.set_data(maps.painted(run, now, before))
         return [image]
 
     return update
 
 
-def _displacement(picture: Figure, run: Run) -> Update:
+def _displacement(ax: Axes, run: Run) -> Update:
     """Map of the latest snapshot so far; before the first there is none."""
-    left = _MAP + _SIDE + 14.0
-    ax = style.axes(picture, left, _BOTTOM, _SIDE, _SIDE)
-    fields = [size_of_displacement(snapshot) for snapshot in run.snapshots]
-    norm = Normalize(0.0, max(float(np.max(fields)), 1e-12))
-    image = draw_map(ax, np.full_like(fields[0], np.nan))
-    image.set(cmap=DISPLACED, norm=norm, animated=True)
+    fields, colors = maps.displacements(run.snapshots)
+    nothing = np.full_like(fields[0], np.nan)
+    image = maps.draw_map(ax, nothing)
+    image.set(cmap=colors.cmap, norm=colors.norm, animated=True)
     title = ax.set_title("", animated=True)
-    bar = style.axes(picture, left, 8.5, _SIDE, 3.0)
-    picture.colorbar(ScalarMappable(norm, DISPLACED), bar, orientation="horizontal").set_label(
-        r"displacement $|u|$ (nm)"
-    )
+    style.color_bar(ax, colors, maps.DISPLACEMENT, orientation="horizontal")
 
     def update(now: float, before: float) -> list[Artist]:
         latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
-        image.set_data(fields[latest] if latest >= 0 else np.full_like(fields[0], np.nan))
-        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
+        image.set_data(fields[latest] if latest >= 0 else nothing)
+        title.set_text(
+            f"at {style.MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else ""
+        )
         return [image, title]
 
     return update
@@ -166,31 +155,29 @@ def _displacement(picture: Figure, run: Run) -> Update:
 def _force(ax: Axes, run: Run) -> Update:
     """Force of the whole run; what the film shows of it is shaded."""
     start, stop = span(run)
-    ax.axvspan(MICRO * start, MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
-    ax.set_ylabel(r"friction force $F_\mathrm{fr}/F_n$")
-    ax.set_xlim(0.0, MICRO * run.time[-1])
+    ax.axvspan(style.MICRO * start, style.MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
+    ax.set(xlim=(0.0, style.MICRO * run.time[-1]), ylabel=style.FORCE)
     return _curve(ax, run, friction(run))
 
 
-def _share(ax: Axes, run: Run) -> Update:
+def _detached(ax: Axes, run: Run) -> Update:
     """Share of the contact blocks that have detached, as long as the film takes."""
-    ax.set_ylabel("detached blocks (%)")
     start, stop = span(run)
-    ax.set_xlim(MICRO * start, MICRO * stop)
+    ax.set(xlim=(style.MICRO * start, style.MICRO * stop), ylabel="detached blocks (%)")
     return _curve(ax, run, 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact))
 
 
 def _curve(ax: Axes, run: Run, values: Array) -> Update:
     """A curve over time, as far as it has come in black, with a cursor."""
-    time = MICRO * run.time
+    time = style.MICRO * run.time
     ax.plot(time, values, color=_FAINT, linewidth=0.8)
-    (so_far,) = ax.plot([], [], color=BLACK, animated=True)
-    cursor = ax.axvline(0.0, color=VERMILION, linewidth=0.8, animated=True)
+    (so_far,) = ax.plot([], [], color=style.BLACK, animated=True)
+    cursor = ax.axvline(0.0, color=style.VERMILION, linewidth=0.8, animated=True)
 
     def update(now: float, before: float) -> list[Artist]:
         count = int(np.searchsorted(run.time, now, side="right"))
         so_far.set_data(time[:count], values[:count])
-        cursor.set_xdata([MICRO * now] * 2)
+        cursor.set_xdata([style.MICRO * now] * 2)
         return [so_far, cursor]
 
     return update
@@ -216,14 +203,8 @@ def _mp4(drawn: list[Frame], file: Path) -> None:
         ) from None
 
     height, width, _ = drawn[0].shape
-    film = write_frames(
-        str(file),
-        (width, height),
-        fps=PER_SECOND,
-        codec="libx264",
-        macro_block_size=2,
-        output_params=["-f", "mp4"],
-    )
+    look = {"fps": PER_SECOND, "codec": "libx264", "macro_block_size": 2}
+    film = write_frames(str(file), (width, height), output_params=["-f", "mp4"], **look)
     film.send(None)
     for frame in drawn:
         film.send(np.ascontiguousarray(frame))

@@ -2,22 +2,12 @@
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
-from springblock.plotting import style
-from springblock.plotting.figure_2 import draw_blocks, draw_force, draw_times, name_times
-from springblock.plotting.runs.maps import (
-    DISPLACED,
-    draw_key,
-    draw_map,
-    draw_times_bar,
-    painted,
-    size_of_displacement,
-)
-from springblock.plotting.style import MICRO, journal
-from springblock.simulation.run import Array, Run
+from springblock.plotting import maps
+from springblock.plotting.one_run import draw_blocks, draw_force, mark_times, name_times
+from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
+from springblock.simulation.run import Run
 
 CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
 maximum (dotted), and t_avg, the mean first detachment time (solid); share of blocks that detach in
@@ -25,10 +15,7 @@ each sample interval; first detachment times t_det over t_max, block by block; d
 the run has kept snapshots."""
 
 _SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
-# Layout in mm, above the row of snapshots.
-_LEFT, _WIDTH = 20.0, 79.0
-_MAP, _SIDE = 118.0, 65.0
-_HEIGHT, _ROW = 97.0, 55.0
+_HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 
 
 @journal
@@ -38,69 +25,65 @@ def plot(run: Run) -> Figure:
     A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
     `%matplotlib inline`.
     """
-    row = _ROW if len(run.snapshots) else 0.0
+    heights = [_HEIGHT, _ROW] if len(run.snapshots) else [_HEIGHT]
+    picture = Figure(figsize=(DOUBLE * MM, sum(heights) * MM), layout="constrained")
+    picture.suptitle(run.name, fontsize="medium")
+    parts = picture.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
     detached = bool(np.isfinite(run.t_det).any())
-    picture = style.figure(style.DOUBLE, _HEIGHT + row)
-    picture.text(0.5, 1.0 - 2.0 / (_HEIGHT + row), run.name, ha="center", va="top")
-    _draw_curves(picture, run, row, detached)
-    _draw_times(picture, run, row, detached)
-    if row:
-        _draw_snapshots(picture, run)
+    panels = parts[0].subplot_mosaic("FM;BM" if detached else "FM", width_ratios=(79, 65))
+    _draw_force(panels["F"], run)
+    if detached:
+        _draw_detachments(panels["F"], panels["B"], run)
+    _draw_times(panels["M"], run)
+    if len(run.snapshots):
+        _draw_snapshots(parts[1], run)
     return picture
 
 
-def _draw_curves(picture: Figure, run: Run, row: float, detached: bool) -> None:
-    """Force, and below it detachments where there are any."""
-    lower, height = (51.0, 36.0) if detached else (11.0, 76.0)
-    force = style.axes(picture, _LEFT, row + lower, _WIDTH, height)
+def _draw_force(ax: Axes, run: Run) -> None:
     span = (0.0, MICRO * float(run.time[-1]))
-    draw_force(force, run, (), span)
-    panels = [force]
-    if detached:
-        panels.append(style.axes(picture, _LEFT, row + 11.0, _WIDTH, 36.0))
-        draw_blocks(panels[1], run, ())
-        early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
-        panels[1].legend(loc="upper right" if early else "upper left")
-        force.tick_params(labelbottom=False)
-        name_times(force, run)
-    for ax in panels:
-        if detached:
-            draw_times(ax, run)
-        ax.set_xlim(span)
-    panels[-1].set_xlabel("time (µs)")
+    draw_force(ax, run, (), span)
+    ax.set(xlabel="time (µs)", xlim=span)
 
 
-def _draw_times(picture: Figure, run: Run, row: float, detached: bool) -> None:
+def _draw_detachments(force: Axes, blocks: Axes, run: Run) -> None:
+    """Shares of detaching blocks below the force, with t_max and t_avg in both panels."""
+    draw_blocks(blocks, run, ())
+    early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
+    blocks.legend(loc="upper right" if early else "upper left")
+    blocks.sharex(force)
+    blocks.set_xlabel("time (µs)")
+    for ax in (force, blocks):
+        mark_times(ax, run)
+    name_times(force, run)
+    force.set_xlabel("")
+    force.tick_params(labelbottom=False)
+
+
+def _draw_times(ax: Axes, run: Run) -> None:
     """Where blocks have detached, and when."""
-    ax = style.axes(picture, _MAP, row + 24.5, _SIDE, _SIDE)
-    draw_map(ax, painted(run))
+    maps.draw_map(ax, maps.painted(run))
     names = {
         "not detached": (run.contact & np.isnan(run.t_det)).any(),
         "not in contact": not run.contact.all(),
     }
-    draw_key(ax, *(name for name, occurs in names.items() if occurs))
-    if detached:
-        draw_times_bar(picture, style.axes(picture, _MAP, row + 8.5, _SIDE, 3.0), run)
+    maps.draw_key(ax, *(name for name, occurs in names.items() if occurs))
+    if np.isfinite(run.t_det).any():
+        maps.draw_times_bar(ax, run)
 
 
-def _draw_snapshots(picture: Figure, run: Run) -> None:
+def _draw_snapshots(part: SubFigure, run: Run) -> None:
     """Displacements at up to four times, in the same colours."""
     count = len(run.snapshots)
     chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
-    fields = [size_of_displacement(run.snapshots[i]) for i in chosen]
-    norm = Normalize(0.0, max(float(np.max(fields)), 1e-12))
-    for place, (i, field) in enumerate(zip(chosen, fields, strict=True)):
-        ax = style.axes(picture, 13.0 + 38.0 * place, 10.0, 34.0, 34.0)
-        _draw_snapshot(ax, field, norm)
+    fields, colors = maps.displacements(run.snapshots[chosen])
+    panels = part.subplots(1, _SNAPSHOTS)
+    for ax in panels[len(chosen) :]:
+        ax.remove()
+    for ax, i, field in zip(panels, chosen, fields, strict=False):
+        maps.draw_map(ax, field).set(cmap=colors.cmap, norm=colors.norm)
         ax.set_title(f"{MICRO * run.snapshot_times[i]:.4g} µs")
-        if place:
+        if i:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
-    bar = style.axes(picture, 12.0 + 38.0 * len(chosen), 10.0, 3.0, 34.0)
-    label = r"displacement $|u|$ (nm)"
-    picture.colorbar(ScalarMappable(norm, DISPLACED), bar).set_label(label)
-
-
-def _draw_snapshot(ax: Axes, field: Array, norm: Normalize) -> None:
-    image = draw_map(ax, field)
-    image.set(cmap=DISPLACED, norm=norm)
+    color_bar(panels[len(chosen) - 1], colors, maps.DISPLACEMENT)

@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import cycle
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,9 +16,8 @@ from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.scene import LENGTHS, Scene
 from springblock.plotting import style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.ensembles import FRICTION, LAG
+from springblock.plotting.points import FRICTION, LAG, draw_points, name_places
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
-from springblock.plotting.sweeps import draw_sweep, powers
 
 Names = tuple[tuple[str, str], ...]
 
@@ -56,7 +55,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
 _NAMED = 6  #: places that stand below a logarithmic axis themselves, at most
 _WIDE = 24  #: characters of a line's name from which on names stand below each other
-_LEFT, _WIDTH, _HEIGHT, _BELOW, _BETWEEN, _LINE = 16.0, 71.0, 38.0, 11.0, 5.0, 3.6  #: mm
+_LINE = 3.6  #: mm, of the legend
 
 
 def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
@@ -122,23 +121,17 @@ def _math(name: str) -> str:
 def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
     """Draw observables over an axis, a panel each; rows are of the table `realisations`."""
     found = lines(rows, over)
+    letters = ";".join("abcdef"[: len(observables)])
     columns = 1 if max(map(len, found)) > _WIDE else 2
-    legend = 3.0 + (_LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0)
-    height = _BELOW + len(observables) * (_HEIGHT + _BETWEEN) + legend
-    picture = style.figure(style.COLUMN, height)
-    for i, name in enumerate(observables):
-        above = _BELOW + (len(observables) - 1 - i) * (_HEIGHT + _BETWEEN)
-        ax = style.axes(picture, _LEFT, above, _WIDTH, _HEIGHT)
+    names = _LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0
+    height = 15.0 + 43.0 * len(observables) + names
+    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
+    for ax, name in zip(panels, observables, strict=True):
         _draw_panel(ax, found, over, OBSERVABLES[name])
-        if len(observables) > 1:
-            style.panel_letter(ax, "abcdefgh"[i], left=12.0, above=1.0)
-        if i < len(observables) - 1:
-            ax.tick_params(labelbottom=False)
-            ax.set_xlabel("")
+    panels[-1].set_xlabel(_axis(over))
     if len(found) > 1:
-        handles = picture.axes[0].get_legend_handles_labels()
-        place: dict[str, Any] = {"bbox_to_anchor": (_LEFT / style.COLUMN, 1.0)}
-        picture.legend(*handles, loc="upper left", ncols=columns, borderaxespad=0.3, **place)
+        named = panels[0].get_legend_handles_labels()
+        picture.legend(*named, loc="outside upper left", ncols=columns)
     return picture
 
 
@@ -148,14 +141,13 @@ def _draw_panel(
     looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
     for (name, line), (color, marker) in zip(found.items(), looks, strict=False):
         intervals = [mean_interval([seen.of(row) for row in runs]) for runs in line.values()]
-        draw_sweep(ax, list(line), intervals, color, marker=marker, label=name)
-    places = sorted({place for line in found.values() for place in line})
-    ax.set_xlabel(_axis(over))
+        draw_points(ax, list(line), intervals, color, marker=marker, label=name)
     ax.set_ylabel(seen.label)
+    places = sorted({place for line in found.values() for place in line})
     if places[0] <= 0.0 or places[-1] < _DECADE * places[0]:
         return
     if len(places) <= _NAMED:
-        powers(ax, places, _axis(over))
+        name_places(ax, places)
     else:
         ax.set_xscale("log")
         ax.xaxis.set_minor_formatter(NullFormatter())

@@ -1,0 +1,1 @@
+"""How large the numerical errors are, and what they cost."""

@@ -1,0 +1,221 @@
+"""Stiff and extreme cases: what they are off by, and what is accepted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
+from matplotlib.transforms import blended_transform_factory
+from numpy.typing import NDArray
+
+from springblock.plotting import style
+from springblock.plotting.declaration import Declaration, TableSource
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, journal
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+FIGURE = Declaration(
+    title="Stiff and extreme cases",
+    category="Accuracy",
+    caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond the
+    stability limit; failing ones end in an exception.""",
+    source=TableSource("stability"),
+)
+
+_INTEGRATORS: dict[str, tuple[str, Look]] = {
+    "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),
+    "rk4": (
+        "Runge–Kutta",
+        {"color": VERMILION, "marker": "s", "markersize": 3.8, "markerfacecolor": "none"},
+    ),
+}
+#: Outcomes without an error to show.
+_ENDS = {"refused": ("refused at the start", "x"), "raises": ("ended by an exception", "^")}
+_NOTHING = ("as expected, nothing to compare", "d")
+_HEIGHTS = {"x": 0.95, "^": 0.87, "d": 0.79}  #: of these, as shares of the panel
+_ACCEPTED: Look = {"color": GREY, "marker": "_", "markersize": 6.0, "linestyle": ""}
+
+#: Families over a parameter: the name of the axis, and the beginnings of the quantities shown,
+#: each with a label at (share of the axis, error).
+_PANELS: dict[str, tuple[str, dict[str, tuple[str, float, float]]]] = {
+    "stiffness": (
+        r"$K_s/K_\mathrm{int}$",
+        {
+            "first detachment": ("first detachment", 0.30, 3e-15),
+            "displacement": ("path of a column", 0.30, 1e-7),
+        },
+    ),
+    "strain": (
+        r"strain $F_n/(K_s\,l)$",
+        {"displacement": ("path of a column", 0.42, 1e-11)},
+    ),
+    "damping": (r"damping $\gamma/\omega$", {"spring force": ("force in the slip", 0.05, 1e-11)}),
+    "speed": (
+        r"speed $v\,K_s/(F_n\,\omega)$",
+        {"spring force": ("force after the slip", 0.05, 1e-11)},
+    ),
+}
+_SMALLEST = 1e-16  #: relative error
+_LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is drawn here
+
+
+@journal
+def draw(cases: DataFrame) -> Figure:
+    """Draw results/tables/stability.parquet.
+
+    a) Energy residual over step, up to the stability limit and beyond; b) error of all cases
+    relative to what is accepted; c) to f) error over the parameter of four families.
+    """
+    picture, panels = style.panels(style.DOUBLE, 116.0, "ab|cdef")
+    steps, overview, *families = panels
+    _draw_steps(steps, _family(cases, "step"))
+    _draw_close_up(steps, _family(cases, "step"))
+    _draw_overview(overview, cases)
+    for ax, (family, (name, shown)) in zip(families, _PANELS.items(), strict=True):
+        _draw_family(ax, _family(cases, family), shown)
+        ax.set_xlabel(name)
+        ax.tick_params(labelleft=ax is families[0])
+    families[0].set_ylabel("relative error")
+    _draw_legend(picture)
+    return picture
+
+
+def _family(cases: DataFrame, name: str) -> DataFrame:
+    return cases.loc[cases["family"] == name].sort_values("parameter", kind="stable")
+
+
+def _of(cases: DataFrame, integrator: str, *outcomes: str) -> DataFrame:
+    """Cases of one integrator, and with one of these outcomes if there are any."""
+    cases = cases.loc[cases["integrator"] == integrator]
+    return cases.loc[cases["outcome"].isin(outcomes)] if outcomes else cases
+
+
+def _draw_residuals(ax: Axes, cases: DataFrame) -> None:
+    """Energy residual of one scene at growing shares of the stability limit."""
+    scene = cases.loc[cases["case"].str.startswith("pillars")]
+    for integrator, (_, look) in _INTEGRATORS.items():
+        runs = _of(scene, integrator, "stable")
+        ax.plot(runs["parameter"], runs["energy_error"].abs(), linewidth=0.6, **look)
+    ax.axvline(1.0, color=BLACK, linewidth=0.8, linestyle="--", zorder=0.5)
+    ax.set_yscale("log")
+
+
+def _draw_steps(ax: Axes, cases: DataFrame) -> None:
+    """Small and unstable steps too, on a logarithmic axis."""
+    _draw_residuals(ax, cases)
+    _draw_ends(ax, cases.loc[cases["case"].str.startswith("pillars")])
+    side = ax.get_xaxis_transform()
+    ax.text(0.95, 0.03, "stability limit", transform=side, ha="right", va="bottom")
+    ax.set(xscale="log", xlim=(0.035, 14.0), ylim=(1e-8, 30.0))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.set_yticks([10.0**k for k in range(-8, 1, 2)])
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.set(xlabel="step over the stability limit", ylabel="energy residual / work")
+
+
+def _draw_close_up(ax: Axes, cases: DataFrame) -> None:
+    """The last fifth before the limit, in the corner where no step is stable."""
+    inset = ax.inset_axes((0.675, 0.17, 0.305, 0.50))
+    _draw_residuals(inset, cases)
+    inset.set(xlim=(0.77, 1.03), ylim=(1e-3, 1.0))
+    inset.set_xticks([0.8, 0.9, 0.99], ["0.8", "0.9", "0.99"])
+    inset.set_yticks([1e-3, 1e-2, 1e-1, 1.0])
+    inset.yaxis.set_minor_locator(NullLocator())
+    inset.tick_params(labelsize=6.0, pad=1.5)
+
+
+def _draw_overview(ax: Axes, cases: DataFrame) -> None:
+    """Error over accepted error, family by family; within each, the cases lie side by side."""
+    families = list(dict.fromkeys(cases["family"]))
+    for number, family in enumerate(families):
+        for integrator, (_, look) in _INTEGRATORS.items():
+            runs = _of(_family(cases, family), integrator)
+            middle = number + (-0.21 if integrator == "leapfrog" else 0.21)
+            share = _share(runs)
+            ax.plot(middle + _spread(len(share)), share, linestyle="", **look)
+            outcomes = set(runs["outcome"])
+            markers = [marker for word, (_, marker) in _ENDS.items() if word in outcomes]
+            if (runs["tolerance"].isna() & ~runs["outcome"].isin(_ENDS)).any():
+                markers.append(_NOTHING[1])
+            for marker in markers:
+                _mark(ax, [middle], _HEIGHTS[marker], look, marker)
+    ax.axhline(1.0, color=GREY, linewidth=0.8)
+    ax.text(len(families) - 0.5, 1.4, "accepted", color=GREY, ha="right", va="bottom")
+    ax.set(yscale="log", ylim=(_LEAST / 4.0, 1e4), xlim=(-0.6, len(families) - 0.4))
+    labels = [f"$10^{{{k}}}$" for k in range(-4, 1, 2)]
+    ax.set_yticks([_LEAST, 1e-4, 1e-2, 1.0], ["$<10^{-6}$", *labels])
+    ax.yaxis.set_minor_locator(NullLocator())
+    counts = cases["family"].value_counts()
+    names = [f"{family} ({counts[family]})" for family in families]
+    ax.set_xticks(range(len(families)), names, rotation=35.0, ha="right", rotation_mode="anchor")
+    ax.tick_params(axis="x", length=0.0, pad=2.0)
+    ax.set(xlabel="family (number of cases)", ylabel="error / accepted error")
+
+
+def _share(runs: DataFrame) -> Series[float]:
+    """Error over accepted error of the cases that have one; nothing is the least."""
+    runs = runs.loc[runs["tolerance"].notna()]
+    error, accepted = runs["relative_error"].abs(), runs["tolerance"]
+    return (error / accepted).where(error > 0.0, 0.0).clip(lower=_LEAST)
+
+
+def _spread(count: int) -> NDArray[np.float64]:
+    """Places of so many markers around their middle."""
+    return np.linspace(-0.13, 0.13, count) if count > 1 else np.zeros(count)
+
+
+def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, float]]) -> None:
+    """Error of a family over its parameter."""
+    for start, (label, across, up) in shown.items():
+        same = cases.loc[cases["quantity"].str.startswith(start)]
+        for integrator, (_, look) in _INTEGRATORS.items():
+            runs = _of(same, integrator, "agrees")
+            error = runs["relative_error"].abs().clip(lower=_SMALLEST)
+            ax.plot(runs["parameter"], error, linewidth=0.6, **look)
+            ax.plot(runs["parameter"], runs["tolerance"], **_ACCEPTED)
+        place = blended_transform_factory(ax.transAxes, ax.transData)
+        ax.text(across, up, label, transform=place, ha="left", va="center")
+    _draw_ends(ax, cases)
+    ax.set(yscale="log", ylim=(_SMALLEST / 3.0, 1e3))
+    ax.set_yticks([10.0**k for k in range(-16, 1, 4)])
+    parameters = cases["parameter"]
+    smallest, largest = (np.log10(parameters[parameters > 0.0].agg(end)) for end in ("min", "max"))
+    powers = [10.0**k for k in range(round(smallest), round(largest) + 1, 2)]
+    if (parameters > 0.0).all():
+        ax.set_xscale("log")
+        ax.set_xticks(powers)
+    else:
+        ax.set_xscale("symlog", linthresh=powers[0])
+        ax.set_xlim(-0.2 * powers[0], 5.0 * powers[-1])
+        ax.set_xticks([0.0, *powers])
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_minor_locator(NullLocator())
+
+
+def _draw_ends(ax: Axes, cases: DataFrame) -> None:
+    """Mark the cases that end early at the top of the panel."""
+    for (integrator, (_, look)), height in zip(_INTEGRATORS.items(), (0.95, 0.87), strict=True):
+        for outcome, (_, marker) in _ENDS.items():
+            _mark(ax, _of(cases, integrator, outcome)["parameter"], height, look, marker)
+
+
+def _mark(ax: Axes, places: Any, height: float, look: Look, marker: str) -> None:
+    """Markers at a share of the panel's height."""
+    looks = {**look, "marker": marker, "markersize": 4.0, "linestyle": ""}
+    ax.plot(places, np.full(len(places), height), transform=ax.get_xaxis_transform(), **looks)
+
+
+def _draw_legend(picture: Figure) -> None:
+    kinds = [
+        Line2D([], [], linewidth=0.6, label=name, **look) for name, look in _INTEGRATORS.values()
+    ]
+    kinds.append(Line2D([], [], label="accepted", **_ACCEPTED))
+    for label, marker in (*_ENDS.values(), _NOTHING):
+        look: Look = {"color": GREY, "linestyle": "", "marker": marker, "markersize": 4.0}
+        kinds.append(Line2D([], [], label=label, **look))
+    picture.legend(handles=kinds, loc="outside upper center", ncols=6, columnspacing=1.4)

@@ -1,0 +1,61 @@
+"""Colours, markers and names of surfaces and sliding directions, the same in all figures."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+
+from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION, Look
+
+Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
+
+_DIRECTIONS = {"x": BLUE, "y": VERMILION}
+_STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}
+_MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 10: "s", 20: "D", 30: "P", 60: "X"}  #: by n_p
+_LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
+
+
+def shades(values: Iterable[float]) -> dict[float, Any]:
+    """A colour for each value, from dark for the smallest to light."""
+    ordered = sorted(set(values))
+    places = np.linspace(0.0, 1.0, len(ordered) + 2)[1:-1]
+    return dict(zip(ordered, colormaps["viridis"](places), strict=True))
+
+
+def pillar_look(n_p: int) -> Look:
+    """Colour and marker of pillars of a size; 0 is a flat surface."""
+    if not n_p:
+        return {"color": BLACK, "marker": "o"}
+    place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
+    return {"color": colormaps["viridis"](0.93 * place), "marker": _MARKERS.get(n_p, "o")}
+
+
+def pillar_name(n_p: int) -> str:
+    """Name of pillars of a size."""
+    return f"$n_p$ = {n_p}" if n_p else "flat"
+
+
+def direction_color(direction: str) -> str:
+    """Colour of what goes along x, along y, or askew."""
+    return _DIRECTIONS.get(direction, GREEN)
+
+
+def direction_name(direction: str) -> str:
+    """Name a sliding direction on grooves that run along x."""
+    named = {"x": "along grooves", "y": "across grooves"}
+    return named.get(direction, f"at {direction}° to grooves")
+
+
+def surface_look(key: Key) -> tuple[str, Look]:
+    """Name, colour and marker of a surface."""
+    n_p, n_p2, direction = key
+    if n_p2:
+        look = {"color": direction_color(direction), **_STRIPS.get(direction, {"marker": "d"})}
+        return direction_name(direction), look
+    return pillar_name(n_p), pillar_look(n_p)
+
+
+def in_order(keys: Iterable[Key]) -> list[Key]:
+    """The flat surface, pillars by their size, grooved ones."""
+    return sorted(keys, key=lambda key: (key[1] > 0, key))

@@ -1,0 +1,115 @@
+"""Maps of a surface, block by block: where it touches, and when blocks have detached."""
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import CenteredNorm, ListedColormap, Normalize, TwoSlopeNorm, to_rgb
+from matplotlib.image import AxesImage
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from springblock.plotting.style import (
+    BEFORE_AFTER,
+    BLACK,
+    CONTACT,
+    NANO,
+    NO_CONTACT,
+    Look,
+    color_bar,
+)
+from springblock.simulation.run import Array, Run
+
+_BLOCKS = ListedColormap([NO_CONTACT, CONTACT])
+_KEY = {
+    "in contact": CONTACT,
+    "not detached": CONTACT,
+    "detaching now": BLACK,
+    "not in contact": NO_CONTACT,
+}
+_ROBUST = (1.0, 99.0)  #: percentiles of the times that the colours of single events cover
+DISPLACEMENT = r"displacement $|u|$ (nm)"
+_LEAST = 1e-3  #: half width of the scale around t_max, over t_max
+
+
+def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
+    """Show one value or colour per block; block (x, y) covers x ± 1/2, y ± 1/2.
+
+    What is drawn later does not stretch the panel. `axes` follows x and y in their names.
+    """
+    image = ax.imshow(values, origin="lower", interpolation="nearest")
+    ax.autoscale(False)
+    ax.set(xlabel=f"$x{axes}$", ylabel=f"$y{axes}$")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(MaxNLocator(6, integer=True, steps=[1, 2, 4, 5, 10]))
+    return image
+
+
+def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l") -> AxesImage:
+    """Show which blocks touch the substrate."""
+    image = draw_map(ax, contact, axes)
+    image.set(cmap=_BLOCKS, clim=(0, 1))
+    return image
+
+
+def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0)) -> None:
+    """Tell single blocks apart, (rows, columns) from `corner` = (y, x) on."""
+    (rows, columns), (y, x) = shape, corner
+    look: Look = {"color": "white", "linewidth": 0.4}
+    ax.vlines(x + np.arange(columns - 1) + 0.5, y - 0.5, y + rows - 0.5, **look)
+    ax.hlines(y + np.arange(rows - 1) + 0.5, x - 0.5, x + columns - 0.5, **look)
+
+
+def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> None:
+    """Map mean t_det/t_max, white at 1, on a scale of its own."""
+    shown = np.append(times[np.isfinite(times)], (0.999, 1.001))
+    image = draw_map(ax, times, axes)
+    image.set(cmap=BEFORE_AFTER, norm=TwoSlopeNorm(1.0, shown.min(), shown.max()))
+    color_bar(ax, image, label)
+
+
+def scale(run: Run) -> CenteredNorm:
+    """Scale of t_det/t_max around 1 of a run in which blocks have detached."""
+    half = np.abs(np.nanpercentile(run.t_det / run.t_max, _ROBUST) - 1.0).max()
+    return CenteredNorm(1.0, max(float(half), _LEAST))
+
+
+def draw_times_bar(ax: Axes, run: Run) -> None:
+    """Say below a map of one run which colour stands for which time."""
+    label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
+    look: Look = {"orientation": "horizontal", "extend": "both"}
+    bar = color_bar(ax, ScalarMappable(scale(run), BEFORE_AFTER), label, **look).ax
+    for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
+        bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
+
+
+def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
+    """Colours of all blocks at a time in s, (N, N, 3).
+
+    Those that have detached have the colour of their time, or are black where they have done so
+    after `since`; those that have not are distinct from those that are not in contact.
+    """
+    image = np.where(run.contact[..., None], to_rgb(CONTACT), to_rgb(NO_CONTACT))
+    detached = run.t_det <= until
+    if detached.any():
+        colours = BEFORE_AFTER(scale(run)(run.t_det[detached] / run.t_max))
+        image[detached] = colours[:, :3]
+    image[detached & (run.t_det > since)] = to_rgb(BLACK)
+    return image
+
+
+def draw_key(ax: Axes, *names: str) -> None:
+    """Name colours of blocks above a map."""
+    handles = [Patch(color=_KEY[name], label=name) for name in names]
+    look: Look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
+    ax.legend(handles=handles, loc="lower right", ncols=3, **look)
+
+
+def displacements(snapshots: Array) -> tuple[Array, ScalarMappable]:
+    """|u| in nm of snapshots, (k, 2, N, N) m, and their common colours."""
+    sizes = NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
+    # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
+    # doi:10.1371/journal.pone.0199239).
+    return sizes, ScalarMappable(Normalize(0.0, max(float(sizes.max()), 1e-12)), "cividis")
