@@ -69,7 +69,7 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
         (["--n-blocks", 0], "N must be at least 1 block, not 0"),
         (["--n-p", 2], "n_p = 2 needs n_s"),
         (["--n-p", 4, "--n-s", 1], "4 + 1 = 5 must divide N = 6"),
-        (["--first-seed", -1], "a seed must be zero or positive, not -1"),
+        (["--first-seed", -1], "'--first-seed': -1 is not in the range 0<=x<=10"),
         (["--last-seed", 2], "2 comes before --first-seed 3"),
         (["--step", 1e-6], "step = 1e-06 s is unstable: leapfrog needs less than 9.561e-08 s"),
         (["--sample-interval", 2.5e-8], "sample_interval must be a multiple of step = 2e-08 s"),

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.files import MENDING, read_sealed, seal
+from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[Any]
 
 _SHOWN = 5  #: values that a refusal lists
-_MOST = 2**24  #: blocks that are read, as many as the solver takes
+_TOO_LARGE = f"is larger than the {MAX_BLOCKS} x {MAX_BLOCKS} blocks that the solver goes up to"
 _IS_NAMED = re.compile(r".*-[0-9a-f]{8}")  #: with the digest that a study puts there
 _POINTS, _BYTES = 2**26, 2**28  #: of a measurement, 8192 x 8192 and some 260 MB
 #: Of images. Pillow knows more; one of them, PostScript, it has another program run.
@@ -160,8 +161,8 @@ def _array(file: Path) -> Array:
         raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
     if values.ndim != 2 or not values.size:
         raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
-    if values.size > _MOST:
-        raise ValueError(f"{file} holds {values.size} blocks; {_MOST} are the most that are read")
+    if max(values.shape) > MAX_BLOCKS:  # nothing but the header has been read
+        raise ValueError(f"{file} {_TOO_LARGE}")
     return np.array(values)
 
 
@@ -171,19 +172,18 @@ def _image(file: Path) -> Array:
 
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
-    most = min(_MOST, Image.MAX_IMAGE_PIXELS or _MOST)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(file, formats=_FORMATS) as image:
-                if image.width * image.height > most:  # as its header says
+                if max(image.size) > MAX_BLOCKS:  # nothing but the header has been read
                     raise Image.DecompressionBombError
                 mode = image.mode
                 pixels = np.asarray(image.convert("RGBA") if mode in _MODES else image)
     except UnidentifiedImageError:
         raise ValueError(f"{file} is neither an image nor an array of NumPy (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
-        raise ValueError(f"{file} has more than {most} pixels, the most that are read") from None
+        raise ValueError(f"{file} {_TOO_LARGE}") from None
     except (OSError, SyntaxError, ValueError) as error:
         raise ValueError(f"{file} cannot be read: {error}") from None
     return _black_and_white(file, mode, pixels)[::-1]
@@ -218,15 +218,15 @@ def _listed(values: Array) -> str:
 def _on_blocks(file: Path, spacing: float) -> Array:
     """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN where there are none."""
     heights, sizes = _measured(file)
-    blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
-    if not all(blocks) or blocks[0] * blocks[1] > _MOST:
+    number = [size / spacing * (1.0 + 1e-9) for size in sizes]
+    if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
         raise ValueError(
-            f"{file} must hold 1 to {_MOST} blocks of {spacing!r} m; "
+            f"{file} must hold 1 to {MAX_BLOCKS} blocks of {spacing!r} m a side; "
             f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
         )
     x, y = (
         ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
-        for n, size, points in zip(blocks, sizes, heights.shape, strict=True)
+        for n, size, points in zip(map(int, number), sizes, heights.shape, strict=True)
     )
     return heights[np.ix_(x, y)].T
 

@@ -178,6 +178,8 @@ def compute_prelude(
     ones = np.ones(np.shape(contact))
     mask, _, _ = checked_surface(contact, ones, ones, periodic)
     setup, towards = Setup(material, integrator, step, sample_interval), heading(direction)
+    strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
+    setup.check_length(mask, float(strongest))
     nothing = np.zeros(mask.shape)
     state, constants = prepare(
         mask, ones, nothing, material, towards, setup.method, step, True, periodic

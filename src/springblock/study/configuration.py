@@ -15,9 +15,8 @@ from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.material import Material
 from springblock.model.scene import LENGTHS, MAPS, Scene, Varied
-from springblock.simulation.checks import check_positive, checked_surface
+from springblock.simulation.checks import checked_surface, count_samples
 from springblock.simulation.setup import Setup
-from springblock.solver.springs import MAX_BLOCKS
 from springblock.study.texts import check_texts
 
 Configuration = Mapping[str, Any]
@@ -29,6 +28,10 @@ _YAML_WORDS = {"true": True, "false": False, "null": None}
 PARTS = ("scenes", "beyond", "more")
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+#: To which 24.0 is no integer, as it is none to Python.
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER
+)
 #: Realisations below which a correlation has no interval.
 _CORRELATED = 3
 
@@ -56,9 +59,17 @@ def completed(configuration: Configuration) -> dict[str, Any]:
 
     YAML takes 1e-3, which has no point, for text, and Snakemake all that `--config` holds deeper
     than its first level.
+
+    Raises
+    ------
+    ValueError
+        Where `add` holds no keys.
     """
     whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
-    return _continued(whole, whole.pop("add", {}))
+    added = whole.pop("add", None) or {}
+    if not isinstance(added, dict):
+        raise ValueError(f"add is {added!r}; it may hold keys of the configuration")
+    return _continued(whole, added)
 
 
 def _with_numbers(value: Any, key: str = "") -> Any:
@@ -91,28 +102,33 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
         With one sentence that names the key, what it holds and what it may hold.
     """
     check_texts(configuration)
-    validator = jsonschema.Draft202012Validator(schema)
-    error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
+    error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
-    setup = Setup(Material(**configuration["material"]), **times)
+    setup = _setup(configuration)
     for group, members in ensembles(configuration).items():
         for ensemble in members:
-            with _named(configuration, group):
+            with _named(f"{_part(configuration, group)}.{group}"):
                 _check_ensemble(ensemble, group, setup)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
 
+def _setup(configuration: Configuration) -> Setup:
+    """How the study computes its scenes, but for constants of their own."""
+    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
+    with _named("material"):
+        material = Material(**configuration["material"])
+    return Setup(material, **times)
+
+
 @contextmanager
-def _named(configuration: Configuration, group: str) -> Iterator[None]:
-    """Put the key of a group of scenes before what is wrong with it."""
-    part = _part(configuration, group)
+def _named(key: str) -> Iterator[None]:
+    """Put the key before what is wrong with it."""
     try:
         yield
     except ValueError as reason:
-        raise ValueError(f"{part}.{group}: {reason}") from reason
+        raise ValueError(f"{key}: {reason}") from reason
 
 
 def _part(configuration: Configuration, group: str) -> str:
@@ -130,12 +146,13 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
-    scene, sample_interval = ensemble.scene, setup.sample_interval
-    if max(scene.shape) > MAX_BLOCKS:  # before there is an array of them
-        raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
-    ones = np.ones(scene.shape)
+    scene, ones = ensemble.scene, np.ones(ensemble.scene.shape)
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
-    _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
+    own = setup.vary(dict(scene.varied))
+    _check_draws(ensemble, own.material)
+    own.check_length(scene.contact, _threshold(scene, own.material), ensemble.duration)
+    if ensemble.duration is not None:
+        count_samples(ensemble.duration, own.sample_interval)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "its surfaces must be the paper's, square, with free edges and without files; "
@@ -143,17 +160,16 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
-    if ensemble.duration is not None:
-        check_positive("duration", ensemble.duration)
-    if ensemble.duration is not None and ensemble.duration < sample_interval:
-        raise ValueError(
-            f"duration is {ensemble.duration!r} s, "
-            f"less than one sample_interval of {sample_interval!r} s"
-        )
     if scene.sides and len(ensemble.seeds) < _CORRELATED:
         raise ValueError(
             f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
         )
+
+
+def _threshold(scene: Scene, material: Material) -> float:
+    """Largest coefficient that a file says, or the mean of those that are drawn."""
+    known = None if scene.mu_static_field is None else scene.mu_static_field.values
+    return material.mu_static if known is None else float(known[scene.contact].max())
 
 
 def _check_draws(ensemble: Ensemble, material: Material) -> None:
@@ -195,7 +211,7 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
             if group in found:
                 owner = _part(configuration, group)
                 raise ValueError(f"{part}.{group}: {owner} has a group of this name")
-            with _named(configuration, group):
+            with _named(f"{part}.{group}"):
                 parts = grids if isinstance(grids, list) else [grids or {}]
                 groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
             for ensemble in groups[group]:
@@ -210,9 +226,7 @@ def conditions(configuration: Configuration, ensemble: Ensemble) -> dict[str, An
 
     Batches keep the same, as `configuration` of their metadata.
     """
-    times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
-    setup = Setup(Material(**configuration["material"]), **times)
-    return setup.vary(dict(ensemble.scene.varied)).conditions(ensemble.duration)
+    return _setup(configuration).vary(dict(ensemble.scene.varied)).conditions(ensemble.duration)
 
 
 def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:

@@ -9,8 +9,8 @@ from springblock.accuracy.stability.cases import FIRST, FRICTION, Case, Family, 
 from springblock.accuracy.stability.pull import PAPER, ROUNDING, SEED, Pull, pulled_at, release
 from springblock.accuracy.stability.surface import first_detachment, scattered
 from springblock.accuracy.surfaces import flat, uniform
+from springblock.model.pattern import MAX_BLOCKS
 from springblock.simulation.simulate import simulate
-from springblock.solver.springs import MAX_BLOCKS
 
 
 def blocks_alike(integrator: str, n: int) -> Outcome:
