@@ -29,6 +29,9 @@ def check_output(path: Path) -> None:
     """
     if path.is_symlink() or (path.exists() and not path.is_file()):
         raise ValueError(f"{path} exists and is not a regular file; choose another name")
+    folder = next(folder for folder in path.absolute().parents if folder.exists())
+    if not folder.is_dir():
+        raise ValueError(f"{path} cannot be written: {folder} is not a folder")
 
 
 @contextlib.contextmanager

@@ -184,12 +184,8 @@ def compute_prelude(
     state, constants = prepare(
         mask, ones, nothing, material, towards, setup.method, step, True, periodic
     )
-    advance, every, blocks, peak = (
-        on_cores(integrator, cores),
-        setup.every,
-        state.blocks,
-        state.peak,
-    )
+    advance, every = on_cores(integrator, cores), setup.every
+    blocks, peak = state.blocks, state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())
     blocks.static[bound] = _NEVER
@@ -207,7 +203,8 @@ def compute_prelude(
         record.append(taken)
         needed = np.sqrt(peak[bound]) / load
         if mu_static is None:
-            holding = _share_that_holds(needed, material)
+            # where coefficients are correlated the share is higher, and states are a little early
+            holding = math.exp(log_share_above(needed, material).sum())
         else:
             holding = float((needed < np.asarray(mu_static)[mask]).all())
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
@@ -220,12 +217,3 @@ def compute_prelude(
         ledger=ledgers,
         force=force[:, : samples[-1]],
     )
-
-
-def _share_that_holds(needed: Array, material: Material) -> float:
-    """Probability that all draws of mu_static exceed what is `needed` to hold each block.
-
-    Were they independent; where they are correlated it is higher, and the states are earlier than
-    those that serve best.
-    """
-    return math.exp(log_share_above(needed, material).sum())

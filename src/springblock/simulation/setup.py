@@ -101,20 +101,21 @@ class Setup:
             more samples than a table can hold.
         """
         if duration is None:
-            time = max(self.loading_time(contact, threshold), until, self.sample_interval)
+            loading = self.loading_time(contact, threshold)
+            reason, time = "loading time", max(loading, until, self.sample_interval)
         else:
             check_positive("duration", duration)
-            time = duration
+            reason, time = "duration", duration
         steps, samples = time / self.step, time / self.sample_interval
         if not steps * contact.size < _MOST_STEPS:
+            years = steps * contact.size / _STEPS_PER_YEAR
             raise ValueError(
-                f"step = {self.step!r} s is too short for a run of {time:.4g} s: with "
-                f"{contact.size} blocks its {steps:.2g} steps would take about "
-                f"{steps * contact.size / _STEPS_PER_YEAR:.2g} years"
+                f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
+                f"{steps:.2g} steps of {contact.size} blocks would take {years:.2g} years"
             )
         if samples > _MOST_SAMPLES:
             raise ValueError(
-                f"sample_interval = {self.sample_interval!r} s is too short for a run of "
+                f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -140,9 +140,13 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
     known = [group for part in PARTS for group in configuration[part]]
     for group in sweep["groups"]:
         if group not in known:
-            raise ValueError(f"{key}.groups has {group!r}, which is none of {', '.join(known)}")
+            raise ValueError(
+                f"{key}.groups: unknown group {group!r}; choose among {', '.join(known)}"
+            )
     if sweep["over"] not in AXES:
-        raise ValueError(f"{key}.over is {sweep['over']!r}; it may be {', '.join(AXES)}")
+        raise ValueError(
+            f"{key}.over: unknown axis {sweep['over']!r}; choose one of {', '.join(AXES)}"
+        )
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
@@ -294,9 +298,9 @@ def _maps(
         if name in grid
     }
     masks = list(_masks(configuration, grid, constants))
-    for i, mask in enumerate(masks):
-        if mask in masks[:i]:
-            raise ValueError(f"two of its masks are the same surface, {mask}")
+    for one, other in combinations(masks, 2):
+        if one == other:
+            raise ValueError(f"masks {one.file} and {other.file} describe the same surface {one}")
     yield from ({"mask": mask} | own for mask in masks)
     if not masks:
         yield own
