@@ -158,6 +158,12 @@ def test_numbers_that_come_as_text_are_numbers():
     assert completed(PAPER) == PAPER
 
 
+@pytest.mark.parametrize("added", [3, 2**63, ["scenes"], "true"])
+def test_only_keys_can_be_added(added):
+    with pytest.raises(ValueError, match=r"^add is .*; it may hold keys of the configuration"):
+        completed(PAPER | {"add": added})
+
+
 def test_lists_can_be_continued_without_being_said_again():
     further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
     whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
@@ -387,6 +393,22 @@ def test_any_change_changes_the_digest():
             ("figures", "sweeps", "scatter", "over"),
             "speed",
             "over: unknown axis 'speed'; choose one .*n_p",
+        ),
+        (
+            ("step",),
+            1e-30,
+            "scenes.flat: step = 1e-30 s is too short for a loading time",
+        ),
+        (("material", "pressure"), 1e300, "scenes.flat: .* too short for a loading time of 2.667e"),
+        (("material", "spacing"), 1e-300, "material: these constants take Material.k_s beyond"),
+        (("realisations_per_job",), 10.0, "realisations_per_job is not valid: 10.0 is not of type"),
+        (("n_blocks",), 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
+        (("first_seed",), 2**62, "first_seed is not valid: 4611686018427387904 is greater than"),
+        (("scenes", "flat", "seeds"), 10**9, "flat.seeds is not valid: 1000000000 is greater than"),
+        (
+            ("scenes", "pillars", "seeds"),
+            [10**9] * 7,
+            "seeds.6 is not valid: 1000000000 is greater",
         ),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),

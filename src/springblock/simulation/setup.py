@@ -13,8 +13,6 @@ from springblock.simulation.checks import check_positive, whole_multiple
 from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Integrator
 
-Array = NDArray[np.float64]
-
 PAPER = Material()
 #: Steps of single blocks that nobody can wait for, and those of a year on one core.
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15

@@ -154,7 +154,8 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
     own = setup.vary(dict(scene.varied))
     _check_draws(ensemble, own.material)
-    own.check_length(scene.contact, _threshold(scene, own.material), ensemble.duration)
+    for duration in (None, ensemble.duration):  # of its prelude, and of its realisations
+        own.check_length(scene.contact, _threshold(scene, own.material), duration)
     if ensemble.duration is not None:
         count_samples(ensemble.duration, own.sample_interval)
     if group in _LEVELS and not scene.is_papers:
