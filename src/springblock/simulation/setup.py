@@ -78,7 +78,9 @@ class Setup:
         t = mu F_n/(K_s v); the blocks in contact share the load on all (N_y, N_x).
         """
         load = self.material.block_load * contact.size / np.count_nonzero(contact)
-        return float(threshold * load / (self.material.k_s * self.material.slider_velocity))
+        with np.errstate(all="ignore"):  # infinite where the slider hardly moves
+            rate = np.float64(self.material.k_s * self.material.slider_velocity)
+            return float(threshold * load / rate)
 
     def check_length(
         self,
