@@ -20,9 +20,28 @@ _MARK = b"springblock-sha256:"
 BLANK = _MARK + 64 * b"0"
 
 
+def check_output(path: Path) -> None:
+    """Refuse to write to what exists and is not a regular file, as a directory, device or link.
+
+    Renaming a file to it would replace it, as /dev/full for all programs of the machine.
+    """
+    if path.is_symlink() or (path.exists() and not path.is_file()):
+        raise ValueError(f"{path} exists and is not a regular file; choose another name")
+    folder = next(folder for folder in path.absolute().parents if folder.exists())
+    if not folder.is_dir():
+        raise ValueError(f"{path} cannot be written: {folder} is not a folder")
+
+
 @contextlib.contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`, and rename it to `path` once it is complete."""
+    """Yield a temporary path beside `path`, and rename it to `path` once it is complete.
+
+    Raises
+    ------
+    ValueError
+        Where there is something at `path` that is not a regular file.
+    """
+    check_output(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".{path.name}.{uuid4().hex}")
     try:

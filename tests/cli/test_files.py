@@ -1,5 +1,7 @@
 """springblock info, compare and dictionary."""
 
+import os
+
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -68,6 +70,11 @@ def test_tables_of_other_columns_are_not_compared(springblock, batch, tmp_path):
     assert "t_avg" in springblock("compare", batch(0, 2), tmp_path / "b", refused=True)
 
 
+def test_tables_without_a_common_row_say_so(springblock, batch):
+    said = springblock("compare", batch(0, 2), batch(3, 3), refused=True)
+    assert said.endswith(": no rows in both, 3 in the first alone, 1 in the second alone")
+
+
 def test_folders_are_compared_table_by_table(springblock, batch, tmp_path):
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
@@ -84,3 +91,29 @@ def test_every_column_says_its_unit_and_its_meaning(table):
         said = field.metadata or {}
         assert said.get(b"unit"), field.name
         assert said.get(b"meaning"), field.name
+
+
+@pytest.mark.parametrize("kind", ["fifo", "link", "link to nothing", "device", "folder"])
+def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path, kind):
+    """As root, renaming a file to a device would take it from all programs."""
+    (tmp_path / "table").write_text("theirs")
+    output = tmp_path / "output"
+    if kind == "fifo":
+        os.mkfifo(output)
+    elif kind == "folder":
+        output.mkdir()
+    elif kind == "device":
+        output = "/dev/null"
+    else:
+        output.symlink_to(tmp_path / ("table" if kind == "link" else "absent"))
+    before = os.lstat(output)
+    refusal = springblock("dictionary", "--output", output, refused=True)
+    assert "is a directory" in refusal or "exists and is not a regular file" in refusal
+    assert os.lstat(output) == before
+    assert (tmp_path / "table").read_text() == "theirs"
+
+
+def test_a_file_is_no_folder_to_write_to(springblock, tmp_path):
+    (tmp_path / "file").touch()
+    refusal = springblock("dictionary", "--output", tmp_path / "file/deep/table", refused=True)
+    assert f"cannot be written: {tmp_path / 'file'} is not a folder" in refusal

@@ -72,16 +72,19 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
 @pytest.mark.parametrize(
     ("values", "name", "sentence"),
     [
-        (GREY, "a.png", "must be black and white, .* alone; it also holds 7, 128, 200, 201"),
-        (np.arange(64, dtype=np.uint8).reshape(8, 8), "a.png", "1, 2, 3, 4, 5 and 58 more"),
-        (PINK, "a.png", "must be black and white, .* alone, not coloured"),
-        (CLEAR, "a.png", "must be black and white, .* alone, not transparent"),
-        (GREY.astype(np.uint16) * 257, "a.png", "not of Pillow's mode I;16"),
+        (GREY, "a.png", "must be black and white, .* alone"),
+        (PINK, "a.png", "must be black and white, .* alone"),
+        (CLEAR, "a.png", "must be black and white, .* alone"),
+        (GREY.astype(np.uint16) * 257, "a.png", "must be black and white, of 8 bits or 1 a pixel"),
         (~CORNER & CORNER, "a.png", "must have a block in contact"),
         (~CORNER & CORNER, "a.npy", "must have a block in contact"),
-        (np.eye(2) * np.nan, "a.npy", "must hold zeros and one other value, .* not 0.0, nan|nan"),
-        (np.arange(9).reshape(3, 3), "a.npy", "must hold zeros and one other value, .* not 0, 1"),
-        (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, .* not , a"),
+        (np.eye(2) * np.nan, "a.npy", r"must hold zeros and one other value, .* not \[nan\]"),
+        (
+            np.arange(9).reshape(3, 3),
+            "a.npy",
+            r"zeros and one other value, .* not \[0, 1, 2, 3, 4, 5, \.\.\.",
+        ),
+        (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, .* not .'', 'a'"),
         (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers that NumPy has saved"),
         (np.ones(3, bool), "a.npy", r"must have the shape \(N_y, N_x\), not \(3,\)"),
         (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
@@ -128,7 +131,7 @@ def test_a_torn_image_is_refused(saved, rng):
 def test_an_image_of_too_many_pixels_is_refused(saved, monkeypatch, limit):
     """Pillow warns of those beyond its limit, and refuses those of twice as many."""
     monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", limit)
-    with pytest.raises(ValueError, match=f"has more than {limit} pixels, the most that are read"):
+    with pytest.raises(ValueError, match="is larger than the 4096 x 4096 blocks that"):
         BlockMap.mask(saved(CORNER, "large.png"))
 
 

@@ -74,9 +74,9 @@ def test_jobs_read_what_was_cut(tmp_path):
         (
             None,
             {"height": 1e-9, "spacing": 1.0},
-            r"must hold 1 to \d+ blocks of 1.0 m; it is 4e-05",
+            r"must hold 1 to \d+ blocks of 1.0 m a side; it is 4e-05",
         ),
-        (None, {"height": 1e-9, "spacing": 1e-12}, r"must hold 1 to \d+ blocks of 1e-12 m"),
+        (None, {"height": 1e-9, "spacing": 1e-12}, r"must hold 1 to 4096 blocks of 1e-12 m a side"),
         (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive, not 0.0"),
         (None, {}, "is cut at either a bearing_area or a height"),
         (None, {"height": 1e-9, "bearing_area": 0.5}, "is cut at either"),

@@ -146,6 +146,12 @@ def test_numbers_that_come_as_text_are_numbers():
     assert completed(PAPER) == PAPER
 
 
+@pytest.mark.parametrize("added", [3, 2**63, ["scenes"], "true"])
+def test_only_keys_can_be_added(added):
+    with pytest.raises(ValueError, match=r"^add is .*; it may hold keys of the configuration"):
+        completed(PAPER | {"add": added})
+
+
 def test_lists_can_be_continued_without_being_said_again():
     further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
     whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
@@ -245,7 +251,10 @@ def test_rectangles_and_edges_are_part_of_a_grid(surfaces):
     [
         ({"mask": "absent.npy"}, "absent.npy does not exist"),
         ({"mask": "broken.png"}, "broken.png is neither an image nor an array"),
-        ({"mask": ["corner.npy", "again/corner.npy"]}, r"masks are the same surface, corner-\w{8}"),
+        (
+            {"mask": ["corner.npy", "again/corner.npy"]},
+            r"describe the same surface corner-\w{8}",
+        ),
         ({"mask": []}, "scenes.own.mask is not valid"),
         ({"mask": "corner.npy", "n_p": [4], "n_s": [4]}, "mask cannot be given together with n_p"),
         ({"mask": "corner.npy", "n_blocks": [4]}, "n_blocks and n_rows are those of the mask, 3"),
@@ -325,7 +334,11 @@ def test_any_change_changes_the_digest():
         (("material", "mu_statik"), 1.0, "material has the unknown key 'mu_statik'.*mu_static"),
         (("scenes", "flat", "direction"), ["z"], "scenes.flat.direction.0 is not valid"),
         (("scenes", "flat", "direction"), [float("nan")], "flat: direction must be .* finite"),
-        (("scenes", "flat", "duration"), 1e-8, "scenes.flat: duration.*less than one"),
+        (
+            ("scenes", "flat", "duration"),
+            1e-8,
+            "scenes.flat: duration must be at least one",
+        ),
         (("scenes", "pillars", "n_p"), [7] * 7, "scenes.pillars.n_p is not valid"),
         (("scenes", "pillars", "seeds"), [20, 60], "pillars: seeds lists 2 numbers for 7 values"),
         (("scenes", "pillars", "seeds"), 2, "pillars of 6 blocks need 3 seeds or more"),
@@ -356,7 +369,11 @@ def test_any_change_changes_the_digest():
             "loading: Material.gamma must be",
         ),
         (("scenes", "flat", "n_s"), [5], "scenes.flat: n_s = 5 needs n_p"),
-        (("scenes", "angles", "duration"), 1e-8, "scenes.angles: duration.*less than one"),
+        (
+            ("scenes", "angles", "duration"),
+            1e-8,
+            "scenes.angles: duration must be at least one",
+        ),
         (("scenes", "size_flat", "n_blocks"), [120], "n_blocks = 120.* is given two durations"),
         (("scenes", "grooves"), PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
         (("scenes", "extra"), {"np": [4]}, "scenes.extra has the unknown key 'np'"),
@@ -369,7 +386,23 @@ def test_any_change_changes_the_digest():
         (
             ("figures", "sweeps", "angle", "over"),
             "speed",
-            "over: unknown axis 'speed'; choose .*n_p, ",
+            "over: unknown axis 'speed'; choose one .*n_p",
+        ),
+        (
+            ("step",),
+            1e-30,
+            "scenes.flat: step = 1e-30 s is too short for a loading time",
+        ),
+        (("material", "pressure"), 1e300, "scenes.flat: .* too short for a loading time of 2.667e"),
+        (("material", "spacing"), 1e-300, "material: these constants take Material.k_s beyond"),
+        (("realisations_per_job",), 10.0, "realisations_per_job is not valid: 10.0 is not of type"),
+        (("n_blocks",), 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
+        (("first_seed",), 2**62, "first_seed is not valid: 4611686018427387904 is greater than"),
+        (("scenes", "flat", "seeds"), 10**9, "flat.seeds is not valid: 1000000000 is greater than"),
+        (
+            ("scenes", "pillars", "seeds"),
+            [10**9] * 7,
+            "seeds.6 is not valid: 1000000000 is greater",
         ),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),

@@ -52,7 +52,9 @@ def compare(first: pa.Table, second: pa.Table) -> Comparison:
     places = [_places(table) for table in (first, second)]
     common = [key for key in places[0] if key in places[1]]
     rows = zip((first, second), places, strict=True)
-    ours, theirs = (table.take([place[key] for key in common]) for table, place in rows)
+    ours, theirs = (
+        table.take(pa.array([place[key] for key in common], pa.int64())) for table, place in rows
+    )
     differences = [_difference(name, ours[name], theirs[name]) for name in first.column_names]
     return Comparison(
         len(common),

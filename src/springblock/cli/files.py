@@ -96,7 +96,7 @@ def _pairs(first: Path, second: Path) -> list[tuple[str, Path, Path]]:
 def _in_words(found: comparison.Comparison) -> str:
     if found.same:
         return f"the same {found.both} rows, to the bit"
-    lines = [f"{found.both} rows in both"]
+    lines = [f"{found.both or 'no'} rows in both"]
     for rows, where in ((found.first, "first"), (found.second, "second")):
         lines[0] += f", {rows} in the {where} alone" if rows else ""
     for name, rows, largest, relative in found.differences:

@@ -11,11 +11,25 @@ from typing import Any
 import click
 
 from springblock import provenance
+from springblock.files import check_output
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
 from springblock.model.scene import EDGES, Scene, Varied, in_order
 
-OUTPUT = click.Path(dir_okay=False, path_type=Path)
+
+class _Output(click.Path):
+    """File that a command writes."""
+
+    def convert(self, value: Any, *where: Any) -> Any:
+        path: Any = super().convert(value, *where)
+        try:
+            check_output(path)
+        except (OSError, ValueError) as error:
+            self.fail(str(error), *where)
+        return path
+
+
+OUTPUT = _Output(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 

@@ -131,6 +131,9 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
     }
 
 
+#: As in the study's configuration: up to a million seeds after 1e18.
+_MOST_SEEDS = 10**6
+_SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
 _CORES = click.option(
     "--cores", type=int, default=1, show_default=True, help="Cores for one large surface."
 )
@@ -151,8 +154,8 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
 @click.command("simulate")
 @setup_options
-@click.option("--first-seed", type=int, default=0, show_default=True, help="Of the coefficients.")
-@click.option("--last-seed", type=int, help="Itself included; by default the first one.")
+@click.option("--first-seed", type=_SEED, default=0, show_default=True, help="Of the coefficients.")
+@click.option("--last-seed", type=_SEED, help="Itself included; by default the first one.")
 @click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
 @click.option(
     "--snapshot",
@@ -187,6 +190,8 @@ def simulate_batch(
     seeds = range(first_seed, (first_seed if last_seed is None else last_seed) + 1)
     if not seeds:
         raise click.BadParameter(f"{last_seed} comes before --first-seed {first_seed}")
+    if len(seeds) > _MOST_SEEDS:
+        raise click.BadParameter(f"a batch may have up to {_MOST_SEEDS} seeds, not {len(seeds)}")
     single = len(seeds) == 1
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:

@@ -3,6 +3,7 @@
 import hashlib
 import math
 import re
+import reprlib
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,14 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.files import MENDING
+from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[Any]
 
-_SHOWN = 5  #: values that a refusal lists
-_MOST = 2**24  #: blocks that are read, as many as the solver takes
-_IS_NAMED = re.compile(
-    r".*-[0-9a-f]{8}"
-)  #: with the digest that a study puts into the name of a mask it cuts
+_TOO_LARGE = f"is larger than the {MAX_BLOCKS} x {MAX_BLOCKS} blocks that the solver goes up to"
+#: With the digest that a study puts into the name of a mask that it cuts.
+_IS_NAMED = re.compile(r".*-[0-9a-f]{8}")
 _POINTS, _BYTES = 2**26, 2**28  #: of a measurement, 8192 x 8192 and some 260 MB
 #: Of images. Pillow knows more; one of them, PostScript, it has another program run.
 _FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
@@ -104,10 +104,11 @@ class BlockMap:
         """
         values = _array(file) if file.suffix == ".npy" else _image(file)
         found = np.unique(values)
-        if values.dtype.kind not in "biuf" or not _is_mask(found):
+        is_number = values.dtype.kind in "biuf"
+        if not (is_number and np.isfinite(found).all() and np.count_nonzero(found) <= 1):
             raise ValueError(
                 f"{file} must hold zeros and one other value, as a contact mask does, "
-                f"not {_listed(found)}"
+                f"not {reprlib.repr(found.tolist())}"
             )
         if not found.any():
             raise ValueError(f"{file} must have a block in contact: it is zero, or black, all over")
@@ -160,8 +161,8 @@ def _array(file: Path) -> Array:
         raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
     if values.ndim != 2 or not values.size:
         raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
-    if values.size > _MOST:
-        raise ValueError(f"{file} holds {values.size} blocks; {_MOST} are the most that are read")
+    if max(values.shape) > MAX_BLOCKS:  # nothing but the header has been read
+        raise ValueError(f"{file} {_TOO_LARGE}")
     return np.array(values)
 
 
@@ -171,62 +172,42 @@ def _image(file: Path) -> Array:
 
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
-    most = min(_MOST, Image.MAX_IMAGE_PIXELS or _MOST)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(file, formats=_FORMATS) as image:
-                if image.width * image.height > most:  # as its header says
+                if max(image.size) > MAX_BLOCKS:  # nothing but the header has been read
                     raise Image.DecompressionBombError
                 mode = image.mode
-                pixels = np.asarray(image.convert("RGBA") if mode in _MODES else image)
+                pixels = np.asarray(image.convert("RGBA"))
     except UnidentifiedImageError:
         raise ValueError(f"{file} is neither an image nor an array of NumPy (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
-        raise ValueError(f"{file} has more than {most} pixels, the most that are read") from None
+        raise ValueError(f"{file} {_TOO_LARGE}") from None
     except (OSError, SyntaxError, ValueError) as error:
         raise ValueError(f"{file} cannot be read: {error}") from None
-    return _black_and_white(file, mode, pixels)[::-1]
-
-
-def _black_and_white(file: Path, mode: str, pixels: Array) -> Array:
-    refusal = f"{file} must be black and white, of the values 0 and 255 alone"
-    if mode not in _MODES:
-        raise ValueError(f"{refusal}, not of Pillow's mode {mode}")
-    shades = pixels[..., 0]
-    if (pixels[..., :3] != shades[..., None]).any():
-        raise ValueError(f"{refusal}, not coloured")
-    if (pixels[..., 3] != 255).any():
-        raise ValueError(f"{refusal}, not transparent")
-    others = np.setdiff1d(shades, (0, 255))
-    if others.size:
-        raise ValueError(f"{refusal}; it also holds {_listed(others)}")
-    return shades
-
-
-def _is_mask(found: Array) -> bool:
-    """Whether these different values are zero, one other, or both."""
-    return bool(np.isfinite(found).all() and np.count_nonzero(found) <= 1)
-
-
-def _listed(values: Array) -> str:
-    """Name the first few values, and how many there are."""
-    more = f" and {values.size - _SHOWN} more" if values.size > _SHOWN else ""
-    return ", ".join(f"{value}" for value in values[:_SHOWN].tolist()) + more
+    shades, opacity = pixels[..., 0], pixels[..., 3]
+    is_grey = mode in _MODES and (pixels[..., :3] == shades[..., None]).all()
+    if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
+        raise ValueError(
+            f"{file} must be black and white, of 8 bits or 1 a pixel and of the values 0 and 255 "
+            "alone: neither grey, coloured nor transparent"
+        )
+    return shades[::-1]
 
 
 def _on_blocks(file: Path, spacing: float) -> Array:
     """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN where there are none."""
     heights, sizes = _measured(file)
-    blocks = [int(size / spacing * (1.0 + 1e-9)) for size in sizes]
-    if not all(blocks) or blocks[0] * blocks[1] > _MOST:
+    number = [size / spacing * (1.0 + 1e-9) for size in sizes]
+    if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
         raise ValueError(
-            f"{file} must hold 1 to {_MOST} blocks of {spacing!r} m; "
+            f"{file} must hold 1 to {MAX_BLOCKS} blocks of {spacing!r} m a side; "
             f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
         )
     x, y = (
         ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
-        for n, size, points in zip(blocks, sizes, heights.shape, strict=True)
+        for n, size, points in zip(map(int, number), sizes, heights.shape, strict=True)
     )
     return heights[np.ix_(x, y)].T
 
@@ -247,7 +228,7 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
         ) from None
     if file.stat().st_size > _BYTES:
         raise ValueError(f"{file} has more than {_BYTES} bytes, the most that are read")
-    no_units = f"{file} must say its size and its unit, which this file does not"
+    no_units = f"{file} must say its size and its unit, which it does not"
     try:
         with open_topography(file) as reader:
             points = math.prod(reader.default_channel.nb_grid_pts)
@@ -256,8 +237,8 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
             read = reader.topography()
     except ReadFileError:
         raise ValueError(f"{file} is no topography that SurfaceTopography can read") from None
-    except ValueError as error:
-        reason = no_units if "physical_sizes" in str(error) else f"{file}: {error}"
+    except Exception as error:  # readers of some formats raise whatever goes wrong in them
+        reason = no_units if "physical_sizes" in str(error) else f"{file} cannot be read: {error!r}"
         raise ValueError(reason) from None
     if read.dim != 2:
         raise ValueError(f"{file} must be a map of heights, not a line")
@@ -266,9 +247,8 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
     try:
         metres = read.to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
-        sizes = metres.physical_sizes
     except ValueError:
         raise ValueError(f"{file} must have a unit of length, not {read.unit!r}") from None
     if not np.isfinite(heights).any():
         raise ValueError(f"{file} must hold heights; it has no valid point")
-    return heights, sizes
+    return heights, metres.physical_sizes

@@ -4,15 +4,6 @@ import math
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, fields
 
-
-def _positive(value: float) -> bool:
-    return value > 0.0
-
-
-def _not_negative(value: float) -> bool:
-    return value >= 0.0
-
-
 #: How the coefficients of the blocks may be distributed, see `springblock.model.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
 #: Laws of friction of a block that slides, see `springblock.solver.laws`, and the constant that
@@ -67,9 +58,9 @@ class Material:
                 continue
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise TypeError(f"Material.{name} must be a number, not {value!r}")
-            allowed = _not_negative if name in _MAY_VANISH else _positive
-            if not (math.isfinite(value) and allowed(value)):
-                bound = "zero or positive" if name in _MAY_VANISH else "positive"
+            may_vanish = name in _MAY_VANISH
+            if not (math.isfinite(value) and (value > 0.0 or (value == 0.0 and may_vanish))):
+                bound = "zero or positive" if may_vanish else "positive"
                 raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
             object.__setattr__(self, name, float(value))
         self._check_derived()

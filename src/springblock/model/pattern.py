@@ -11,6 +11,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+#: Blocks along a side, for which the solver is laid out.
+MAX_BLOCKS = 4096
+
 Segments = list[tuple[int, int]]
 
 
@@ -80,8 +83,8 @@ class Pattern:
     Raises
     ------
     TypeError, ValueError
-        Where a length is not a positive whole number, the first period does not divide N, or a
-        level does not fit into the one above it.
+        Where a length is not a positive whole number, a side is too long, the first period does
+        not divide N, or a level does not fit into the one above it.
     """
 
     n_blocks: int  #: along x
@@ -92,6 +95,9 @@ class Pattern:
         object.__setattr__(self, "n_blocks", _count("N", self.n_blocks))
         rows = self.n_blocks if self.n_rows is None else _count("n_rows", self.n_rows)
         object.__setattr__(self, "n_rows", rows)
+        for name, blocks in (("N", self.n_blocks), ("n_rows", rows)):
+            if blocks > MAX_BLOCKS:
+                raise ValueError(f"{name} is {blocks}; the solver goes up to {MAX_BLOCKS}")
         self.profile("x"), self.profile("y")  # a level that does not fit is refused here
 
     @classmethod

@@ -68,6 +68,8 @@ class Scene:
         object.__setattr__(self, "varied", in_order(dict(self.varied)))
         self._check_levels()
         self._check_maps()
+        if not self.mask:
+            Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses what is no number of blocks
         if self.n_rows == self.n_blocks:
             object.__setattr__(self, "n_rows", 0)
         if self.edges not in EDGES:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.direction import REAL
-from springblock.solver.springs import MAX_BLOCKS
+from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[np.float64]
 
@@ -92,8 +92,7 @@ def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
 
 
 def count_samples(duration: float, sample_interval: float) -> int:
-    """Whole sample intervals within the duration; at least one."""
-    check_positive("duration", duration)
+    """Whole sample intervals within a positive duration; at least one."""
     if duration < sample_interval * (1.0 - 1e-9):
         raise ValueError(
             f"duration must be at least one sample_interval = {sample_interval!r} s, "

@@ -166,16 +166,14 @@ def compute_prelude(
     ones = np.ones(np.shape(contact))
     mask, _, _ = checked_surface(contact, ones, ones, periodic)
     setup, towards = Setup(material, integrator, step, sample_interval), heading(direction)
+    strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
+    setup.check_length(mask, float(strongest))
     nothing = np.zeros(mask.shape)
     state, constants = prepare(
         mask, ones, nothing, material, towards, setup.method, step, True, periodic
     )
-    advance, every, blocks, peak = (
-        on_cores(integrator, cores),
-        setup.every,
-        state.blocks,
-        state.peak,
-    )
+    advance, every = on_cores(integrator, cores), setup.every
+    blocks, peak = state.blocks, state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())
     blocks.static[bound] = _NEVER
@@ -193,7 +191,8 @@ def compute_prelude(
         record.append(taken)
         needed = np.sqrt(peak[bound]) / load
         if mu_static is None:
-            holding = _share_that_holds(needed, material)
+            # where coefficients are correlated the share is higher, and states are a little early
+            holding = math.exp(log_share_above(needed, material).sum())
         else:
             holding = float((needed < np.asarray(mu_static)[mask]).all())
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
@@ -206,12 +205,3 @@ def compute_prelude(
         ledger=ledgers,
         force=force[:, : samples[-1]],
     )
-
-
-def _share_that_holds(needed: Array, material: Material) -> float:
-    """Probability that all draws of mu_static exceed what is `needed` to hold each block.
-
-    Were they independent; where they are correlated it is higher, and the states are earlier than
-    those that serve best.
-    """
-    return math.exp(log_share_above(needed, material).sum())

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.material import Material
@@ -13,6 +14,10 @@ from springblock.solver import INTEGRATORS
 from springblock.solver.lattice import Integrator
 
 PAPER = Material()
+#: Steps of single blocks that nobody can wait for, and those of a year on one core.
+_MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
+#: Samples of a run, as many as a cell of a table holds.
+_MOST_SAMPLES = 2**31 - 1
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,53 @@ class Setup:
     def every(self) -> int:
         """Steps per sample."""
         return whole_multiple("sample_interval", self.sample_interval, "step", self.step)
+
+    def loading_time(self, contact: NDArray[np.bool_], threshold: float) -> float:
+        """Time in s at which a block of this coefficient would let go if no neighbour pulled.
+
+        t = mu F_n/(K_s v); the blocks in contact share the load on all (N_y, N_x).
+        """
+        load = self.material.block_load * contact.size / np.count_nonzero(contact)
+        with np.errstate(all="ignore"):  # infinite where the slider hardly moves
+            rate = np.float64(self.material.k_s * self.material.slider_velocity)
+            return float(threshold * load / rate)
+
+    def check_length(
+        self,
+        contact: NDArray[np.bool_],
+        threshold: float,
+        duration: float | None = None,
+        until: float = 0.0,
+    ) -> None:
+        """Refuse a run that nobody can wait for, from what it is asked for.
+
+        Without a duration it takes the loading time of its strongest block, whose coefficient is
+        `threshold`, and goes on `until` its last snapshot, s.
+
+        Raises
+        ------
+        TypeError, ValueError
+            Where the duration is no time, or the run would take more than a year on one core or
+            more samples than a table can hold.
+        """
+        if duration is None:
+            loading = self.loading_time(contact, threshold)
+            reason, time = "loading time", max(loading, until, self.sample_interval)
+        else:
+            check_positive("duration", duration)
+            reason, time = "duration", duration
+        steps, samples = time / self.step, time / self.sample_interval
+        if not steps * contact.size < _MOST_STEPS:
+            years = steps * contact.size / _STEPS_PER_YEAR
+            raise ValueError(
+                f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
+                f"{steps:.2g} steps of {contact.size} blocks would take {years:.2g} years"
+            )
+        if samples > _MOST_SAMPLES:
+            raise ValueError(
+                f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
+                f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
+            )
 
     def _check_stability(self) -> None:
         omega = np.linspace(self.material.omega_min, self.material.omega_max, 33)

@@ -122,10 +122,12 @@ def simulate(
     ]
     if stops != sorted(set(stops)):
         raise ValueError("snapshot_times must rise from one to the next")
+    strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
+    setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
     end = None if duration is None else count_samples(duration, sample_interval)
     if end is not None and stops and stops[-1] > end:
         raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
-    limit = _LAST_RESORT * _lone_release_time(contact, mu_static, mu_dynamic, material)
+    limit = _LAST_RESORT * setup.loading_time(contact, strongest)
 
     surface = contact, mu_static, mu_dynamic
     state, constants = prepare(*surface, material, towards, setup.method, step, periodic=periodic)
@@ -298,12 +300,3 @@ class _Motion:
             viscous=float(material.gamma * material.mass * material.spacing**2 / self.setup.step)
             * float(ledger[SQUARES]),
         )
-
-
-def _lone_release_time(
-    contact: NDArray[np.bool_], mu_static: Array, mu_dynamic: Array, material: Material
-) -> float:
-    """Time in s at which the strongest block would let go if its neighbours did not pull."""
-    load = material.block_load * contact.size / np.count_nonzero(contact)
-    strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
-    return strongest * load / (material.k_s * material.slider_velocity)

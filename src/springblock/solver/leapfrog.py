@@ -55,8 +55,11 @@ def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
 
 
 def force_time(step: float, gamma: float) -> float:
-    """Time for which a force acts in one step, s: (1 - exp(-γh))/γ, h without damping."""
-    return -math.expm1(-gamma * step) / gamma if gamma > 0.0 else step
+    """Time for which a force acts in one step, s: (1 - exp(-γh))/γ, h without damping.
+
+    h also where γh is next to nothing, and of fewer digits than γ.
+    """
+    return -math.expm1(-gamma * step) / gamma if gamma * step > 1e-300 else step
 
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:

@@ -28,6 +28,7 @@ from numba.extending import register_jitable
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from springblock.model.pattern import MAX_BLOCKS
 from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
@@ -40,9 +41,6 @@ SERIES_DEGREE = 6
 
 #: A spring may shrink to half its rest length and grow to twice it: -3/4 < q < 3.
 Q_MIN, Q_MAX = -0.75, 3.0
-
-#: A side of the lattice may hold at most this many blocks.
-MAX_BLOCKS = 4096
 
 #: Rows are worked on in bands of about this many blocks.
 _BAND_BLOCKS = 2048

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +15,8 @@ from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.material import Material
 from springblock.model.scene import LENGTHS, MAPS, Scene, Varied
-from springblock.simulation.checks import check_positive, checked_surface
+from springblock.simulation.checks import checked_surface, count_samples
 from springblock.simulation.setup import Setup
-from springblock.solver.springs import MAX_BLOCKS
 from springblock.study.texts import check_texts
 
 Configuration = Mapping[str, Any]
@@ -26,6 +25,10 @@ Configuration = Mapping[str, Any]
 _YAML_WORDS = {"true": True, "false": False, "null": None}
 #: Groups that figures are drawn from, and the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
+#: To which 24.0 is no integer, as it is none to Python.
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER
+)
 #: Realisations below which a correlation has no interval.
 _CORRELATED = 3
 
@@ -56,9 +59,17 @@ def completed(configuration: Configuration) -> dict[str, Any]:
 
     YAML takes 1e-3, which has no point, for text, and Snakemake all that `--config` holds deeper
     than its first level.
+
+    Raises
+    ------
+    ValueError
+        Where `add` holds no keys.
     """
     whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
-    return _continued(whole, whole.pop("add", {}))
+    added = whole.pop("add", None) or {}
+    if not isinstance(added, dict):
+        raise ValueError(f"add is {added!r}; it may hold keys of the configuration")
+    return _continued(whole, added)
 
 
 def _with_numbers(value: Any, key: str = "") -> Any:
@@ -91,26 +102,25 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
         With one sentence that names the key, what it holds and what it may hold.
     """
     check_texts(configuration)
-    validator = jsonschema.Draft202012Validator(schema)
-    error = jsonschema.exceptions.best_match(validator.iter_errors(configuration))
+    error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
     usual = setup(configuration)
     for group, members in ensembles(configuration).items():
         for ensemble in members:
-            with _named(group):
+            with _named(f"scenes.{group}"):
                 _check_ensemble(ensemble, group, usual)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
 
 @contextmanager
-def _named(group: str) -> Iterator[None]:
-    """Put the key of a group of scenes before what is wrong with it."""
+def _named(key: str) -> Iterator[None]:
+    """Put the key before what is wrong with it."""
     try:
         yield
     except ValueError as reason:
-        raise ValueError(f"scenes.{group}: {reason}") from reason
+        raise ValueError(f"{key}: {reason}") from reason
 
 
 def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
@@ -124,12 +134,14 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
-    scene, sample_interval = ensemble.scene, setup.sample_interval
-    if max(scene.shape) > MAX_BLOCKS:  # before there is an array of them
-        raise ValueError(f"N is {max(scene.shape)}; the solver goes up to {MAX_BLOCKS}")
-    ones = np.ones(scene.shape)
+    scene, ones = ensemble.scene, np.ones(ensemble.scene.shape)
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
-    _check_draws(ensemble, setup.vary(dict(scene.varied)).material)
+    own = setup.vary(dict(scene.varied))
+    _check_draws(ensemble, own.material)
+    for duration in (None, ensemble.duration):  # of its prelude, and of its realisations
+        own.check_length(scene.contact, _threshold(scene, own.material), duration)
+    if ensemble.duration is not None:
+        count_samples(ensemble.duration, own.sample_interval)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "its surfaces must be the paper's, square, with free edges and without files; "
@@ -137,17 +149,16 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
-    if ensemble.duration is not None:
-        check_positive("duration", ensemble.duration)
-    if ensemble.duration is not None and ensemble.duration < sample_interval:
-        raise ValueError(
-            f"duration is {ensemble.duration!r} s, "
-            f"less than one sample_interval of {sample_interval!r} s"
-        )
     if scene.sides and len(ensemble.seeds) < _CORRELATED:
         raise ValueError(
             f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
         )
+
+
+def _threshold(scene: Scene, material: Material) -> float:
+    """Largest coefficient that a file says, or the mean of those that are drawn."""
+    known = None if scene.mu_static_field is None else scene.mu_static_field.values
+    return material.mu_static if known is None else float(known[scene.contact].max())
 
 
 def _check_draws(ensemble: Ensemble, material: Material) -> None:
@@ -183,7 +194,7 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
     for group, grids in configuration["scenes"].items():
-        with _named(group):
+        with _named(f"scenes.{group}"):
             parts = grids if isinstance(grids, list) else [grids or {}]
             groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
             for ensemble in groups[group]:
@@ -197,7 +208,9 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
 def setup(configuration: Configuration) -> Setup:
     """Return how scenes are computed that have nothing of their own."""
     times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
-    return Setup(Material(**configuration["material"]), **times)
+    with _named("material"):
+        material = Material(**configuration["material"])
+    return Setup(material, **times)
 
 
 def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
@@ -261,9 +274,9 @@ def _maps(
         if name in grid
     }
     masks = list(_masks(configuration, grid, constants))
-    for i, mask in enumerate(masks):
-        if mask in masks[:i]:
-            raise ValueError(f"two of its masks are the same surface, {mask}")
+    for one, other in combinations(masks, 2):
+        if one == other:
+            raise ValueError(f"masks {one.file} and {other.file} describe the same surface {one}")
     yield from ({"mask": mask} | own for mask in masks)
     if not masks:
         yield own

@@ -19,9 +19,7 @@ def loading_time(scene: Scene, setup: Setup) -> float:
 
     A run that ends by itself takes 0.2 to 1.4 times as long, on all surfaces of this study.
     """
-    contact, material = scene.contact, setup.material
-    load = material.block_load * contact.size / contact.sum()
-    return float(material.mu_static * load / (material.k_s * material.slider_velocity))
+    return setup.loading_time(scene.contact, setup.material.mu_static)
 
 
 def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:

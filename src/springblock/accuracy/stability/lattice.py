@@ -28,9 +28,9 @@ from springblock.accuracy.stability.cases import (
     release,
 )
 from springblock.model.material import Material
+from springblock.model.pattern import MAX_BLOCKS
 from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import SimulationError, simulate
-from springblock.solver.springs import MAX_BLOCKS
 
 #: Two columns of two blocks, the left one held fast. The free ones move by (a, b) and (a, -b): the
 #: axial spring beside them, the one between them (strained by 2b), and a diagonal give K_int times
