@@ -1,1 +1,1 @@
-"""How fast the solver and the study are, beside peers; `python -m benchmarks` measures it."""
+"""How fast the solver is, beside peers; `python -m benchmarks` measures it."""

@@ -6,7 +6,6 @@ kernel       ns per block and step where all blocks move: both integrators, the 
 realisation  CPU seconds of whole runs, from zero and with the prelude
 scaling      the leapfrog over the size of the surface, and over the share of blocks that move
 cores        the leapfrog on one core and on all, by the clock on the wall
-study        where the CPU time of the whole study goes
 
 No part but cores uses threads. Peers that are not there, or fail, make rows that say so. What
 history.csv keeps of a release is printed at the end.
@@ -31,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from benchmarks import history, study_cost
+from benchmarks import history
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.peers.c_loop import CLoop, Peak
 from benchmarks.peers.lammps_lattice import LammpsLattice
@@ -309,12 +308,11 @@ PARTS: dict[str, Callable[[], Iterator[Row]]] = {
     "realisation": realisation,
     "scaling": scaling,
     "cores": cores,
-    "study": study_cost.rows,
 }
 LEGEND = """
 ratio: kernel, to a step of the leapfrog; realisation, to all steps by the C loop; scaling, to
-N = 120, all moving; cores, to one core; study, to the whole. of peak: share of the multiply-adds
-that one core can do. Times are CPU times but for those of cores.
+N = 120, all moving; cores, to one core. of peak: share of the multiply-adds that one core can do.
+Times are CPU times but for those of cores.
 """
 
 
@@ -347,7 +345,7 @@ def machine() -> dict[str, str]:
 )
 @click.option("--release", is_flag=True, help="Add a line to benchmarks/history.csv.")
 def main(parts: tuple[str, ...], release: bool) -> None:
-    """Measure how fast the solver and the study are."""
+    """Measure how fast the solver is."""
     whole = set(history.PARTS) <= set(parts)
     if release and not whole:
         raise click.UsageError(f"--release needs the parts {' and '.join(history.PARTS)}")

@@ -6,7 +6,6 @@ machine that gets slower or busier does so for all. Values are medians over the 
 is the median of the ratios within them.
 """
 
-import resource
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -77,16 +76,10 @@ def _three_digits(value: float) -> str:
     return f"{value:#.3g}".rstrip(".")
 
 
-def clock() -> float:
-    """CPU seconds of this process, and of the processes that it has waited for."""
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + children.ru_utime + children.ru_stime
-
-
 def interleaved(
     runs: Mapping[str, Callable[[], object]],
     repetitions: int,
-    clock: Callable[[], float] = clock,
+    clock: Callable[[], float] = time.process_time,
 ) -> dict[str, Array]:
     """Seconds of every run by a clock, of the CPU, one number per repetition, taken in turn."""
     seconds = np.empty((repetitions, len(runs)))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from benchmarks import history, load, speed, study_cost
+from benchmarks import history, load, speed
 from benchmarks.peers import c_loop, lammps_lattice
 from benchmarks.timing import BLOCK_STEP, Missing, Row, interleaved, printed
 from springblock.model.scene import Scene
@@ -15,7 +15,6 @@ from studies import ROOT
 
 MACHINE = {"code_version": "0.2.0+0123", "cpu": "AMD EPYC 7B13 64-Core Processor"}
 MACHINE |= {"vectors": "avx2"}
-JOB = "s\tmax_rss\tcpu_time\n0.5\t{memory}\t{cpu}\n"
 
 
 @pytest.fixture
@@ -25,7 +24,6 @@ def in_small(monkeypatch, tmp_path):
     small |= {"SCENES": {"flat": Scene(8)}, "SIZES": (4, 8), "LARGE": (8,), "BLOCK_STEPS": 2000}
     for name, value in small.items():
         monkeypatch.setattr(speed, name, value)
-    monkeypatch.setattr(study_cost, "FOLDER", tmp_path / "benchmarks")
     monkeypatch.setattr(history, "FILE", tmp_path / "history.csv")
 
 
@@ -91,7 +89,6 @@ def test_the_benchmark_prints_its_table_and_adds_its_line(in_small, monkeypatch)
         assert re.search(rf"^kernel +{name} +flat +8 ", outcome.output, re.MULTILINE)
     assert re.search(r"^kernel +LAMMPS .* missing .* not installed$", outcome.output, re.MULTILINE)
     assert re.search(r"^kernel +leapfrog .* 1\.00 ", outcome.output, re.MULTILINE)
-    assert re.search(r"^study +all jobs +missing", outcome.output, re.MULTILINE)
     assert outcome.output.rstrip().endswith(history.FILE.read_text().rstrip())
     incomplete = CliRunner().invoke(speed.main, ["--part", "kernel", "--release"])
     assert "--release needs the parts kernel and realisation" in incomplete.output
@@ -102,24 +99,6 @@ def test_all_blocks_move_while_kernels_are_timed(integrator):
     solver = speed.Solver(integrator, 16)
     solver.advance(speed.STEPS)
     assert solver.moving == "100 % of the blocks move"
-
-
-def test_jobs_are_summed_by_kind(tmp_path, monkeypatch):
-    monkeypatch.setattr(study_cost, "FOLDER", tmp_path)
-    for name, cpu, memory in (
-        ("level-0/batch-0", 6.0, 300),
-        ("level-1/batch-0", 2.0, 100),
-        ("level-0/prelude", 1.0, 100),
-        ("figure_2", "NA", 400),
-        ("accuracy/paired-flat", 0.5, "NA"),
-    ):
-        file = tmp_path / f"{name}.tsv"
-        file.parent.mkdir(exist_ok=True, parents=True)
-        file.write_text(JOB.format(cpu=cpu, memory=memory))
-    total, *kinds, largest = study_cost.rows()
-    assert (total.value, largest.value) == (10.0, 400.0)
-    shares = {"simulate": 0.8, "prelude": 0.1, "figures": 0.05, "accuracy": 0.05}
-    assert {each.name: each.ratio for each in kinds} == shares  # 0.5 s of a figure: by the wall
 
 
 def test_a_line_of_the_history_is_what_was_measured():
