@@ -34,7 +34,8 @@ def run_kernels(
 ) -> tuple[list[str], list[str], int]:
     """Whether each kernel came from the cache in `folder`, 0 or 1, what was said, and exit code."""
     script = folder.parent / "kernels.py"
-    script.write_text(before + KERNELS)
+    if not script.exists():  # numba may judge a source by its time
+        script.write_text(before + KERNELS)
     ours = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **environment}
     done = subprocess.run([sys.executable, str(script)], env=ours, capture_output=True, text=True)
     return done.stdout.split(), done.stderr.splitlines(), done.returncode
