@@ -51,7 +51,7 @@ from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.scene import Scene
 from springblock.provenance import code_version
 from springblock.simulation.setup import PAPER
-from springblock.solver import INTEGRATORS, on_cores
+from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Samples, prepare, unpadded
 
 N = 120

@@ -10,7 +10,7 @@ import yaml
 from springblock import Material
 from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.plotting import declarations
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from studies import PAPER, ROOT, TINY
 
 WHOLE = {"configuration": ("config/config.yaml",)}

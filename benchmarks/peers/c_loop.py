@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks.timing import Missing
 from springblock import Material, Pattern, draw_friction
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import Springs
 

@@ -11,7 +11,7 @@ from springblock.accuracy.conventions import PLAIN
 from springblock.accuracy.specimens import Surface
 from springblock.io.rows import markdown_table
 from springblock.model.defaults import SAMPLE_INTERVAL
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 #: Of each integrator, s.
 STEPS = {

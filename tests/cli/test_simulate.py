@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock import Prelude, draw_friction, simulate
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 FLAT = ("--n-blocks", 6)
 ONE = ("--first-seed", 3, "--last-seed", 3)

@@ -7,7 +7,7 @@ from springblock import Material, Pattern, Prelude, compute_prelude, draw_fricti
 from springblock.accuracy.specimens import drawn
 from springblock.simulation.prelude import HOLDING
 from springblock.simulation.setup import STEP
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import prepare
 from springblock.solver.springs import Grid
 

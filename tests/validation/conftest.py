@@ -2,7 +2,7 @@
 
 import pytest
 
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 
 @pytest.fixture(params=INTEGRATORS)

@@ -9,7 +9,7 @@ from springblock import Material, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.reference import solve
 from springblock.accuracy.specimens import flat
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from validation.test_surfaces import LAWS, oblong
 
 PAPER = Material()

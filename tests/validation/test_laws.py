@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 from springblock import Material, Pattern, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.accuracy.stability.one_block import force_of_steady_sliding
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare
 
 FAST = Material(gamma=0.0, slider_velocity=5e-3)

@@ -5,7 +5,7 @@ import numpy as np
 from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
 from springblock.simulation.simulate import SimulationError
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, close_edges, close_rows, prepare, unpadded
 from springblock.solver.springs import (
     FORCE_X,

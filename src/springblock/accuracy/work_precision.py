@@ -36,7 +36,7 @@ from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import simulate
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 SCHEMA = pa.schema(
     [

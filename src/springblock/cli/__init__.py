@@ -1,7 +1,5 @@
 """The command line. Commands are imported when they are called: a job loads what it needs."""
 
-import atexit
-import gc
 import os
 from pkgutil import resolve_name
 
@@ -30,13 +28,6 @@ COMMANDS = {
 }
 
 
-def _start_lightly() -> None:
-    """Leave out what takes a short job a quarter of its CPU time."""
-    gc.set_threshold(100_000)  # imports leave nothing to collect
-    atexit.register(gc.freeze)  # nor does what the system frees at the end
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would spin
-
-
 class _LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -44,7 +35,7 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        _start_lightly()
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would wait by counting
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

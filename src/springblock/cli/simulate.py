@@ -37,7 +37,7 @@ from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import SimulationError, simulate
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 
 def _constants(
@@ -199,7 +199,7 @@ def simulate_batch(
     with one_sentence():
         loaded = None if prelude is None else _prelude(prelude)
         row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
-        metadata = _metadata(setup.conditions(duration) | asked)
+        metadata = _metadata(setup.constants | asked)
         folder = output.with_name(f"{output.name}.checkpoint")
         if minutes is not None:
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}

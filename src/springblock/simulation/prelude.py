@@ -23,7 +23,7 @@ from springblock.model.direction import heading
 from springblock.model.material import Material
 from springblock.simulation.checks import checked_surface
 from springblock.simulation.setup import PAPER, Setup
-from springblock.solver import on_cores
+from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
 
 Array = NDArray[np.float64]
@@ -170,7 +170,7 @@ def compute_prelude(
     setup.check_length(mask, float(strongest))
     nothing = np.zeros(mask.shape)
     state, constants = prepare(
-        mask, ones, nothing, material, towards, setup.method, step, True, periodic
+        mask, ones, nothing, material, towards, INTEGRATORS[integrator], step, True, periodic
     )
     advance, every = on_cores(integrator, cores), setup.every
     blocks, peak = state.blocks, state.peak

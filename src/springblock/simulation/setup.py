@@ -1,7 +1,7 @@
 """How a surface is computed: the layer, the integrator and its times."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.material import Material
 from springblock.simulation.checks import check_positive, whole_multiple
-from springblock.solver import INTEGRATORS
-from springblock.solver.lattice import Integrator
+from springblock.solver.stability import IS_STABLE
 
 PAPER = Material()
 #: Steps of single blocks that nobody can wait for, and those of a year on one core.
@@ -38,8 +37,8 @@ class Setup:
     def __post_init__(self) -> None:
         if not isinstance(self.material, Material):
             raise TypeError(f"material must be a Material, not {self.material!r}")
-        if self.integrator not in INTEGRATORS:
-            known = ", ".join(INTEGRATORS)
+        if self.integrator not in IS_STABLE:
+            known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
         check_positive("step", self.step)
         self._check_stability()
@@ -56,16 +55,6 @@ class Setup:
         """Constants of the material, integrator, step and sample interval, by name."""
         own = {field.name: getattr(self, field.name) for field in fields(self)}
         return {**dict(own.pop("material").items()), **own}
-
-    def conditions(self, duration: float | None) -> dict[str, Any]:
-        """All that a realisation depends on besides its scene and its seed; None: till its peak."""
-        times = {"step": float(self.step), "sample_interval": float(self.sample_interval)}
-        return {**asdict(self), **times, "duration": None if duration is None else float(duration)}
-
-    @property
-    def method(self) -> Integrator:
-        """The integrator itself."""
-        return INTEGRATORS[self.integrator]
 
     @property
     def every(self) -> int:
@@ -121,12 +110,12 @@ class Setup:
 
     def _check_stability(self) -> None:
         omega = np.linspace(self.material.omega_min, self.material.omega_max, 33)
-        if self.method.is_stable(self.step, omega, self.material.gamma):
+        if IS_STABLE[self.integrator](self.step, omega, self.material.gamma):
             return
         stable, unstable = 0.0, float(self.step)
         while unstable - stable > 1e-4 * unstable:
             middle = 0.5 * (stable + unstable)
-            if self.method.is_stable(middle, omega, self.material.gamma):
+            if IS_STABLE[self.integrator](middle, omega, self.material.gamma):
                 stable = middle
             else:
                 unstable = middle

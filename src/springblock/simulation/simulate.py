@@ -18,7 +18,7 @@ from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import PAPER, Setup
-from springblock.solver import on_cores
+from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import (
     SQUARES,
     WORK,
@@ -130,7 +130,9 @@ def simulate(
     limit = _LAST_RESORT * setup.loading_time(contact, strongest)
 
     surface = contact, mu_static, mu_dynamic
-    state, constants = prepare(*surface, material, towards, setup.method, step, periodic=periodic)
+    state, constants = prepare(
+        *surface, material, towards, INTEGRATORS[integrator], step, periodic=periodic
+    )
     motion = _Motion(setup, advance, state, constants)
     here = conditions(contact, setup, towards, periodic)
     kept, snapshots = None, list[Array]()
@@ -247,7 +249,9 @@ class _Motion:
         t_det = step * unpadded(self.state.blocks.t_det, grid)
         t_det = np.where(np.isfinite(t_det), t_det, np.nan)
         time = self.setup.every * step * np.arange(self.samples + 1.0)
-        velocity, heat = self.setup.method.at_step(self.state, self.constants, self.steps)
+        velocity, heat = INTEGRATORS[self.setup.integrator].at_step(
+            self.state, self.constants, self.steps
+        )
         velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
         force = self._newton() * self.force()
         energy = self._energy(velocity, heat)
@@ -272,7 +276,7 @@ class _Motion:
     def _newton(self) -> float:
         """Force in N that changes a block's velocity by one l per step in one step."""
         material, step = self.setup.material, self.setup.step
-        force_time = self.setup.method.force_time(step, material.gamma)
+        force_time = INTEGRATORS[self.setup.integrator].force_time(step, material.gamma)
         return material.mass * material.spacing / (step * force_time)
 
     def _first_detachments(self) -> NDArray[np.int64]:

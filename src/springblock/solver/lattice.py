@@ -127,9 +127,6 @@ class Integrator(Protocol):
     FORCE_EVALUATIONS: int  #: per step
     WORK_FIELDS: int  #: lattice-sized fields that it keeps for itself
 
-    def is_stable(self, step: float, omega: Array, gamma: float) -> bool:
-        """Whether no mode of these angular frequencies, rad/s, grows with a step in s."""
-
     def force_time(self, step: float, gamma: float) -> float:
         """How long a force acts in one step, s."""
 

@@ -32,6 +32,7 @@ from springblock.solver.lattice import (
 from springblock.solver.laws import keep_way, resistance, way_of
 from springblock.solver.release import force_in, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
+from springblock.solver.stability import leapfrog_force_time
 
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
@@ -44,22 +45,7 @@ _SAME = 1e-12
 _FOREVER = 1e15
 
 
-def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
-    """Whether no mode of angular frequency `omega` grows.
-
-    With u for the displacement, u⁺ - (1 + a - c) u + a u⁻ = 0 with c = ω² h (1 - a)/γ: both
-    roots lie within the unit circle while c < 2 (1 + a); h < 2/ω without damping.
-    """
-    c = np.asarray(omega) ** 2 * step * force_time(step, gamma)
-    return bool(np.all(c < 2.0 * (1.0 + math.exp(-gamma * step))))
-
-
-def force_time(step: float, gamma: float) -> float:
-    """Time for which a force acts in one step, s: (1 - exp(-γh))/γ, h without damping.
-
-    h also where γh is next to nothing, and of fewer digits than γ.
-    """
-    return -math.expm1(-gamma * step) / gamma if gamma * step > 1e-300 else step
+force_time = leapfrog_force_time
 
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:

@@ -64,14 +64,6 @@ STAGES = (
 )
 
 
-def is_stable(step: float, omega: np.ndarray, gamma: float) -> bool:
-    """Whether no mode of angular frequency `omega` grows: |R(λh)| ≤ 1 for λ² + γλ + ω² = 0."""
-    root = np.sqrt(np.asarray(gamma * gamma / 4.0 - omega * omega, dtype=complex))
-    z = step * np.concatenate([-gamma / 2.0 + root, -gamma / 2.0 - root])
-    growth = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
-    return bool(np.all(growth <= 1.0 + 1e-12))
-
-
 def force_time(step: float, gamma: float) -> float:
     """Time for which a force acts in one step, s: damping is a force of its own here."""
     return step

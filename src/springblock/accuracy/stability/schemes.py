@@ -7,7 +7,7 @@ import numpy as np
 
 from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
-from springblock.solver import INTEGRATORS
+from springblock.solver.stability import IS_STABLE
 
 #: Greatest stable omega h of a mode without damping.
 STABLE = {"leapfrog": 2.0, "rk4": math.sqrt(8.0)}
@@ -16,7 +16,7 @@ STABLE = {"leapfrog": 2.0, "rk4": math.sqrt(8.0)}
 def limit(integrator: str, material: Material) -> float:
     """Return the largest stable step, s, by bisection of the integrator's own criterion."""
     omega = np.linspace(material.omega_min, material.omega_max, 33)
-    is_stable = INTEGRATORS[integrator].is_stable
+    is_stable = IS_STABLE[integrator]
     stable, unstable = 0.0, 4.0 * (1.0 + material.gamma / material.omega_max) / material.omega_max
     for _ in range(50):
         middle = 0.5 * (stable + unstable)

@@ -11,7 +11,7 @@ from springblock.accuracy.stability import lattice, limits, one_block
 from springblock.accuracy.stability.cases import Case
 from springblock.io.rows import Row
 from springblock.io.schemas import column
-from springblock.solver import INTEGRATORS
+from springblock.solver.integrators import INTEGRATORS
 
 SCHEMA = pa.schema(
     [
