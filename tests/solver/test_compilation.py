@@ -74,25 +74,6 @@ def test_an_import_changes_no_setting_of_numba():
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
-def test_one_process_compiles_at_a_time(tmp_path):
-    """From the first of nested compilations until all of them are written."""
-
-    def is_locked() -> bool:
-        with (tmp_path / "lock").open("w") as another:
-            try:
-                fcntl.flock(another, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                return True
-        return False
-
-    lock = _OneCompiler(tmp_path / "lock")
-    seen = [is_locked()]
-    for change in (lock.on_start, lock.on_start, lock.on_end, lock.on_end):
-        change(None)
-        seen.append(is_locked())
-    assert seen == [False, True, True, True, False]
-
-
 def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):
     lost = "import sys, numba\nsys.modules['numba.core.event'] = None  # cannot be imported\n"
     assert run_kernels(tmp_path / "cache", lost) == (["0", "0"], [], 0)
