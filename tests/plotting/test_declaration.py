@@ -106,26 +106,11 @@ def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
     assert [need.scene for need in needs][-2:] == [OTHER, large]
 
 
-def test_levels_are_compared_on_the_pattern_that_has_both():
-    groups = GROUPS | {"grooves": [OTHER, ALONG, ACROSS]}
-    needs = FIGURES["supplement_levels"].source.needs(groups, {})
-    assert [need.scene for need in needs] == [ALONG, ACROSS, CUT]
-
-
 def test_figures_need_no_more_tables_than_they_show():
     assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
     tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
     assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
     assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
-
-
-def test_figure_8_holds_a_gap_between_two_pillars():
-    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 240 --n-p 58")
-    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")
-    assert (
-        FIGURES["figure_4"].source.options(120, {"n_p": 2, "n_s": 2}).startswith("--n-blocks 120")
-    )
 
 
 @pytest.mark.parametrize(("config", "groups"), [PAPER, QUICK])
@@ -242,3 +227,9 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
     surface, _ = figures.drawing("figure_4")(Scene(40, 2, 2).pattern).axes
     assert surface.images[0].get_array().shape == (12, 12)
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)
+
+
+def test_a_drawn_pattern_holds_a_gap_between_two_pillars():
+    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
+    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 240 --n-p 58")
+    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")

@@ -72,9 +72,9 @@ def test_nothing_leaves_the_page_and_panels_do_not_overlap(name):
 def test_the_same_figure_is_the_same_file(name, suffix, tmp_path, monkeypatch):
     monkeypatch.setitem(style.JOURNAL, "savefig.dpi", 72)  # quicker
     contents = []
-    for attempt in ("first", "second"):
+    for attempt, picture in (("first", drawn(name)), ("second", DRAWINGS[name]())):
         path = tmp_path / attempt / f"figure{suffix}"
-        style.save(DRAWINGS[name](), path)
+        style.save(picture, path)
         assert [file.name for file in path.parent.iterdir()] == [path.name]  # nothing left over
         contents.append(path.read_bytes())
     assert contents[0] == contents[1]

@@ -4,7 +4,6 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import pytest
 from matplotlib.figure import Figure
 
 from plotting.test_ensembles import record
@@ -72,10 +71,3 @@ def test_its_caption_names_what_is_ones_own():
         "mu_static from strong-00000000, N = 4 (seeds 0 to 2). "
         "Material of the paper, but distribution = uniform."
     )
-
-
-@pytest.mark.parametrize("number", [1, 3])
-def test_every_run_has_its_curve(number):
-    force = drawing(number).axes[2]
-    thin = [line for line in force.get_lines() if line.get_linewidth() == 0.3]
-    assert len(thin) == number

@@ -6,7 +6,6 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 
 from springblock import Pattern
-from springblock.plotting import style
 from springblock.plotting.runs import contact as picture_of
 
 GROOVED = Pattern.pillars(60, 28, 32).grooved(8, 2)
@@ -60,13 +59,3 @@ def test_the_arrow_goes_where_the_slider_goes(direction, said, towards):
     tip = way[np.argmax(np.hypot(*way.T))]
     assert tip / np.hypot(*tip) == pytest.approx(towards, abs=1e-6)
     assert f"sliding direction {said}" in texts(whole.figure)
-
-
-@pytest.mark.parametrize("name", SURFACES)
-def test_nothing_leaves_the_page(name):
-    picture = picture_of.draw(SURFACES[name], 30, "its name")
-    style.settle(picture)
-    box = style.journal(picture.get_tightbbox)()  # inches
-    width, height = picture.get_size_inches()
-    assert 0.0 <= box.x0 < box.x1 <= width
-    assert 0.0 <= box.y0 < box.y1 <= height

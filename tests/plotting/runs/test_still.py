@@ -7,9 +7,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from springblock import Pattern, Realisation, draw_friction, plot, simulate
-from springblock.plotting import style
 from springblock.plotting.maps import painted, scale
-from springblock.plotting.runs import still
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -78,13 +76,3 @@ def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
     many = replace(run, snapshot_times=times, snapshots=np.zeros((10, 2, 12, 12)))
     titles = [ax.get_title() for ax in plot(many).axes]
     assert [title for title in titles if title] == ["1 µs", "4 µs", "7 µs", "10 µs"]
-
-
-@pytest.mark.parametrize("shape", [lambda run: run, oblong])
-def test_nothing_leaves_the_page(run, shape):
-    picture = still.plot(shape(run))
-    style.settle(picture)
-    box = style.journal(picture.get_tightbbox)()  # inches
-    width, height = picture.get_size_inches()
-    assert 0.0 <= box.x0 < box.x1 <= width
-    assert 0.0 <= box.y0 < box.y1 <= height
