@@ -1,6 +1,5 @@
 """Machine code is cached for its user alone; numba is left as it was found."""
 
-import fcntl
 import os
 import shutil
 import subprocess
@@ -11,7 +10,7 @@ import pytest
 
 from kernels import COMPILING, run_kernels
 from springblock.solver import compilation
-from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
+from springblock.solver.compilation import _cache_folder, _digest
 
 
 def test_a_second_process_does_not_compile(tmp_path):
