@@ -43,7 +43,7 @@ def test_profiles_differ_in_cores_and_know_the_groups_of_the_rules():
         yaml.safe_load((ROOT / f"profiles/{name}/config.yaml").read_text())
         for name in ("default", "slurm")
     )
-    assert {key for key in default if slurm.get(key) != default[key]} == {"cores"}
+    assert {key for key in default if slurm.get(key) != default[key]} == {"cores", "quiet"}
     sizes = {entry.partition("=")[0] for entry in slurm["group-components"]}
     assert sizes == set(re.findall(r'group:\s+"(\w+)"', RULES))
 
@@ -99,5 +99,5 @@ def test_jobs_run_in_the_container_where_snakemake_is_told_to(study):
     (called,) = (study / "called").read_text().splitlines()
     assert called.startswith("exec ")
     assert "container/springblock.sif bash -c" in called
-    assert "springblock compile --integrator leapfrog" in called
+    assert "compile --integrator leapfrog" in called
     assert "apptainer build container/springblock.sif container/springblock.def" in CONTAINER

@@ -95,7 +95,7 @@ def test_a_table_holds_them_beside_the_others(study):
     assert masks[:6] == [(-1, str(BlockMap.mask(study / "islands.png")))] * 6
     assert masks[6:] == [(0, "")] * 3 + [(1, "")] * 3 + [(2, "")]
     assert (study / "results/figures/surfaces.png").stat().st_size > 10_000
-    jobs = study.planned("--config", "results=elsewhere", "--", "correlation")
+    jobs = study.planned("--config", "results=elsewhere", "--", "correlations")
     assert jobs["correlation"] == 1  # a mask has no sides
 
 

@@ -17,7 +17,7 @@ def test_sides_along_both_axes_are_correlated_and_collected(
     springblock("correlation", *pillars, *outputs)
     for name, schema in (("c", CORRELATION), ("l", CORRELATION_LENGTH)):
         part, whole = tmp_path / name, tmp_path / f"{name}2"
-        springblock("collect", part, part, "--configuration", "0123", "--output", whole)
+        springblock("make", "collect", part, part, "--configuration", "0123", "--output", whole)
         table = pq.read_table(whole)
         assert table.schema.names == schema.names
         assert table.num_rows == 2 * pq.read_metadata(part).num_rows
@@ -39,4 +39,4 @@ def test_two_scenes_are_refused(springblock, batch, pillars, outputs, tmp_path):
 def test_tables_of_other_columns_are_not_collected(springblock, pillars, outputs, tmp_path):
     springblock("correlation", *pillars, *outputs)
     words = (tmp_path / "l", tmp_path / "c", "--configuration", "0", "--output", tmp_path / "a")
-    assert "c lacks the column 'l_c'" in springblock("collect", *words, refused=True)
+    assert "c lacks the column 'l_c'" in springblock("make", "collect", *words, refused=True)

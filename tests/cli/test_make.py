@@ -58,7 +58,7 @@ def test_a_table_of_parts_says_which_code_made_them(collect):
 
 def test_parts_of_different_code_are_refused(collect):
     said, output = collect("1+a", "1+b", refused=True)
-    assert "must be made by the same code; theirs is a and b" in said
+    assert "were made by different code, a and b" in said
     assert not output.exists()
 
 

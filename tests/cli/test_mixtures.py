@@ -12,13 +12,13 @@ TABLES = ("--realisations", "{table0}", "--correlation", "{c0}")
 #: Commands that read files of two studies, 0 and 1.
 COMMANDS = {
     "aggregate": ("aggregate", "{batch0}", "{batch1}", *CONFIGURATION, "--output", "{here}/a"),
-    "collect": ("collect", "{c0}", "{c1}", "--output", "{here}/a"),
-    "collect realisations": ("collect", "{table0}", "{table1}", "--output", "{here}/a"),
+    "collect": ("make", "collect", "{c0}", "{c1}", "--output", "{here}/a"),
+    "collect realisations": ("make", "collect", "{table0}", "{table1}", "--output", "{here}/a"),
     "correlation": (
         *("correlation", "{batch0}", "{batch1}"),
         *("--output-correlation", "{here}/a", "--output-length", "{here}/b"),
     ),
-    "beyond": ("beyond", "{batch0}", "{batch1}", "--output", "{here}/a.md"),
+    "beyond": ("make", "beyond", "{batch0}", "{batch1}", "--output", "{here}/a.md"),
     "figure_3": ("figure", "figure_3", "{batch0}", "{batch1}", *OUTPUT),
     "figure_6": ("figure", "figure_6", "{batch0}", "{batch1}", *OUTPUT),
     "figure_7": ("figure", "figure_7", "{c0}", "{l1}", *OUTPUT),

@@ -21,7 +21,8 @@ ONE = ("--first-seed", 3, "--last-seed", 3)
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_integrator_is_compiled(springblock, integrator):
-    assert springblock("compile", "--integrator", integrator) == f"{integrator} is compiled\n"
+    said = springblock("compile", "--integrator", integrator, "--law", "slip_weakening")
+    assert said == f"{integrator} is compiled with the law slip_weakening\n"
 
 
 def test_a_prelude_changes_nothing(springblock, tmp_path):
@@ -41,7 +42,7 @@ def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_
     assert set(table["direction"].to_pylist()) == {"30"}
     assert set(table["steps"].to_pylist()) == {400}
     configuration = json.loads(table.schema.metadata[b"configuration"])
-    assert (configuration["material"]["gamma"], configuration["step"]) == (4e3, 1e-8)
+    assert (configuration["gamma"], configuration["step"]) == (4e3, 1e-8)
     assert (configuration["integrator"], configuration["duration"]) == ("rk4", 4e-6)
 
 

@@ -1,5 +1,6 @@
 """Machine code is cached for its user alone; numba is left as it was found."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -10,7 +11,7 @@ import pytest
 
 from kernels import COMPILING, run_kernels
 from springblock.solver import compilation
-from springblock.solver.compilation import _cache_folder, _digest
+from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
 
 
 def test_a_second_process_does_not_compile(tmp_path):
@@ -71,6 +72,25 @@ def test_an_import_changes_no_setting_of_numba():
         assert dict(vars(numba.config)) == before
     """
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_one_process_compiles_at_a_time(tmp_path):
+    """From the first of nested compilations until all of them are written."""
+
+    def is_locked() -> bool:
+        with (tmp_path / "lock").open("w") as another:
+            try:
+                fcntl.flock(another, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return True
+        return False
+
+    lock = _OneCompiler(tmp_path / "lock")
+    seen = [is_locked()]
+    for change in (lock.on_start, lock.on_start, lock.on_end, lock.on_end):
+        change(None)
+        seen.append(is_locked())
+    assert seen == [False, True, True, True, False]
 
 
 def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):

@@ -66,7 +66,7 @@ def varied(evidence: Evidence, *names: str) -> list[Scene]:
 def _paper(evidence: Evidence) -> Scene:
     """The flat surface, with the study's constants, of the size whose constants are varied."""
     sizes = [s.n_blocks for s in evidence.records if not s.level and s.varied]
-    return Scene(max(sizes, default=0))
+    return Scene(max(sizes, default=1))
 
 
 def relative(first: Array, second: Array, base: Array) -> Estimate:

@@ -2,10 +2,13 @@
 
 Machine code is cached in `springblock/<digest>` of `$NUMBA_CACHE_DIR`, or else of the user's cache
 folder, where the digest stands for the sources of the solver, the release of numba and the
-processor. Numba's settings are the same after an import of this module as before.
+processor. Numba's settings are the same after an import of this module as before; only where this
+is the first of a process to declare a function, the width of vectors chosen in
+`_processor_features` holds for all functions of that process.
 """
 
 import contextlib
+import fcntl
 import hashlib
 import logging
 import os
@@ -103,8 +106,9 @@ def _say_compiling() -> None:
 try:  # parts that numba may move or change without notice
     from numba.core.compiler import Compiler
     from numba.core.cpu import CPUTargetOptions
+    from numba.core.event import Listener, register
 except ImportError:
-    Compiler = CPUTargetOptions = object
+    Compiler = Listener = CPUTargetOptions = object
 
 #: Whether numba has them: without, kernels are slower, and may differ in the last bits.
 HAS_PRIVATE_PARTS = hasattr(CPUTargetOptions, "_nrt")
@@ -122,6 +126,32 @@ class _Restrict(Compiler):  # type: ignore[misc]
         _say_compiling()
         self.state.flags.noalias = True
         return super().define_pipelines()
+
+
+class _OneCompiler(Listener):  # type: ignore[misc]
+    """Lock that lets one process at a time compile and write to the cache.
+
+    Of two that add code for other types to one kernel at once, numba would confuse the files.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file, self._depth, self._lock = file, 0, -1
+
+    def on_start(self, event):
+        self._depth += 1
+        if self._depth == 1:
+            self._lock = os.open(self._file, os.O_RDWR | os.O_CREAT, 0o600)
+            with contextlib.suppress(OSError):  # a file system without locks
+                fcntl.flock(self._lock, fcntl.LOCK_EX)
+
+    def on_end(self, event):
+        self._depth -= 1
+        if self._depth == 0:
+            os.close(self._lock)
+
+
+if FOLDER and HAS_PRIVATE_PARTS:
+    register("numba:compiler_lock", _OneCompiler(FOLDER / "lock"))
 
 
 def cached_njit(function: Callable[..., Any], **options: Any) -> Any:
