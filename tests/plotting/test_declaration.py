@@ -37,6 +37,7 @@ def configuration(*files: str):
 
 
 PAPER = configuration("config.yaml")
+FULL = configuration("config.yaml", "full.yaml")
 QUICK = configuration("config.yaml", "quick.yaml")
 
 
@@ -47,7 +48,7 @@ def test_each_figure_declares_all_that_the_study_needs(name):
     assert declared.category in get_args(Category)
     assert declared.caption.endswith(".")
     assert not set("{}") & set(declared.title + declared.caption)  # wildcards for the workflow
-    for config, groups in (PAPER, QUICK):
+    for config, groups in (PAPER, FULL, QUICK):
         if declared.is_part_of(groups):
             source, lengths = declared.source, config["figures"].get(name, {})
             given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
@@ -58,7 +59,7 @@ def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
     present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
     assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
     assert not {f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")} & present
-    alone = {name for name, figure in FIGURES.items() if not figure.is_part_of(PAPER[1])}
+    alone = {name for name, figure in FIGURES.items() if not figure.is_part_of(FULL[1])}
     assert alone == {"surfaces"}  # whose files a user brings
 
 

@@ -18,13 +18,13 @@ from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCE
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 
-_WITHOUT = """`snakemake production` measures errors with the study's own number of blocks in a
-quarter of an hour; this page was written without its table.
+_WITHOUT = """With `production: true` in its configuration a study measures errors with its own number of blocks,
+in a quarter of an hour; this page was written without that table.
 """
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
 with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
-{most} seeds each: the table `production`, which `snakemake production` makes. Means over them at
+{most} seeds each: the table `production`, made with `production: true`. Means over them at
 the default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus
 in the 95 % interval of the bias (the numerical error):
 

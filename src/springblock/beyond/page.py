@@ -6,8 +6,8 @@ from springblock.beyond.question import Ensembles, Question
 
 _PAGE = """# What goes beyond the paper
 
-Written by `snakemake beyond` from realisations, those that it simulates and those of the study and
-of `snakemake more`, where that has been called. Lengths count blocks unless they have a unit; l is
+Written from all realisations of a study with the groups of `config/full.yaml`.
+Lengths count blocks unless they have a unit; l is
 the spacing of the lattice, l_z the thickness of the layer, 10 µm each in the paper. Numbers stand
 with their 95 % intervals over realisations. Exponents, correlation lengths, minima, variances,
 differences and shares of variance have bias-corrected and accelerated bootstrap intervals (BCa),
