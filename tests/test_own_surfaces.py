@@ -65,7 +65,9 @@ def assert_same(run, contact, *coefficients, **how):
 
 
 def test_the_example_can_be_planned(study):
-    jobs = study.planned("--", "surfaces", configuration=(EXAMPLE,))
+    jobs = study.planned(
+        "--config", "results=elsewhere", "--", "surfaces", configuration=(EXAMPLE,)
+    )
     assert (jobs["prelude"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 3, 1)
 
 

@@ -72,8 +72,8 @@ def read_sealed(path: Path) -> bytes:
     start = content.rfind(_MARK)
     if start < 0:
         raise ValueError(
-            f"{path} is no whole table (Parquet) of springblock's: it has no checksum, like files of "
-            f"other origin and those cut short; {MENDING}"
+            f"{path} is no whole table (Parquet) of springblock's, since it has no checksum, like "
+            f"files of other origin and those cut short; {MENDING}"
         )
     end = start + len(BLANK)
     if _seal(content[:start] + BLANK + content[end:]) != content[start:end]:
