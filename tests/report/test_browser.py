@@ -1,9 +1,9 @@
-"""Both reports of a study, clicked through in a browser, wide and narrow."""
+"""The report of a study, clicked through in a browser, wide and narrow."""
 
 import pytest
 
 from springblock.cli import main
-from test_workflow import ROOT, snakemake
+from studies import ROOT
 
 #: Pictures and films without words for those who do not see them.
 MUTE = "img:not([alt]), img[alt=''], video:not([aria-label]), video[aria-label='']"
@@ -20,15 +20,6 @@ def every_page(study, tmp_path_factory):
     files = map(str, [*figures, *tables, *pages])
     main(["report", *files, "--output", str(output)], standalone_mode=False)
     return output
-
-
-@pytest.fixture(scope="session")
-def snakemakes(study, tmp_path_factory):
-    """Snakemake's own report."""
-    file = tmp_path_factory.mktemp("snakemake") / "report.html"
-    outcome = snakemake(study, "--report", str(file))
-    assert outcome.returncode == 0, outcome.stderr
-    return file
 
 
 def shown(page):
@@ -124,23 +115,6 @@ def test_without_scripts_all_parts_can_be_read(study, browser):
     for name in ("overview", "figures", "films", "claims", "tables"):
         assert page.locator(f"#{name} h1").is_visible()
     context.close()
-
-
-def test_snakemakes_report_shows_every_result(snakemakes, opened):
-    page = opened(snakemakes)
-    menu = page.locator("a.block")
-    entries = menu.all_inner_texts()
-    assert {"Figures", "Supplement"} <= set(entries)
-    for i, entry in enumerate(entries):
-        page.reload()
-        menu.nth(i).click()
-        results = page.locator("a[iconname=eye]")
-        page.wait_for_timeout(200)
-        assert page.locator("body").inner_text().strip(), f"{entry} leaves the page blank"
-        assert (results.count() > 0) == (entry in ("Figures", "Supplement"))
-        for result in results.all():
-            result.click()
-            page.locator("img").first.wait_for()
 
 
 def test_what_looks_like_html_does_nothing(nasty, opened):

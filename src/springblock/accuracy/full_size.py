@@ -18,8 +18,8 @@ from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, MEANS, SCE
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 
-_WITHOUT = """With `production: true` in its configuration a study measures errors with its own number of
-blocks, in a quarter of an hour; this page was written without that table.
+_WITHOUT = """With `production: true` in its configuration a study measures errors with its own
+number of blocks, in a quarter of an hour; this page was written without that table.
 """
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
