@@ -42,6 +42,10 @@ rule all:
         f"The study is complete; its tables and figures are in {RESULTS}"
 
 
+onerror:
+    tell_errors()
+
+
 onsuccess:
     page = Path(RESULTS, "report.html").resolve()
     if page.exists():

@@ -310,7 +310,7 @@ def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, un
     without(study, BATCH, TABLE)
     assert "has older modification time" in study.run(refused=True)
     text = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
-    (command,) = re.findall(r"^    (find .*)$", text, re.MULTILINE)
+    (command,) = re.findall(r"^ +(find .*)$", text, re.MULTILINE)
     subprocess.run(command, shell=True, cwd=study.folder, check=True)
     study.run()
     assert study.tables == undisturbed.tables

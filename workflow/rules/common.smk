@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from itertools import chain
 from pathlib import Path
 from shlex import quote
@@ -31,6 +32,7 @@ try:
 except (TypeError, ValueError) as error:
     raise WorkflowError(f"The study cannot be run: {error}.") from None
 
+BEGUN = time.time()
 SETUP = study.setup(config)
 CONFIGURATION = configuration_digest(config)
 #: Groups of scenes, each a list of ensembles, and the ensemble in each folder of realisations.
@@ -109,6 +111,14 @@ def begin():
         record.begin(Path(RESULTS), config, touched=workflow.touch)
     except (OSError, ValueError) as error:
         raise WorkflowError(f"The study cannot be run: {error}.") from None
+
+
+def tell_errors():
+    """Print what jobs of this run have failed with: the quiet profile leaves that in their logs."""
+    for file in sorted(Path(RESULTS, "logs").rglob("*.log")):
+        said = file.read_text(errors="replace") if file.stat().st_mtime >= BEGUN else ""
+        for line in [line for line in said.splitlines() if "Error" in line][-1:]:
+            print(f"{file}: {line}", file=sys.stderr)
 
 
 def refuse_orphans():
