@@ -90,7 +90,7 @@ def samples_interval(
 
     samples = tuple(np.asarray(part) for part in samples)
     options: dict[str, Any] = {"random_state": np.random.default_rng(0), "vectorized": True}
-    options |= {"n_resamples": resamples, "batch": batch}
+    options |= {"n_resamples": resamples, "batch": batch, "confidence_level": _LEVEL}
     with _degenerate_allowed():
         found = bootstrap(samples, statistic, method="BCa", **options)
     return _or_percentiles(np.asarray(statistic(*samples, axis=-1)), found)
@@ -155,6 +155,7 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
     options: dict[str, Any] = {"vectorized": True, "n_resamples": 0, "bootstrap_result": given}
+    options |= {"confidence_level": _LEVEL}
     with _degenerate_allowed():
         found = bootstrap((np.arange(k),), of_drawn, method="BCa", **options)
     return _or_percentiles(value, found)

@@ -18,9 +18,10 @@ _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
 
 def shades(values: Iterable[float]) -> dict[float, Any]:
     """A colour for each value, from dark for the smallest to light."""
+    from seaborn import color_palette  # slow to load: it brings pandas along
+
     ordered = sorted(set(values))
-    places = np.linspace(0.0, 1.0, len(ordered) + 2)[1:-1]
-    return dict(zip(ordered, colormaps["viridis"](places), strict=True))
+    return dict(zip(ordered, color_palette("viridis", len(ordered)), strict=True))
 
 
 def pillar_look(n_p: int) -> Look:
