@@ -125,7 +125,7 @@ class Declaration:
     category: Category
     caption: str  #: in whole sentences; lines may break anywhere
     source: Source
-    upon_request: bool = False  #: left out of the whole study until its table has been asked for
+    upon_request: bool = False  #: drawn in studies with `production: true` alone
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "caption", " ".join(self.caption.split()))
