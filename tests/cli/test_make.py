@@ -82,7 +82,7 @@ def test_the_page_says_what_the_tables_hold(page):
     assert "3 of 3 cases came out as expected, in these families: size." in text
     assert "The largest energy residual of 1 realisations" in text
     assert "| static friction | 1.0e-01 | 1.0e-01 | 1.0e-01 |" in text
-    assert "`snakemake production` measures errors" in text
+    assert "With `production: true` in its configuration a study measures errors" in text
     assert "total error" not in text
 
 
