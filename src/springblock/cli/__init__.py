@@ -1,5 +1,6 @@
 """The command line. Commands are imported when they are called: a job loads what it needs."""
 
+import gc
 import os
 from pkgutil import resolve_name
 
@@ -35,6 +36,7 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
+        gc.set_threshold(100_000)  # imports leave nothing to collect
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would wait by counting
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
