@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from PIL import Image, PngImagePlugin
 
 from springblock.claims import CLAIMS
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
+from springblock.io.parquet import write
 from springblock.report.page import page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -40,9 +40,9 @@ def nasty(tmp_path, picture) -> Path:
     names = (f"{NASTY}.md", f"{NASTY}.parquet", "claims.parquet")
     text, table, claims = (tmp_path / name for name in names)
     text.write_text(f"# {NASTY}\n\n{NASTY} [x](javascript:alert(1))\n\n## {NASTY}\n")
-    pq.write_table(pa.table({NASTY: [NASTY, "a"], "b": [NASTY, NASTY]}), table)
+    write(pa.table({NASTY: [NASTY, "a"], "b": [NASTY, NASTY]}), table, {})
     said = [row | {"claim": NASTY, "statement": NASTY} for row in rows(CLAIMS[:1], Evidence())]
-    pq.write_table(pa.Table.from_pylist(said), claims)
+    write(pa.Table.from_pylist(said), claims, {})
     report = tmp_path / "report.html"
     files = [picture(f"sweep_{NASTY}.png", f'" onerror="alert(1) {NASTY}'), text, table, claims]
     report.write_text(page(files, {}), encoding="utf-8")

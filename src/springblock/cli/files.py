@@ -56,7 +56,7 @@ def _scenes(table: pa.Table) -> list[str]:
     if not {"n_blocks", "varied"} <= set(table.column_names):
         return []
     names = [name for name in Scene(1).row if name in table.column_names]
-    found = table.group_by(names).aggregate([([], "count_all")]).to_pylist()
+    found = table.group_by(names, use_threads=False).aggregate([([], "count_all")]).to_pylist()
     lines = [f"  {Scene.from_row(row).folder}: {row['count_all']}" for row in found]
     more = [f"  and {len(lines) - _SHOWN} more"] if len(lines) > _SHOWN else []
     return [f"{len(lines)} scenes, with so many rows:", *lines[:_SHOWN], *more]

@@ -83,7 +83,7 @@ def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     missing = [name for name in columns or () if name not in present]
     if missing:
         raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
-    return file.read(columns)
+    return file.read(columns, use_threads=False)  # Arrow's threads may abort a process at its end
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
@@ -164,4 +164,4 @@ def _constants(table: pa.Table) -> list[dict[str, Any]]:
     names = ["varied", *SETUP.names]
     if not set(names) <= set(table.column_names):
         return []
-    return table.group_by(names).aggregate([]).to_pylist()
+    return table.group_by(names, use_threads=False).aggregate([]).to_pylist()

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from springblock.io.parquet import load
 from springblock.report import findings, markup, media, statements
 
 #: Parts of the page and their titles, in order; those of the study's own pages come last, as these
@@ -54,7 +54,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         if file.suffix not in kinds:
             raise ValueError(f"a report shows files of type {', '.join(kinds)}, not {file}")
         kinds[file.suffix].append(file)
-    data = {file.stem: pq.read_table(file, partitioning=None) for file in kinds[".parquet"]}
+    data = {file.stem: load(file) for file in kinds[".parquet"]}
     rows = {name: table.to_pylist() for name, table in data.items()}
     runs = findings.main_runs(rows.get("realisations", []))
     judged = statements.statements(rows.get("claims", []))
