@@ -33,33 +33,21 @@ OUTPUT = _Output(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 
-def _direction(context: click.Context, parameter: click.Parameter, value: str) -> str:
-    try:
-        return normalised(value)
-    except (TypeError, ValueError) as error:
-        raise click.BadParameter(str(error)) from None
+def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Return a callback that reads the value of an option, and refuses it in one sentence."""
 
-
-def _varied(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> Varied:
-    """Read name=value pairs."""
-    try:
-        return in_order(dict(value.partition("=")[::2] for value in values))
-    except ValueError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-def _map(read: Callable[[Path], BlockMap]) -> Callable[..., BlockMap | None]:
-    """Read a file of one value per block."""
-
-    def given(
-        context: click.Context, parameter: click.Parameter, file: Path | None
-    ) -> BlockMap | None:
+    def value_of(context: click.Context, parameter: click.Parameter, value: Any) -> Any:
         try:
-            return None if file is None else read(file)
-        except ValueError as error:
+            return None if value is None else read(value)
+        except (TypeError, ValueError) as error:
             raise click.BadParameter(str(error)) from None
 
-    return given
+    return value_of
+
+
+def _varied(pairs: tuple[str, ...]) -> Varied:
+    """Read name=value pairs."""
+    return in_order(dict(pair.partition("=")[::2] for pair in pairs))
 
 
 _SCENE = [
@@ -78,31 +66,35 @@ _SCENE = [
     click.option(
         "--mask",
         type=INPUT,
-        callback=_map(BlockMap.mask),
+        callback=given(BlockMap.mask),
         help="Blocks in contact: white in an image, not zero in an array (.npy).",
     ),
     click.option(
         "--mu-static",
         "mu_static_field",
         type=INPUT,
-        callback=_map(BlockMap.coefficients),
+        callback=given(BlockMap.coefficients),
         help="Array (.npy) of static coefficients, which are then not drawn.",
     ),
     click.option(
         "--mu-dynamic",
         "mu_dynamic_field",
         type=INPUT,
-        callback=_map(BlockMap.coefficients),
+        callback=given(BlockMap.coefficients),
         help="The same of dynamic ones.",
     ),
     click.option(
-        "--direction", default="x", callback=_direction, show_default=True, help="x, y or degrees."
+        "--direction",
+        default="x",
+        callback=given(normalised),
+        show_default=True,
+        help="x, y or degrees.",
     ),
     click.option(
         "--vary",
         "varied",
         multiple=True,
-        callback=_varied,
+        callback=given(_varied),
         help="A constant of its own: step=1e-8.",
     ),
 ]

@@ -19,6 +19,7 @@ from springblock.cli.options import (
     INPUT,
     OUTPUT,
     code_version,
+    given,
     one_sentence,
     scene_options,
     with_options,
@@ -40,30 +41,25 @@ from springblock.simulation.simulate import SimulationError, simulate
 from springblock.solver.integrators import INTEGRATORS
 
 
-def _constants(
-    context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
-) -> Material:
+def _material(pairs: tuple[str, ...]) -> Material:
     """Read name=value pairs; what is not named has the paper's value."""
     constants: dict[str, Any] = dict(Material().items())
-    for value in values:
-        name, _, number = value.partition("=")
+    for pair in pairs:
+        name, _, number = pair.partition("=")
         if name not in constants:
-            raise click.BadParameter(f"{name!r} is no constant; there are {', '.join(constants)}")
+            raise ValueError(f"{name!r} is no constant; there are {', '.join(constants)}")
         try:
             constants[name] = number if name in TEXTS else float(number)
         except ValueError:
-            raise click.BadParameter(f"{name} must be a number, not {number!r}") from None
-    try:
-        return Material(**constants)
-    except ValueError as error:
-        raise click.BadParameter(str(error)) from None
+            raise ValueError(f"{name} must be a number, not {number!r}") from None
+    return Material(**constants)
 
 
 _SETUP = [
     click.option(
         "--material",
         multiple=True,
-        callback=_constants,
+        callback=given(_material),
         help="A constant in SI units: youngs_modulus=1e7, in Pa. May be given several times.",
     ),
     click.option(
