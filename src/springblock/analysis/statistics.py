@@ -90,7 +90,7 @@ def samples_interval(
 
 
 def _bca(
-    value: Array, samples: Sequence[Array], statistic: Callable[..., Array], **options: Any
+    value: Array, samples: Sequence[Any], statistic: Callable[..., Array], **options: Any
 ) -> Interval:
     """A value with its BCa limits, or percentiles where these do not exist."""
     from scipy.stats import DegenerateDataWarning, bootstrap  # slow to load

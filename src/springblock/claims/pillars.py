@@ -10,19 +10,20 @@ from springblock.claims import ranges
 from springblock.claims.rule import Evidence, Finding, claim
 from springblock.claims.samples import (
     SMALLEST,
-    Mask,
+    along_x,
     first_patch,
     found_on,
+    from_edge,
     in_order,
     in_table,
     isolated,
+    lags,
     mean,
     means_of_runs,
-    over_rows,
     pillars_of,
     place,
     proportion,
-    scenes_along_x,
+    share_of,
 )
 from springblock.io.records import Record
 from springblock.model.scene import Scene
@@ -32,8 +33,12 @@ _BORDER = 2  #: blocks from the edge: those on the border and those beside them
 _BROAD = 20  #: n_p from which on most blocks of a pillar are not of its border
 _CORE = 10  #: n_p from which on a pillar has an inside in which places differ
 _PATCH = 3  #: blocks, side of the patch that counts as a nucleation point
+#: Parts of a ring in the paper's order; for sliding along x the edges across are the sides along y.
+_RING = {"corners": "corners", "y": "edges across", "x": "edges along"}
 _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_CORED_PILLARS = f"realisations of pillars with n_p of {_CORE} or more"
+_BROAD_PILLARS = f"realisations of pillars with n_p of {_BROAD} or more"
 
 
 @claim("All pillars are alike", "3.2", 4, "realisations of several pillars with n_p of 4 or more")
@@ -42,38 +47,27 @@ def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
     n_p >= 4.
     """
     name = "share of the variance of a pillar's mean t_det that its place explains (jackknife)"
-    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
-        runs = evidence.records[scene]
+    for scene, runs in along_x(evidence.records, 1, SMALLEST).items():
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
         if times.shape[1] >= 2:
             by_place = Estimate.of(repeatability(times), len(times))
             yield found_on(scene, name, by_place, ranges.ALIKE)
 
 
-def _outer_rings(evidence: Evidence) -> Iterator[tuple[Scene, int]]:
-    """The edge of pillars and the ring inside it: scene, and distance from the edge."""
-    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
-        yield from ((scene, depth) for depth in (0, 1) if 2 * (depth + 1) < scene.n_p)
-
-
-def _on_ring(depth: int) -> dict[str, int]:
-    return {"distance from the edge": depth}
+def _outer_rings(evidence: Evidence) -> Iterator[tuple[Scene, int, dict[str, int]]]:
+    """The edge of pillars and the ring inside it: scene, distance from the edge, and its case."""
+    for scene in along_x(evidence.records, 1, SMALLEST):
+        for depth in (0, 1):
+            if 2 * (depth + 1) < scene.n_p:
+                yield scene, depth, {"distance from the edge": depth}
 
 
 def ring_times(runs: Sequence[Run], scene: Scene, depth: int) -> dict[str, Array]:
-    """Mean t_det/t_max of parts of a ring and of the centre of a pillar, (k,), in claimed order.
-
-    For sliding along x the edges across are the sides along y.
-    """
+    """Mean t_det/t_max of parts of a ring and of the centre of a pillar, (k,), in claimed order."""
     times, last = pillar_map(runs, scene.pattern), (scene.n_p - 1) // 2
     ring = pillar_ring(scene.n_p, depth)
     centre = np.logical_or.reduce(list(pillar_ring(scene.n_p, last).values()))
-    parts = {
-        "corners": ring["corners"],
-        "edges across": ring["y"],
-        "edges along": ring["x"],
-        "centre": centre,
-    }
+    parts = {name: ring[side] for side, name in _RING.items()} | {"centre": centre}
     return {name: times[:, mask].mean(axis=1) for name, mask in parts.items()}
 
 
@@ -82,9 +76,9 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Corners detach first, then boundaries perpendicular to the sliding direction, then parallel
     ones; the same on the blocks adjacent to them; the centre comes last.
     """
-    for scene, depth in _outer_rings(evidence):
+    for scene, depth, case in _outer_rings(evidence):
         parts = ring_times(evidence.records[scene], scene, depth)
-        yield from in_order(scene, parts, **_on_ring(depth))
+        yield from in_order(scene, parts, **case)
 
 
 @claim("The order of detachment never changes", "3.2", 5, _PILLARS)
@@ -95,10 +89,10 @@ def always_in_order(evidence: Evidence) -> Iterator[Finding]:
     """
     # in each realisation the mean over its pillars counts
     name = "share of the realisations in which all parts detach in this order"
-    for scene, depth in _outer_rings(evidence):
+    for scene, depth, case in _outer_rings(evidence):
         parts = ring_times(evidence.records[scene], scene, depth)
         ordered = np.all(np.diff(np.stack(list(parts.values())), axis=0) > 0.0, axis=0)
-        yield found_on(scene, name, proportion(ordered), ranges.NEARLY_ALL, **_on_ring(depth))
+        yield found_on(scene, name, proportion(ordered), ranges.NEARLY_ALL, **case)
 
 
 @claim("Edges detach before the force maximum", "3.2", 5, _PILLARS)
@@ -108,50 +102,36 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: more than nine tenths of these blocks.
     """
-    names = {"corners": "corners", "y": "edges across", "x": "edges along"}
-    for scene, depth in _outer_rings(evidence):
+    for scene, depth, case in _outer_rings(evidence):
         runs = evidence.records[scene]
         by_peak = [np.mean(pillars_of(run.t_det < run.t_max, scene), axis=0) for run in runs]
         detached = np.array(by_peak)  # share of the pillars, (k, n_p, n_p)
         for side, mask in pillar_ring(scene.n_p, depth).items():
-            name = f"share of the {names[side]} detached before t_max"
+            name = f"share of the {_RING[side]} detached before t_max"
             share = mean(detached[:, mask].mean(axis=1))
-            yield found_on(scene, name, share, ranges.NEARLY_ALL, **_on_ring(depth))
+            yield found_on(scene, name, share, ranges.NEARLY_ALL, **case)
 
 
-def border(scene: Scene) -> Mask:
-    """Blocks on the borders of pillars or beside those, (N, N)."""
-    field, size = np.zeros(scene.contact.shape, bool), scene.n_p
-    from_edge = np.minimum(np.arange(size), np.arange(size)[::-1])
-    for pillar in pillars_of(field, scene):
-        pillar[:] = np.minimum.outer(from_edge, from_edge) < _BORDER
-    return field
+def near_border(run: Record) -> float:
+    """Share of the precursors that lie on the border of a pillar or beside it."""
+    early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
+    return share_of(np.broadcast_to(from_edge(run.scene.n_p) < _BORDER, early.shape), early)
 
 
-@claim(
-    "Precursors are a region around the edge of pillars",
-    "3.2",
-    5,
-    f"realisations of pillars with n_p of {_BROAD} or more",
-)
+@claim("Precursors are a region around the edge of pillars", "3.2", 5, _BROAD_PILLARS)
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     """The sliding precursors are not only a few isolated blocks, but a whole region localized
     around the edge of the pillar.
 
     Tested: most lie within two blocks of the edge, and less than half are isolated.
     """
-    for scene in scenes_along_x(evidence.records, 1, _BROAD):
-        edges = border(scene)
-
-        def near(run: Record, edges: Mask = edges) -> float:
-            return float(np.mean(edges[run.t_det < run.t_max]))
-
+    for scene, runs in along_x(evidence.records, 1, _BROAD).items():
         for what, quantity, claimed in (
-            ("on the border or beside it", near, ranges.MOST),
-            ("isolated", lambda run: isolated(run, 1.0), ranges.FEWER_THAN_HALF),
+            ("on the border or beside it", near_border, ranges.MOST),
+            ("isolated", isolated, ranges.FEWER_THAN_HALF),
         ):
             name = f"share of the blocks detached before t_max that are {what}"
-            yield from means_of_runs(evidence, [scene], name, quantity, claimed)
+            yield from means_of_runs({scene: runs}, name, quantity, claimed)
 
 
 def inside(run: Record) -> Array:
@@ -160,12 +140,7 @@ def inside(run: Record) -> Array:
     return np.stack([part[within, within] for part in pillars_of(run.t_det, run.scene)])
 
 
-@claim(
-    "Detachment waves start near the edge of pillars",
-    "3.2",
-    5,
-    f"realisations of pillars with n_p of {_BROAD} or more",
-)
+@claim("Detachment waves start near the edge of pillars", "3.2", 5, _BROAD_PILLARS)
 def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
     """Detachment waves are triggered from nucleation points located near the edge.
 
@@ -179,23 +154,17 @@ def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
     def first(run: Record) -> float:
         return float(np.mean([first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
-    broad = scenes_along_x(evidence.records, 1, _BROAD)
-    return means_of_runs(evidence, broad, name, first, _OUTER_QUARTER)
+    broad = along_x(evidence.records, 1, _BROAD)
+    return means_of_runs(broad, name, first, _OUTER_QUARTER)
 
 
-@claim(
-    "The centre of pillars detaches last",
-    "3.2",
-    5,
-    f"realisations of pillars with n_p of {_CORE} or more",
-)
+@claim("The centre of pillars detaches last", "3.2", 5, _CORED_PILLARS)
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
     """The waves propagate towards the central part of the pillar, which is the last part
     detaching.
     """
     name = "t_det/t_max of the middle minus that of what lies between it and the border"
-    for scene in scenes_along_x(evidence.records, 1, _CORE):
-        runs = evidence.records[scene]
+    for scene, runs in along_x(evidence.records, 1, _CORE).items():
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         size = times.shape[-1]
         middle = np.zeros((size, size), bool)  # half as wide as the inside
@@ -210,9 +179,8 @@ def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: on average, and in more than nine tenths of the realisations.
     """
-    for scene in scenes_along_x(evidence.summaries, 1, SMALLEST):
-        lag = over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene])
-        source, case = in_table(scene), place(scene)
+    for scene, rows in along_x(evidence.summaries, 1, SMALLEST).items():
+        lag, source, case = lags(rows), in_table(scene), place(scene)
         average, each = ({**case, "looked at": what} for what in ("the mean", "each realisation"))
         yield Finding(average, "t_max - t_avg", mean(lag), ranges.POSITIVE, source, "s")
         name = "share of the realisations in which t_max > t_avg"

@@ -14,6 +14,7 @@ from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
+Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
@@ -27,7 +28,7 @@ _MANY = 10**6  #: realisations beyond which nobody would go
 class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
-    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)  #: realisations
+    records: Records = field(default_factory=dict)
     summaries: RowsByScene = field(default_factory=dict)  #: the table `realisations`
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)

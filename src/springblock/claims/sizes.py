@@ -1,7 +1,7 @@
 """How the transition depends on the size of pillars (section 3.2 of the paper)."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from operator import itemgetter
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from springblock.claims.rule import Evidence, Finding, claim
 from springblock.claims.samples import (
     SMALLEST,
     Quantity,
+    along_x,
     before_peak,
     compared,
     difference,
@@ -23,12 +24,10 @@ from springblock.claims.samples import (
     interval,
     mean,
     means_of_runs,
-    over_rows,
     over_runs,
     place,
     position,
     relative_lag,
-    scenes_along_x,
     static_friction,
 )
 from springblock.io.rows import select
@@ -42,8 +41,11 @@ _DURATION = "time between a tenth and nine tenths of the detachments over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
 _EXAMPLE = 20  #: n_p of the paper's example of a pillar, figure 5
 _LARGE = 60  #: n_p of the paper's example of very large pillars
+_SMALL = "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones"
+_LARGEST = f"realisations of pillars with n_p of {_LARGE} or more"
 _BOTH = "realisations of the flat surface and of pillars with n_p of 6 or more"
 _SIZES = "realisations of pillars of three sizes or more, from n_p = 3 or less on"
+_LENGTHS = f"{_SIZES}, and the table of correlation lengths"
 
 
 def warning(run: Run) -> float:
@@ -66,12 +68,7 @@ def duration(run: Run) -> float:
     return float(late - early) / run.t_max
 
 
-@claim(
-    "Pillars with n_p <= 3 behave like a flat surface",
-    "3.2",
-    6,
-    "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones",
-)
+@claim("Pillars with n_p <= 3 behave like a flat surface", "3.2", 6, _SMALL)
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. Static
     friction, which the paper allows to differ, is left out.
@@ -102,11 +99,9 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
 
 def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
     """What pillars have more of than the flat surface."""
-    for scene in scenes_along_x(evidence.records, 1, _RELEVANT):
+    for scene in along_x(evidence.records, 1, _RELEVANT):
         flat = Scene(scene.n_blocks)
-        if flat not in evidence.records:
-            continue
-        for name, quantity in quantities.items():
+        for name, quantity in quantities.items() if flat in evidence.records else ():
             statistic = f"{name}, minus that of the flat surface"
             apart, source = compared(evidence, quantity, scene, flat), in_files(scene, flat)
             yield Finding(place(scene), statistic, apart, ranges.POSITIVE, source)
@@ -127,26 +122,26 @@ def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     return _above_flat(evidence, {_WIDTH: width})
 
 
-def _of_several_sizes(scenes: Iterable[Scene]) -> list[list[Scene]]:
+def _of_several_sizes(table: Mapping[Scene, Any]) -> list[list[Scene]]:
     """Families of three sizes or more, the smallest of which the paper takes for flat surfaces."""
-    found = [family for family in families(scenes) if len(family) >= 3]
+    found = [family for family in families(table) if len(family) >= 3]
     return [family for family in found if family[0].n_p < SMALLEST]
 
 
-def _frictions(evidence: Evidence, scenes: Iterable[Scene]) -> dict[Scene, Array]:
+def _in_table(evidence: Evidence, scene: Scene) -> Array:
     """Static friction of each realisation, (k,), from the table of realisations."""
-    friction = itemgetter("static_friction")
-    return {scene: over_rows(friction, evidence.summaries[scene]) for scene in scenes}
+    return np.array([row["static_friction"] for row in evidence.summaries[scene]])
 
 
-def _lowest(samples: Mapping[Scene, Array]) -> Scene:
-    """Scene with the lowest mean."""
-    return min(samples, key=lambda scene: mean(samples[scene]).value)
+def _lowest_in_table(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
+    """Scene with the lowest mean static friction, from the table of realisations."""
+    return min(scenes, key=lambda scene: mean(_in_table(evidence, scene)).value)
 
 
-def _lowest_friction(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
+def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
     """Scene with the lowest mean static friction, from its realisations."""
-    return _lowest({s: over_runs(static_friction, evidence.records[s]) for s in scenes})
+    runs = evidence.records
+    return min(scenes, key=lambda scene: mean(over_runs(static_friction, runs[scene])).value)
 
 
 @claim("Lowest static friction at an intermediate n_p", "3.2", 6, _SIZES)
@@ -156,14 +151,13 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     """
     # those between are chosen by the same means: small differences would be overrated
     for family in _of_several_sizes(evidence.summaries):
-        samples = _frictions(evidence, family)
-        lowest = _lowest({scene: samples[scene] for scene in family[1:-1]})
+        lowest = _lowest_in_table(evidence, family[1:-1])
         for end in (family[0], family[-1]):
             yield Finding(
                 family_place(end),
                 f"static friction at n_p = {end.n_p} minus the lowest of those between, at n_p = "
                 f"{lowest.n_p}",
-                difference(samples[end], samples[lowest]),
+                difference(_in_table(evidence, end), _in_table(evidence, lowest)),
                 ranges.POSITIVE,
                 in_table(end, lowest),
             )
@@ -173,7 +167,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """For very large pillars the transition is sharper than where static friction is lowest."""
     for *smaller, largest in _of_several_sizes(evidence.records):
-        lowest = _lowest_friction(evidence, smaller)
+        lowest = _lowest(evidence, smaller)
         yield Finding(
             family_place(largest),
             f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}",
@@ -183,28 +177,18 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
         )
 
 
-@claim(
-    "Precursors are negligible on very large pillars",
-    "3.2",
-    6,
-    f"realisations of pillars with n_p of {_LARGE} or more",
-)
+@claim("Precursors are negligible on very large pillars", "3.2", 6, _LARGEST)
 def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
     """For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors becomes
     negligible with respect to the surface area of the central part.
 
     Tested: less than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.
     """
-    large = scenes_along_x(evidence.records, 1, _LARGE)
-    return means_of_runs(evidence, large, _PRECURSORS, before_peak, ranges.NEGLIGIBLE)
+    large = along_x(evidence.records, 1, _LARGE)
+    return means_of_runs(large, _PRECURSORS, before_peak, ranges.NEGLIGIBLE)
 
 
-@claim(
-    "Static friction is lowest where n_p is about l_c",
-    "3.2",
-    7,
-    f"{_SIZES}, and the table of correlation lengths",
-)
+@claim("Static friction is lowest where n_p is about l_c", "3.2", 7, _LENGTHS)
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """When the characteristic correlation length is comparable to the total length of the pillars,
     static friction is smallest.
@@ -213,12 +197,12 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """
     tables = evidence.correlation_length
     for family in _of_several_sizes(evidence.summaries):
-        lowest = _lowest(_frictions(evidence, family))
+        lowest = _lowest_in_table(evidence, family)
         broad = [s for s in family if s in tables and s.n_p >= _EXAMPLE]
         fits = select(tables[broad[-1]], side="x") if broad else []
         if not fits:
             continue
-        l_c, n_p = interval(fits[0], "tail", "tail_low", "tail_high"), lowest.n_p
+        l_c, n_p = interval(fits[0], "tail", "tail"), lowest.n_p
         yield Finding(
             family_place(lowest),
             f"n_p = {n_p}, where static friction is lowest, over l_c at n_p = {broad[-1].n_p}",
@@ -231,7 +215,7 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterator[Finding]:
     """Where static friction is lowest, a quantity is larger than on other pillars."""
     for family in _of_several_sizes(evidence.records):
-        lowest = _lowest_friction(evidence, family)
+        lowest = _lowest(evidence, family)
         for other in (scene for scene in family if scene != lowest):
             yield Finding(
                 family_place(other) | {"n_p": other.n_p},
