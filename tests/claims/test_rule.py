@@ -7,6 +7,7 @@ from beyond.made_up import record
 from springblock import compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
 from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
+from springblock.beyond.question import by_scene
 from springblock.claims.page import page
 from springblock.claims.rule import (
     Claim,
@@ -16,7 +17,7 @@ from springblock.claims.rule import (
     verdict,
 )
 from springblock.claims.table import SCHEMA, rows
-from springblock.cli.claims import _by_scene, _stress
+from springblock.cli.claims import _stress
 from springblock.io.parquet import rows_to_table
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
@@ -236,5 +237,5 @@ def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
     mask = BlockMap("all-00000000", np.ones((12, 12), bool))
     scenes = [Scene(12), Scene(12, n_rows=6), Scene(12, edges="periodic"), Scene(mask=mask)]
     scenes += [Scene(12, mu_static_field=BlockMap("one-00000000", np.ones((12, 12))))]
-    assert _by_scene(scenes, lambda scene: scene) == {scenes[0]: scenes[:1]}
-    assert _by_scene([scene.row for scene in scenes], Scene.from_row).keys() == {scenes[0]}
+    assert by_scene(scenes, lambda scene: scene) == {scenes[0]: scenes[:1]}
+    assert by_scene([scene.row for scene in scenes], Scene.from_row).keys() == {scenes[0]}
