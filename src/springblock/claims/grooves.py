@@ -340,15 +340,10 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     result of the authors' paper of 2018, J. Mech. Phys. Solids 112, 50 (arXiv:1706.08055), for
     grooves that cross the whole surface, n_p2 and n_s2 alone here.
     """
+    name = "static friction across the grooves minus that along them"
     scenes = *bare_grooves(evidence), *along_x(evidence.records, 2)
     for along, across in slid_both_ways(evidence, scenes):
-        yield Finding(
-            place(along),
-            "static friction across the grooves minus that along them",
-            compared(evidence, static_friction, across, along),
-            ranges.POSITIVE,
-            in_files(across, along),
-        )
+        yield compared(evidence, place(along), name, static_friction, across, along)
 
 
 def peak_interval(run: Run, first: int, second: int) -> float:

@@ -17,7 +17,7 @@ from springblock.analysis.statistics import (
     samples_interval,
 )
 from springblock.claims import ranges
-from springblock.claims.rule import Evidence, Finding, Range, Records, describe
+from springblock.claims.rule import Case, Evidence, Finding, Range, Records, describe
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
@@ -123,9 +123,18 @@ def difference(first: Array, second: Array) -> Estimate:
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
-def compared(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene) -> Estimate:
+def compared(
+    evidence: Evidence,
+    case: Case,
+    statistic: str,
+    quantity: Quantity,
+    first: Scene,
+    second: Scene,
+    claimed: Range = ranges.POSITIVE,
+) -> Finding:
     """Mean of a quantity over the realisations of one scene minus that over those of another."""
-    return difference(*(over_runs(quantity, evidence.records[s]) for s in (first, second)))
+    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
+    return Finding(case, statistic, difference(*samples), claimed, in_files(first, second))
 
 
 def relative(first: Array, second: Array, base: Array) -> Estimate:
