@@ -110,6 +110,14 @@ def test_the_bias_is_small_and_falls_with_the_realisations(rng):
     assert np.abs(Correlation(many).bias).max() < 1e-3
 
 
+def test_the_jackknife_finds_the_bias_of_a_variance_exactly(rng):
+    """Divided by k it is too small by a k-th of the unbiased one."""
+    values = rng.normal(size=8)
+    left_out = np.array([np.delete(values, i).var() for i in range(8)])
+    bias = correlation._jackknife_bias(values.var(), left_out)
+    assert bias == pytest.approx(-values.var(ddof=1) / 8.0)
+
+
 def test_more_references_narrow_the_interval_and_keep_the_estimate(rng, monkeypatch):
     # Fluctuations grow towards the ends of the side, as on pillars.
     wide = 1.0 + np.abs(np.linspace(-1.0, 1.0, 60))

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from beyond.made_up import T_MAX, ensemble, lean, record
-from springblock.analysis.statistics import cluster_sizes
 from springblock.beyond import clusters, scatter, sliding, variance
 from springblock.model.scene import Scene
 
@@ -20,7 +19,6 @@ def test_neighbours_along_the_axes_are_one_cluster():
     mask = np.zeros((40, 40), bool)
     mask[3, 3:7] = mask[4, 6] = True  # five, round a corner
     mask[10, 10] = mask[11, 11] = True  # two, which touch at a corner only
-    assert sorted(cluster_sizes(mask)) == [1, 1, 5]
     assert clusters.mean_size(mask) == pytest.approx((25 + 1 + 1) / 7)
     assert np.isnan(clusters.mean_size(np.zeros_like(mask)))
 
@@ -37,18 +35,13 @@ def clumps(rng):
     return np.kron(rng.random((20, 20)) < 0.1, np.ones((2, 2))).astype(bool)
 
 
-def test_clumps_at_random_places_are_larger_than_by_chance(rng):
-    found = clusters.clusters([before(clumps(rng), seed) for seed in range(20)])
-    assert found.ratio.low > 1.5
-    assert found.ratio_mixed.low > 1.5
-
-
-def test_clumps_that_never_move_are_no_company(rng):
-    """They cluster more than blocks anywhere, but no more than these places do."""
+def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_company(rng):
+    """Clumps that never move cluster more than blocks anywhere, but no more than their places."""
     always = clumps(rng)
-    found = clusters.clusters([before(always, seed) for seed in range(20)])
-    assert found.ratio.low > 1.5
-    np.testing.assert_allclose(found.ratio_mixed, 1.0)
+    moving = clusters.clusters([before(clumps(rng), seed) for seed in range(20)])
+    resting = clusters.clusters([before(always, seed) for seed in range(20)])
+    assert min(moving.ratio.low, moving.ratio_mixed.low, resting.ratio.low) > 1.5
+    np.testing.assert_allclose(resting.ratio_mixed, 1.0)
 
 
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
