@@ -243,13 +243,12 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
     cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
 
-    def continued(curves: Iterable[Array], value: float) -> Array:
-        gaps = [(0, len(time) - len(run.time)) for run in runs]
-        pairs = zip(curves, gaps, strict=True)
-        return np.stack([np.pad(curve, gap, constant_values=value) for curve, gap in pairs])
+    def continued(curve: Array, value: float) -> Array:
+        return np.pad(curve, (0, len(time) - len(curve)), constant_values=value)
 
-    forces = continued((friction(run) for run in runs), np.nan)
-    return Curve(time, forces, continued((percent(run, run.detachments) for run in runs), 0.0))
+    forces = np.stack([continued(friction(run), np.nan) for run in runs])
+    counts = np.stack([continued(percent(run, run.detachments), 0.0) for run in runs])
+    return Curve(time, forces, counts)
 
 
 def mean_of_rest(values: Array) -> Interval:

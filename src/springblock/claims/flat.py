@@ -1,5 +1,6 @@
 """The method, and flat surfaces: isolated precursors, then the front (sections 2 and 3.1)."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -175,15 +176,12 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 
 def first_front(run: Run) -> float:
     """Time at which the first front begins over t_max; by bisection, since clusters only grow."""
+
+    def has_front(time: float) -> bool:
+        return bool(cluster_sizes(run.t_det <= time, by_corners=True).max() > _FRONT)
+
     times = np.sort(run.t_det[np.isfinite(run.t_det)])
-    low, high = 0, len(times) - 1
-    while low < high:
-        middle = (low + high) // 2
-        if cluster_sizes(run.t_det <= times[middle], by_corners=True).max() > _FRONT:
-            high = middle
-        else:
-            low = middle + 1
-    return float(times[low]) / run.t_max
+    return float(times[bisect_left(times[:-1], True, key=has_front)]) / run.t_max
 
 
 @claim("Fronts begin at t_max whatever the loading", "3.1", 2, _LOADED)
