@@ -352,7 +352,7 @@ def peak_interval(run: Run, first: int, second: int) -> float:
 
 
 def trend(x: Array, samples: list[Array], statistic: str) -> Estimate:
-    """Slope, or share of the variance explained, of a line through the means of samples; BCa.
+    """The "slope" of a line through means of samples, or the share of variance it explains; BCa.
 
     Samples are drawn from anew, each for itself. NaN where one of them is a single number.
     """
@@ -383,14 +383,16 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
         return
     time, samples = "time between the load peaks", list(found.values())
     slope = f"change of the {time} over t_avg with n_p - n_p2"
-    control = f"share of the variance of the {time}, of surface means, that a line in"
+    control = (
+        f"share of the variance of the {time}, of surface means, that a line in n_p - n_p2 explains"
+    )
     for statistic, name, claimed, unit in (
         ("slope", slope, ranges.POSITIVE, "1/block"),
-        ("control", f"{control} n_p - n_p2 explains", ranges.MOST, "1"),
+        ("control", control, ranges.MOST, "1"),
     ):
         case: Case = {"surfaces": len(found), "looked at": statistic}
-        line = trend(x, samples, statistic)
-        yield Finding(case, name, line, claimed, in_files(*found), unit)
+        found_trend = trend(x, samples, statistic)
+        yield Finding(case, name, found_trend, claimed, in_files(*found), unit)
 
 
 @claim("The length of pillars changes static friction", "3.3", 9, f"two {_ALONG_X}")
