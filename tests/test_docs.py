@@ -12,7 +12,6 @@ from precision import precision_rows, production_rows
 from springblock import Material, Realisation
 from springblock.accuracy.page import page as accuracy_page
 from springblock.accuracy.stability.table import all_cases
-from springblock.beyond import QUESTIONS
 from springblock.beyond.page import page as beyond_page
 from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page
@@ -57,7 +56,7 @@ def test_the_page_on_statements_is_what_the_code_writes():
 
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
-    text = beyond_page(QUESTIONS, {})
+    text = beyond_page({})
     assert unmeasured(PAGES["beyond"], ("|", "**")) == unmeasured(text, ("|", "**"))
     assert "**Not answered**" not in PAGES["beyond"]
 

@@ -49,9 +49,3 @@ def test_lengths_are_compared_by_their_limits(difference, errors):
     (found,) = discrepancies(*tables)
     assert found.p_value == pytest.approx(2.0 * ndtr(-errors), rel=1e-5)
     assert bool(significant([found])) == (errors > 2.0)
-
-
-def test_a_study_is_not_apart_from_itself(rng):
-    table = realisations(rng)
-    assert len(discrepancies(table, table)) == 15
-    assert not significant(discrepancies(table, table))

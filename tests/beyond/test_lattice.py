@@ -6,8 +6,8 @@ import pytest
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.correlation import fit_tail
 from springblock.beyond.lattice import (
-    QUESTION,
     Layer,
+    answers,
     evenly_disordered,
     fits,
     layers,
@@ -88,7 +88,7 @@ def test_the_same_disorder_per_area_is_a_scatter_that_goes_with_one_over_the_spa
 def test_the_page_says_what_a_length_follows(monkeypatch):
     """A friction-minimising pillar that goes with the root of spacing times scatter, 60 µm."""
     monkeypatch.setattr("springblock.beyond.resampling._RESAMPLES", 200)
-    *sentences, table = QUESTION.answers(
+    *sentences, table = answers(
         lattices(sixty, lambda spacing, l_z, scatter: 60.0 * (spacing * scatter) ** 0.5, runs=12)
     )
     alike, even = (line for line in sentences if line.startswith("**friction-minimising pillar"))
@@ -101,4 +101,4 @@ def test_the_page_says_what_a_length_follows(monkeypatch):
 
 def test_two_lattices_are_too_few():
     made = lattices(sixty, sixty, runs=3)
-    assert not list(QUESTION.answers({s: r for s, r in made.items() if s.n_blocks != 96}))
+    assert not list(answers({s: r for s, r in made.items() if s.n_blocks != 96}))

@@ -20,7 +20,7 @@ def test_prominence_is_the_depth_between_two_hills():
 
 def test_the_page_counts_surfaces_with_more_along_than_across():
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
-    pillars, whole, hierarchy, table = peaks.QUESTION.answers(made)
+    pillars, whole, hierarchy, table = peaks.answers(made)
     assert "on 0 of 1 surfaces, less on 1" in pillars
     assert "on 1 of 1 surfaces, less on 0" in whole
     assert "in 0 of 1 cases, less in 1" in hierarchy
@@ -51,7 +51,7 @@ def test_what_size_and_contact_do_only_together_is_left():
 
 
 def test_the_page_has_the_lowest_friction_of_each_contact_fraction():
-    sentence, table = friction.QUESTION.answers(sizes_and_distances(together))
+    sentence, table = friction.answers(sizes_and_distances(together))
     assert "both added" in sentence
     places = [float(line.split("|")[4].split("[")[0]) for line in table.splitlines()[2:]]
     np.testing.assert_allclose(places, (3.0, 6.0, 12.0), rtol=0.05)

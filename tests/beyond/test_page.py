@@ -3,16 +3,16 @@
 import pytest
 
 from beyond.made_up import lean
-from springblock.beyond import QUESTIONS, clusters, friction, lattice, scatter, variance
-from springblock.beyond.page import page
+from springblock.beyond import clusters, friction, lattice, scatter, variance
+from springblock.beyond.page import QUESTIONS, page
 from springblock.beyond.question import by_scene
 from springblock.model.scene import Scene
 
 
 def test_questions_without_realisations_say_what_they_need():
-    text = page(QUESTIONS, {})
+    text = page({})
     assert text.count("**Not answered**: this needs the group") == len(QUESTIONS)
-    assert all(f"## {i}. {each.title}\n" in text for i, each in enumerate(QUESTIONS, 1))
+    assert all(f"## {i}. " in text for i in range(1, len(QUESTIONS) + 1))
 
 
 @pytest.mark.parametrize("surfaces", [friction.friction_map, lattice.layers, scatter.by_scatter])

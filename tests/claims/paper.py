@@ -49,6 +49,7 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     DEEP_ACROSS: (300.0, 0.70, 20.0, []),
 }
 
+#: Of grooved pillars that only statements on many lengths are tested on.
 SHORTER_CURVES = {
     SHORTER[0]: (300.0, 0.63, 6.0, [(247.0, 0.60)]),
     SHORTER[1]: (300.0, 0.61, 6.0, [(273.0, 0.59)]),
@@ -182,13 +183,8 @@ def evidence(records: Iterable[Record]) -> Evidence:
     )
 
 
-def as_in_the_paper() -> list[Record]:
-    return [record(scene, seed) for scene in CURVES for seed in SEEDS]
-
-
-def of_other_lengths() -> list[Record]:
-    """Grooved pillars that only statements on many lengths are tested on."""
-    return [record(scene, seed) for scene in SHORTER for seed in SEEDS]
+def realisations(scenes: Iterable[Scene]) -> list[Record]:
+    return [record(scene, seed) for scene in scenes for seed in SEEDS]
 
 
 def summaries() -> dict[Scene, list[Row]]:

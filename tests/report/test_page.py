@@ -14,9 +14,9 @@ from springblock.cli import main
 from springblock.io.records import read_records
 from springblock.model.scene import Scene
 from springblock.plotting import declarations
-from springblock.report import findings, markup, media, statements
+from springblock.report import findings, markup, media
 from springblock.report.markup import typeset
-from springblock.report.page import page
+from springblock.report.page import counted, page, statements
 
 
 def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
@@ -89,16 +89,16 @@ def test_statements_link_to_where_their_page_says_more():
     from springblock.claims.page import page as claims_page
 
     table = rows(CLAIMS, Evidence())
-    body = markup.rendered("claims", claims_page(table)).body
-    made = statements.statements(table)
-    assert statements.counted(made) == {"not tested": len(CLAIMS)}
-    assert all(f'id="{statement.anchor}"' in body for statement in made)
+    _, body = markup.rendered("claims", claims_page(table))
+    made = statements(table)
+    assert counted(made) == {"not tested": len(CLAIMS)}
+    assert all(f'id="{statement["anchor"]}"' in body for statement in made)
 
 
 def test_links_headings_and_symbols_of_a_page_are_set():
     """Links within it and headings become its own; symbols are set in words, not in code."""
     text = "# T\n\n[to](#the-end) [out](https://x.org) n_p, `n_p`\n\n## The end\n\n| l_c |\n|---|\n"
-    _, title, body = markup.rendered("a", text)
+    title, body = markup.rendered("a", text)
     assert title == "T"
     assert '<a href="#a-the-end">to</a>' in body
     assert '<h2 id="a-the-end">' in body
@@ -118,7 +118,7 @@ def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
     shown = markup.shown("t", table)
     assert shown.same == ["b = 5"]
-    assert [column.name for column in shown.columns] == ["a", "c"]
+    assert [column["name"] for column in shown.columns] == ["a", "c"]
     assert shown.rows == [["1", ""], ["2", "0.123457"]]
 
 

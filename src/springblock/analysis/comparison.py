@@ -1,12 +1,12 @@
 """Where two tables of realisations or correlations differ: row by row, or in their means."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 
+from springblock.io.rows import Row
 from springblock.model.scene import COLUMNS
 
 _KEYS = [*COLUMNS, "seed", "side", "r"]  #: what tells rows apart, where a table has it
@@ -49,12 +49,10 @@ def compare(first: pa.Table, second: pa.Table) -> Comparison:
     if first.column_names != second.column_names:
         odd = sorted({*first.column_names} ^ {*second.column_names})
         raise ValueError(f"they hold other columns: {', '.join(odd) or 'in another order'}")
-    places = [_places(table) for table in (first, second)]
-    common = [key for key in places[0] if key in places[1]]
-    rows = zip((first, second), places, strict=True)
-    ours, theirs = (
-        table.take(pa.array([place[key] for key in common], pa.int64())) for table, place in rows
-    )
+    places, others = _places(first), _places(second)
+    common = [key for key in places if key in others]
+    ours = first.take(pa.array([places[key] for key in common], pa.int64()))
+    theirs = second.take(pa.array([others[key] for key in common], pa.int64()))
     differences = [_difference(name, ours[name], theirs[name]) for name in first.column_names]
     return Comparison(
         len(common),
@@ -129,37 +127,32 @@ def significant(found: list[Discrepancy]) -> list[Discrepancy]:
 def _means(first: pa.Table, second: pa.Table) -> Iterator[Discrepancy]:
     from scipy.stats import ttest_ind  # slow to load
 
-    samples = [_by_scene(table) for table in (first, second)]
-    for scene in [scene for scene in samples[0] if scene in samples[1]]:
-        for name, one, other in zip(
-            _OBSERVABLES, *(each[scene].T for each in samples), strict=True
-        ):
-            one, other = one[np.isfinite(one)], other[np.isfinite(other)]
+    ours, theirs = (_by_key(table, COLUMNS) for table in (first, second))
+    for scene in [scene for scene in ours if scene in theirs]:
+        for name in _OBSERVABLES:
+            values = (np.array([row[name] for row in rows[scene]]) for rows in (ours, theirs))
+            one, other = (sample[np.isfinite(sample)] for sample in values)
             if min(len(one), len(other)) > 1 and np.ptp([*one, *other]) > 0.0:
                 p_value = ttest_ind(one, other, equal_var=False).pvalue
                 what = f"{name} of {_in_words(scene)}"
                 yield Discrepancy(what, one.mean(), other.mean(), float(p_value))
 
 
-def _by_scene(table: pa.Table) -> dict[Key, NDArray[np.float64]]:
-    """Observables of all realisations of each scene, (k, 5)."""
-    found: dict[Key, list[list[float]]] = {}
-    for row in table.select([*COLUMNS, *_OBSERVABLES]).to_pylist():
-        scene = tuple((name, row[name]) for name in COLUMNS)
-        found.setdefault(scene, []).append([row[name] for name in _OBSERVABLES])
-    return {scene: np.array(values) for scene, values in found.items()}
+def _by_key(table: pa.Table, keys: Iterable[str]) -> dict[Key, list[Row]]:
+    """Rows that hold the same values of these columns."""
+    found: dict[Key, list[Row]] = {}
+    for row in table.to_pylist():
+        found.setdefault(tuple((name, row[name]) for name in keys), []).append(row)
+    return found
 
 
 def _with_limits(first: pa.Table, second: pa.Table, value: str) -> Iterator[Discrepancy]:
     from scipy.special import ndtr, ndtri
 
     keys = [name for name in _KEYS if name in first.column_names]
-    rows, others = (
-        {tuple((key, row[key]) for key in keys): row for row in table.to_pylist()}
-        for table in (first, second)
-    )
-    for key in [key for key in rows if key in others]:
-        one, other = rows[key], others[key]
+    ours, theirs = (_by_key(table, keys) for table in (first, second))
+    for key in [key for key in ours if key in theirs]:
+        one, other = ours[key][0], theirs[key][0]
         difference = one[value] - other[value]
         halves = [0.5 * (row["ci_high"] - row["ci_low"]) for row in (one, other)]
         error = np.hypot(*halves) / ndtri(0.5 + 0.5 * _LEVEL)

@@ -18,7 +18,7 @@ Tibshirani 1993, doi:10.1201/9780429246593.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,10 +53,7 @@ def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
     place = (y + edges[:, None], x + along) if side == "x" else (y + along, x + edges[:, None])
     if not pattern.contact[place].all():
         raise ValueError(f"the pillars have no whole sides along {side}")
-    times = np.stack([run.t_det[place] for run in runs])
-    if not np.isfinite(times).all():
-        raise ValueError(f"some block of a side along {side} never detached; run for longer")
-    return times
+    return _times_of(runs, place, f"of a side along {side}")
 
 
 def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
@@ -78,9 +75,14 @@ def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
     beside = [edge for start, n in pawls for edge in (start, start + n - 1)][1:-1]
     y, x = pattern.origins.T[:, :, None, None]
     place = (y + np.array(beside)[:, None], x + np.arange(size))
+    return _times_of(runs, place, "beside a groove")
+
+
+def _times_of(runs: Sequence[Run], place: tuple[Any, Any], where: str) -> Array:
+    """First detachment times of some blocks, by run; all of them must have detached."""
     times = np.stack([run.t_det[place] for run in runs])
     if not np.isfinite(times).all():
-        raise ValueError("some block beside a groove never detached; run for longer")
+        raise ValueError(f"some block {where} never detached; run for longer")
     return times
 
 

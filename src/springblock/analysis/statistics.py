@@ -8,8 +8,7 @@ Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -46,12 +45,11 @@ def students_t(freedom: ArrayLike, level: float = _LEVEL) -> Array:
 def mean_interval(values: ArrayLike) -> Interval:
     """Mean over k realisations, (k, ...), with its 95 % interval of Student's t, (...).
 
-    A single realisation says nothing about its spread: its limits are NaN.
+    A single realisation says nothing about its spread: its limits are NaN, as Student's t is
+    without a degree of freedom.
     """
     values = np.asarray(values, dtype=float)
     mean = values.mean(axis=0)
-    if len(values) == 1:
-        return Interval(mean, np.full(mean.shape, np.nan), np.full(mean.shape, np.nan))
     half = students_t(len(values) - 1) * standard_error(values)
     return Interval(mean, mean - half, mean + half)
 
@@ -66,7 +64,7 @@ def difference_interval(first: ArrayLike, second: ArrayLike) -> Interval:
     mean = samples[0].mean() - samples[1].mean()
     sizes = np.array([len(sample) for sample in samples])
     if sizes.min() < 2:
-        return Interval(mean, np.array(np.nan), np.array(np.nan))
+        return Interval(mean, *np.full(2, np.nan))
     squares = np.array([standard_error(sample) for sample in samples]) ** 2
     error = squares.sum()
     freedom = error**2 / (squares**2 / (sizes - 1)).sum() if error > 0.0 else 1.0
@@ -86,35 +84,25 @@ def samples_interval(
     of two realisations or more, is resampled by itself, in batches that decide what is drawn.
     Limits are percentiles where no realisation alone changes anything.
     """
-    from scipy.stats import bootstrap  # slow to load, and most jobs do without
-
     samples = tuple(np.asarray(part) for part in samples)
-    options: dict[str, Any] = {"random_state": np.random.default_rng(0), "vectorized": True}
-    options |= {"n_resamples": resamples, "batch": batch, "confidence_level": _LEVEL}
-    with _degenerate_allowed():
-        found = bootstrap(samples, statistic, method="BCa", **options)
-    return _or_percentiles(np.asarray(statistic(*samples, axis=-1)), found)
+    options = {"random_state": np.random.default_rng(0), "n_resamples": resamples, "batch": batch}
+    return _bca(np.asarray(statistic(*samples, axis=-1)), samples, statistic, **options)
 
 
-@contextmanager
-def _degenerate_allowed() -> Iterator[None]:
-    """Without warnings where BCa limits do not exist."""
-    from scipy.stats import DegenerateDataWarning
+def _bca(
+    value: Array, samples: Sequence[Any], statistic: Callable[..., Array], **options: Any
+) -> Interval:
+    """A value with its BCa limits, or percentiles where these do not exist."""
+    from scipy.stats import DegenerateDataWarning, bootstrap  # slow to load
 
+    options |= {"method": "BCa", "vectorized": True, "confidence_level": _LEVEL}
     with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
         warnings.simplefilter("ignore", DegenerateDataWarning)
-        yield
-
-
-def _or_percentiles(value: Array, found: Any) -> Interval:
-    """A value with its BCa limits, or percentiles where these are NaN."""
+        found = bootstrap(samples, statistic, **options)
     tail = 50.0 * (1.0 - _LEVEL)
     plain = np.percentile(found.bootstrap_distribution, (tail, 100.0 - tail), axis=-1)
-    low, high = (
-        np.where(np.isnan(limit), percentile, limit)
-        for limit, percentile in zip(found.confidence_interval, plain, strict=True)
-    )
-    return Interval(value, low, high)
+    limits = np.asarray(found.confidence_interval)
+    return Interval(value, *np.where(np.isnan(limits), plain, limits))
 
 
 def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
@@ -142,26 +130,21 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     Limits are percentiles where leaving out any one realisation changes nothing, and NaN below
     three realisations.
     """
-    from scipy.stats import bootstrap  # slow to load, and most jobs do without
 
     def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
         flat = drawn.reshape(-1, drawn.shape[axis])
-        values = np.moveaxis(statistic(_weights_of(flat, k)), 0, -1)
+        values = np.moveaxis(statistic(weights_of(flat, k)), 0, -1)
         return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
 
     value = statistic(np.full((1, k), 1.0 / k))[0]
     if k < 3:
-        return Interval(value, np.full(value.shape, np.nan), np.full(value.shape, np.nan))
+        return Interval(value, *np.full((2, *value.shape), np.nan))
     resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
-    options: dict[str, Any] = {"vectorized": True, "n_resamples": 0, "bootstrap_result": given}
-    options |= {"confidence_level": _LEVEL}
-    with _degenerate_allowed():
-        found = bootstrap((np.arange(k),), of_drawn, method="BCa", **options)
-    return _or_percentiles(value, found)
+    return _bca(value, (np.arange(k),), of_drawn, n_resamples=0, bootstrap_result=given)
 
 
-def _weights_of(drawn: NDArray[np.intp], k: int) -> Array:
+def weights_of(drawn: NDArray[np.intp], k: int) -> Array:
     """Weights, (b, k), of the realisations in each of b draws of their numbers, (b, n)."""
     return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
 
@@ -260,13 +243,12 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
     cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
 
-    def continued(curves: Iterable[Array], value: float) -> Array:
-        gaps = [(0, len(time) - len(run.time)) for run in runs]
-        pairs = zip(curves, gaps, strict=True)
-        return np.stack([np.pad(curve, gap, constant_values=value) for curve, gap in pairs])
+    def continued(curve: Array, value: float) -> Array:
+        return np.pad(curve, (0, len(time) - len(curve)), constant_values=value)
 
-    forces = continued((friction(run) for run in runs), np.nan)
-    return Curve(time, forces, continued((percent(run, run.detachments) for run in runs), 0.0))
+    forces = np.stack([continued(friction(run), np.nan) for run in runs])
+    counts = np.stack([continued(percent(run, run.detachments), 0.0) for run in runs])
+    return Curve(time, forces, counts)
 
 
 def mean_of_rest(values: Array) -> Interval:
@@ -295,9 +277,9 @@ def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
     """
     if not pattern.levels:
         raise ValueError("a flat surface has no pillar to average over")
-    size = pattern.levels[0].size
-    rows, columns = (pattern.origins[:, axis, None] + np.arange(size) for axis in (0, 1))
-    pillars = rows[:, :, None], columns[:, None, :]
+    along = np.arange(pattern.levels[0].size)
+    y, x = pattern.origins.T[:, :, None, None]
+    pillars = y + along[:, None], x + along
     return np.stack([(run.t_det[pillars] / run.t_max).mean(axis=0) for run in runs])
 
 

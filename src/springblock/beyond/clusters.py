@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.statistics import Interval, cluster_sizes, mean_interval
-from springblock.beyond.question import Ensembles, Question, is_even, number
+from springblock.beyond.question import Ensembles, is_even, number
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
 
 Mask = NDArray[np.bool_]
-_SHUFFLES = 20
+NEEDS = "groups flat, pillars and grooves"
+SHUFFLES = 20
 _GROOVED = (58, 8, 0)  #: n_p, n_p2 and n_p3 of the paper's grooved pillars
 
 
@@ -42,14 +43,12 @@ def mixed(masks: Sequence[Mask], rng: np.random.Generator) -> list[Mask]:
 
 
 class Clusters(NamedTuple):
-    """Clusters of precursors of an ensemble; mean sizes in blocks."""
+    """Clusters of precursors of an ensemble."""
 
     share: Interval  #: of the blocks in contact that detach before t_max
-    observed: Interval
-    shuffled: Interval  #: of as many blocks anywhere in contact
-    mixed: Interval  #: of blocks in the same places, each from another realisation
-    ratio: Interval  #: observed over shuffled
-    ratio_mixed: Interval  #: observed over mixed
+    observed: Interval  #: mean size, blocks
+    ratio: Interval  #: of that to the size if as many blocks were anywhere in contact
+    ratio_mixed: Interval  #: if they were in the same places, each from another realisation
 
 
 def clusters(runs: Sequence[Record]) -> Clusters:
@@ -57,17 +56,13 @@ def clusters(runs: Sequence[Record]) -> Clusters:
     rng, contact = np.random.default_rng(0), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
     observed = np.array([mean_size(mask) for mask in masks])
-    anywhere = np.array(
-        [
-            np.mean([mean_size(shuffled(mask, contact, rng)) for _ in range(_SHUFFLES)])
-            for mask in masks
-        ]
-    )
-    deals = [[mean_size(mask) for mask in mixed(masks, rng)] for _ in range(_SHUFFLES)]
+    deals = [[mean_size(shuffled(mask, contact, rng)) for _ in range(SHUFFLES)] for mask in masks]
+    anywhere = np.array([np.mean(sizes) for sizes in deals])
+    deals = [[mean_size(mask) for mask in mixed(masks, rng)] for _ in range(SHUFFLES)]
     in_place = np.mean(deals, axis=0)
     share = np.array([mask[contact].mean() for mask in masks])
-    found = (share, observed, anywhere, in_place, observed / anywhere, observed / in_place)
-    return Clusters(*(mean_interval(values) for values in found))
+    found = share, observed, observed / anywhere, observed / in_place
+    return Clusters(*map(mean_interval, found))
 
 
 def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
@@ -86,35 +81,25 @@ def _is_one(scene: Scene) -> bool:
     return not scene.level or is_even(scene) or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
 
 
-def _answers(ensembles: Ensembles) -> Iterator[str]:
+def answers(ensembles: Ensembles) -> Iterator[str]:
+    """Sentences and a table in Markdown; none without what `NEEDS` names."""
     found = {scene: clusters(runs) for scene, runs in surfaces(ensembles).items()}
     if not found:
         return
-    for words, which in (
-        ("as many blocks anywhere", "ratio"),
-        ("blocks of the same places", "ratio_mixed"),
+    for words, ratios in (
+        ("as many blocks anywhere", [each.ratio for each in found.values()]),
+        ("blocks of the same places", [each.ratio_mixed for each in found.values()]),
     ):
-        above = sum(bool(getattr(each, which).low > 1.0) for each in found.values())
+        above = sum(bool(ratio.low > 1.0) for ratio in ratios)
         yield (
             f"**Larger than by chance**, of {words}, are clusters on {above} of {len(found)} "
             "surfaces."
         )
-    header = [
-        "surface",
-        "detached before t_max",
-        "mean cluster (blocks)",
-        "over anywhere",
-        "over same places",
-    ]
+    header = ["surface", "detached before t_max", "mean cluster (blocks)"]
+    header += ["over anywhere", "over same places"]
     lines = [
-        [
-            name(scene),
-            number(each.share, " %", 100.0),
-            number(each.observed),
-            number(each.ratio),
-            number(each.ratio_mixed),
-        ]
-        for scene, each in found.items()
+        [name(scene), number(share, " %", 100.0), *map(number, sizes)]
+        for scene, (share, *sizes) in found.items()
     ]
     yield markdown_table(header, lines)
 
@@ -123,17 +108,3 @@ def name(scene: Scene) -> str:
     """Name a surface for readers."""
     lengths = ", ".join(f"{key} = {length}" for key, length in scene.lengths.items())
     return f"{lengths or 'flat'}, {scene.direction}" if scene.n_p2 else lengths or "flat"
-
-
-QUESTION = Question(
-    "Do precursors come in clusters?",
-    f"""Precursors are blocks that detach for the first time before the force maximum; those next to
-each other along x or y, 4 neighbours, belong to one cluster. The mean size is that of the cluster
-that a precursor belongs to. Chance has two meanings. Anywhere: as many blocks, shuffled over all
-that are in contact. Same places: every block keeps how often it is a precursor, but in each
-realisation its state is that of another realisation, so that only company is lost; edges of
-pillars, which always let go first, make clusters that way, too. Both are averaged over
-{_SHUFFLES} shuffles, and ratios are taken run by run.""",
-    "groups flat, pillars and grooves",
-    _answers,
-)

@@ -7,11 +7,12 @@ from fractions import Fraction
 import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval, standard_error
-from springblock.beyond.question import Ensembles, Question, has_pillars_alone, number
+from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
 from springblock.beyond.resampling import interval, lowest_place, means
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array, Run
 
+NEEDS = "group friction"
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
 _FEWEST = 3  #: sizes with a minimum between them
@@ -19,13 +20,12 @@ _FEWEST = 3  #: sizes with a minimum between them
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
     """Static friction by pillars, on the size of surface that has most of them."""
-    found: dict[int, dict[Pillars, Array]] = {}
-    for scene, runs in ensembles.items():
-        if has_pillars_alone(scene) and not scene.varied:
-            at = found.setdefault(scene.n_blocks, {})
-            at[scene.n_p, scene.n_s] = static_friction(runs)
-    most = max(found.values(), key=len, default={})
-    return dict(sorted(most.items()))
+    found = grouped(
+        (scene.n_blocks, (scene.n_p, scene.n_s), static_friction(runs))
+        for scene, runs in ensembles.items()
+        if has_pillars_alone(scene) and not scene.varied
+    )
+    return max(found.values(), key=len, default={})
 
 
 def static_friction(runs: Sequence[Run]) -> Array:
@@ -40,12 +40,8 @@ def distance(pillars: Pillars) -> Fraction:
 
 def families(found: Map) -> dict[Fraction, dict[int, Array]]:
     """Static friction by n_s/n_p and n_p, where three sizes or more are as far apart."""
-    by_distance: dict[Fraction, dict[int, Array]] = {}
-    for pillars, values in sorted(found.items()):
-        by_distance.setdefault(distance(pillars), {})[pillars[0]] = values
-    return {
-        key: by_distance[key] for key in sorted(by_distance) if len(by_distance[key]) >= _FEWEST
-    }
+    sizes = grouped((distance(at), at[0], values) for at, values in found.items())
+    return {key: sizes[key] for key in sorted(sizes) if len(sizes[key]) >= _FEWEST}
 
 
 def crossed(found: Map) -> dict[Pillars, Array]:
@@ -93,7 +89,8 @@ def residuals(found: Map) -> dict[Pillars, float]:
     return dict(zip(found, left.tolist(), strict=True))
 
 
-def _answers(ensembles: Ensembles) -> Iterator[str]:
+def answers(ensembles: Ensembles) -> Iterator[str]:
+    """Sentences and a table in Markdown; none without what `NEEDS` names."""
     whole = friction_map(ensembles)
     found = crossed(whole)
     freedom = len(found) - np.linalg.matrix_rank(designs(list(found))["both"]) if found else 0
@@ -110,25 +107,15 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
         f"(over {freedom} degrees of freedom), where means have a standard error of {scatter:.4f}."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
-    yield markdown_table(header, [_cells(kind, sizes) for kind, sizes in families(whole).items()])
+    lines = []
+    for kind, sizes in families(whole).items():
+        contact = f"{1.0 / float(1 + kind) ** 2:.1%}"
+        limits = f"{min(sizes)} to {max(sizes)}"
+        lines.append([str(kind), contact, limits, *lowest_in_words(sizes)])
+    yield markdown_table(header, lines)
 
 
-def _cells(kind: Fraction, sizes: Mapping[int, Array]) -> list[str]:
-    contact = 1.0 / float(1 + kind) ** 2
+def lowest_in_words(sizes: Mapping[int, Array]) -> list[str]:
+    """Write the friction-minimising n_p and the lowest friction, from samples by n_p."""
     lowest = min(sizes.values(), key=lambda values: float(values.mean()))
-    place, friction = number(lowest_place(sizes)), number(mean_interval(lowest))
-    return [str(kind), f"{contact:.1%}", f"{min(sizes)} to {max(sizes)}", place, friction]
-
-
-QUESTION = Question(
-    "Size of pillars or contact fraction?",
-    """The paper varies n_p with n_s, so that size alone changes; pillars further apart carry more
-load each, and cover less. Here both vary at the same total load. Contact fraction is
-(n_p/(n_p + n_s))². Two factors describe static friction if it is a number for each size plus one
-for each contact fraction, fitted to the mean of every surface whose size and whose contact fraction
-others have, too. What they leave is held against the standard error of the means: more than that
-is what size and contact fraction do only together. The friction-minimising n_p is the lowest point
-of the parabola through the lowest mean and its neighbours over log(n_p).""",
-    "group friction",
-    _answers,
-)
+    return [number(lowest_place(sizes)), number(mean_interval(lowest))]

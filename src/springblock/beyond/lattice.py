@@ -9,7 +9,7 @@ import numpy as np
 from springblock.analysis.correlation import fit_tail, side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, Question, is_even, number, power
+from springblock.beyond.question import Ensembles, grouped, is_even, number, power
 from springblock.beyond.resampling import (
     FEWEST,
     LengthFit,
@@ -26,6 +26,7 @@ from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array
 
+NEEDS = "groups lattice, disorder and layer"
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "step"}
 _SHORTEST = 3  #: distances that a fit of two unknowns needs
@@ -45,19 +46,19 @@ Surfaces = Mapping[Layer, Sizes]
 
 def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
     """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer."""
-    found: dict[float, dict[Layer, dict[float, Sequence[Record]]]] = {}
+    items = []
     for scene, runs in ensembles.items():
-        if not is_even(scene, _VARIED):
-            continue
-        material = runs[0].material
-        spacing, thickness = (
-            round(MICRO * length, 6) for length in (material.spacing, material.thickness)
-        )
-        side = found.setdefault(round(scene.n_blocks * spacing, 6), {})
-        at = Layer(spacing, thickness, material.mu_static_std)
-        side.setdefault(at, {})[scene.n_p * spacing] = runs
-    most = max(found.values(), key=len, default={})
-    return {at: dict(sorted(most[at].items())) for at in sorted(most)}
+        if is_even(scene, _VARIED):
+            material = runs[0].material
+            spacing, thickness = (
+                round(MICRO * length, 6) for length in (material.spacing, material.thickness)
+            )
+            side = round(scene.n_blocks * spacing, 6)
+            at = Layer(spacing, thickness, material.mu_static_std)
+            items.append(((side, at), scene.n_p * spacing, runs))
+    sizes = grouped(items)
+    found: dict[float, dict[Layer, Sizes]] = grouped((*place, sizes[place]) for place in sizes)
+    return max(found.values(), key=len, default={})
 
 
 def usual(surfaces: Surfaces) -> Layer:
@@ -125,7 +126,8 @@ _LENGTHS: dict[str, LengthFit] = {"l_c": fit_tail, "area below c(r)": area}
 _MINIMUM = "friction-minimising pillar"
 
 
-def _answers(ensembles: Ensembles) -> Iterator[str]:
+def answers(ensembles: Ensembles) -> Iterator[str]:
+    """Sentences and a table in Markdown; none without what `NEEDS` names."""
     surfaces = {at: sizes for at, sizes in layers(ensembles).items() if len(sizes) >= _SHORTEST}
     if not surfaces:
         return
@@ -190,23 +192,3 @@ def _cells(at: Layer, sizes: Sizes, lengths: Mapping[str, Mapping[Layer, SideLen
     cells = [number(length.interval, factor=at.spacing) if length else "" for length in each]
     fewest = min(len(runs) for runs in sizes.values())
     return [*(f"{value:g}" for value in at), *cells, number(minimum(sizes)), str(fewest)]
-
-
-QUESTION = Question(
-    "Lattice or layer?",
-    """The lattice is refined at one size in metres and one load, 0.6 mm wide, with pillars of 20 to
-300 µm, n_s = n_p; then the layer's thickness l_z is varied on the paper's lattice. A length of
-physics follows l_z, the only other length of the layer; one that follows the spacing l predicts
-nothing. Thresholds are drawn block by block, so that the correlation length of the disorder is l
-itself: a refined lattice is a finer disorder, too, and less of it over a length l_z. It is refined
-a second time with the same disorder per area: over a square of side l_z the mean of independent
-thresholds scatters with their scatter times l/l_z, so that scatter goes with 1/l. l_c is that
-of A exp(-r/l_c), fitted to c_x(r) from one block to a third of the side, in metres the same on
-every lattice. The area below c_x(r) over the same range is a length that needs no fit, but it holds
-c(0) = 1, one block wide. The friction-minimising pillar is where the parabola through the lowest
-mean static friction and its neighbours, over the logarithm of size, is lowest: sizes are few, and
-what lies between them is interpolated. Where friction is lowest at an end of the sizes it is only
-bounded, and left out of the exponents.""",
-    "groups lattice, disorder and layer",
-    _answers,
-)

@@ -1,17 +1,17 @@
 """Load peaks over the grooves' widths and the sliding direction, with pillars and without."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from springblock.analysis.statistics import Interval, lesser_prominence, mean_interval
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, grouped, number
 from springblock.beyond.resampling import difference
 from springblock.io.rows import markdown_table
-from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run, friction
 
+NEEDS = "groups peaks and grooves"
 _ANGLES = {"x": 0.0, "y": 90.0}  #: degrees from grooves along x
 
 
@@ -34,45 +34,42 @@ def prominences(runs: Sequence[Run]) -> Array:
 
 
 def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Array]]:
-    """Prominences in %, by widths and by the angle between sliding and grooves."""
-    found: dict[Grooves, dict[float, Array]] = {}
-    for scene, runs in ensembles.items():
-        if _is_one(scene):
-            angles = found.setdefault(Grooves(scene.n_p, scene.n_s2, scene.n_p2), {})
-            angles[angle(scene.direction)] = prominences(runs)
-    return {grooves: dict(sorted(found[grooves].items())) for grooves in sorted(found)}
+    """Prominences in %, by widths and by the angle between sliding and grooves.
+
+    Of grooves alone and grooves on pillars, of the study's material.
+    """
+    found = grouped(
+        (Grooves(scene.n_p, scene.n_s2, scene.n_p2), angle(scene.direction), prominences(runs))
+        for scene, runs in ensembles.items()
+        if scene.n_p2 and not scene.n_p3 and not scene.varied
+    )
+    return dict(sorted(found.items()))
 
 
-def _is_one(scene: Scene) -> bool:
-    """Whether it has grooves alone or grooves on the paper's pillars, of the study's material."""
-    return bool(scene.n_p2) and not scene.n_p3 and not scene.varied
-
-
-def along_and_across(angles: Mapping[float, Array]) -> Interval:
-    """Prominence along the grooves minus that across them, %."""
-    return difference(angles[0.0], angles[90.0])
-
-
-def _answers(ensembles: Ensembles) -> Iterator[str]:
-    found = {
-        key: angles for key, angles in by_grooves(ensembles).items() if {0.0, 90.0} <= {*angles}
-    }
+def answers(ensembles: Ensembles) -> Iterator[str]:
+    """Sentences and a table in Markdown; none without what `NEEDS` names."""
+    found = {at: angles for at, angles in by_grooves(ensembles).items() if {0.0, 90.0} <= {*angles}}
     if not found:
         return
-    shown = sorted({angle for angles in found.values() for angle in angles})
-    shown = [angle for angle in shown if all(angle in angles for angles in found.values())]
-    contrasts = {key: along_and_across(angles) for key, angles in found.items()}
+    shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
+    contrasts = {key: difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
     for words, keys in (
         ("on pillars", [key for key in found if key.n_p]),
         ("over the whole surface", [key for key in found if not key.n_p]),
     ):
-        more = sum(bool(contrasts[key].low > 0.0) for key in keys)
-        less = sum(bool(contrasts[key].high < 0.0) for key in keys)
+        more, less = _told_apart([contrasts[key] for key in keys])
         yield (
             f"**Grooves {words}**: the lesser load peak is more prominent along the grooves than "
             f"across them on {more} of {len(keys)} surfaces, less on {less}."
         )
-    yield from _hierarchy(found)
+    pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
+    on_pillars = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
+    if on_pillars:
+        more, less = _told_apart(on_pillars)
+        yield (
+            "**Hierarchy**: along the same grooves it is more prominent on pillars than over the "
+            f"whole surface in {more} of {len(on_pillars)} cases, less in {less}."
+        )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
     for key, angles in found.items():
@@ -81,28 +78,8 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
     yield markdown_table(header, lines)
 
 
-def _hierarchy(found: Mapping[Grooves, Mapping[float, Array]]) -> Iterator[str]:
-    """What pillars do to the same grooves, when sliding along them."""
-    pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
-    contrasts = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
-    if contrasts:
-        more = sum(bool(each.low > 0.0) for each in contrasts)
-        less = sum(bool(each.high < 0.0) for each in contrasts)
-        yield (
-            "**Hierarchy**: along the same grooves it is more prominent on pillars than over the "
-            f"whole surface in {more} of {len(contrasts)} cases, less in {less}."
-        )
-
-
-QUESTION = Question(
-    "When has sliding two load peaks?",
-    """A load peak is a maximum of the force that reaches 90 % of the largest. Its prominence is how
-far the force falls before it rises to a higher one, in percent of the largest force, run by run;
-that of the second most prominent peak is shown, 0 where there is one peak alone. Grooves are n_s2
-blocks wide and pawls n_p2, on pillars of n_p blocks (0: over the whole surface), at angles between
-sliding direction and grooves. A prominence cannot be negative: small ones are what scatter leaves,
-and the difference between the directions along and across says more. Its interval is that of one
-surface; of many surfaces a few differ by chance.""",
-    "groups peaks and grooves",
-    _answers,
-)
+def _told_apart(differences: Sequence[Interval]) -> tuple[int, int]:
+    """Count differences above zero and below it, by their intervals."""
+    above = [bool(each.low > 0.0) for each in differences]
+    below = [bool(each.high < 0.0) for each in differences]
+    return sum(above), sum(below)

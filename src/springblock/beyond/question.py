@@ -1,7 +1,8 @@
-"""What a question is, and how its numbers are written."""
+"""Realisations that questions are about, and how numbers are written."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from operator import attrgetter, itemgetter
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -11,29 +12,30 @@ from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most
 
+T = TypeVar("T")
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
 
 
-@dataclass(frozen=True)
-class Question:
-    """What is asked, how it is measured, and what answers it."""
-
-    title: str
-    method: str  #: in Markdown
-    needs: str  #: what must have been simulated
-    answers: Callable[[Ensembles], Iterator[str]]  #: sentences and tables, in Markdown
-
-
-def by_scene(records: Sequence[Record]) -> dict[Scene, list[Record]]:
-    """Realisations of each scene, in the order in which the scenes come.
+def by_scene(
+    items: Iterable[T], scene_of: Callable[[T], Scene] = attrgetter("scene")
+) -> dict[Scene, list[T]]:
+    """Realisations, or rows of tables, of each scene, in the order in which the scenes come.
 
     Those on surfaces that the paper could not have are left out.
     """
-    found: dict[Scene, list[Record]] = {}
-    for record in records:
-        if record.scene.is_papers:
-            found.setdefault(record.scene, []).append(record)
+    found: dict[Scene, list[T]] = {}
+    for item in items:
+        if (scene := scene_of(item)).is_papers:
+            found.setdefault(scene, []).append(item)
     return found
+
+
+def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
+    """Values by a first key, as they come, and by a second key, in its order."""
+    found: dict[Any, dict[Any, T]] = {}
+    for first, second, value in items:
+        found.setdefault(first, {})[second] = value
+    return {first: dict(sorted(found[first].items(), key=itemgetter(0))) for first in found}
 
 
 def has_pillars_alone(scene: Scene) -> bool:

@@ -12,7 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.correlation import Correlation, fit_tail
-from springblock.analysis.statistics import Interval, bootstrap_weights, samples_interval
+from springblock.analysis.statistics import (
+    Interval,
+    bootstrap_weights,
+    samples_interval,
+    weights_of,
+)
 from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
@@ -39,26 +44,19 @@ def difference(first: Array, second: Array) -> Interval:
     return interval((first, second), lambda a, b, axis: a.mean(axis=axis) - b.mean(axis=axis))
 
 
-def slopes(rates: Array) -> Array:
-    """Turn values, (places, ...), into least-squares exponents, (exponents, places).
-
-    `rates`, (places, exponents), are logarithms of what varies; a constant is fitted beside. The
-    exponents of values v are `slopes(rates) @ log(v)`.
-    """
-    design = np.column_stack([np.ones(len(rates)), rates])
-    return np.linalg.pinv(design)[1:]
-
-
 def exponents(rates: Array, samples: Sequence[Sample], values: Statistic) -> list[Interval]:
     """Exponents of values that go with powers of what varies, of which `rates` are logarithms.
 
-    `rates` are (places, exponents). `values` takes all samples and returns (..., places).
+    `rates` are (places, exponents). `values` takes all samples and returns (..., places). The
+    exponents are slopes by least squares, with a constant beside them.
     """
+    design = np.column_stack([np.ones(len(rates)), rates])
+    slopes = np.linalg.pinv(design)[1:]
 
     def exponent(*drawn: Sample, axis: int, slope: Array) -> Array:
         return np.log(values(*drawn, axis=axis)) @ slope
 
-    return [interval(samples, partial(exponent, slope=slope)) for slope in slopes(rates)]
+    return [interval(samples, partial(exponent, slope=slope)) for slope in slopes]
 
 
 def lowest(places: Array, heights: Array) -> Array:
@@ -119,11 +117,9 @@ class SideLength:
         return self._found.weighted(weights)[:, 1 : self._last + 1]
 
     def __call__(self, drawn: NDArray[np.intp]) -> Array:
-        k = len(self.realisations)
         draws, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
-        weights = np.stack([np.bincount(numbers, minlength=k) for numbers in draws])
-        lengths = self._fit(self._curve(weights / draws.shape[1]), self._error)
-        return lengths[which].reshape(drawn.shape[:-1])
+        weights = weights_of(draws, len(self.realisations))
+        return self._fit(self._curve(weights), self._error)[which].reshape(drawn.shape[:-1])
 
     @property
     def interval(self) -> Interval:

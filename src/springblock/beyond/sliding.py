@@ -3,27 +3,27 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from springblock.analysis.correlation import Correlation, groove_times, side_times
+from springblock.analysis.correlation import LAST, Correlation, groove_times, side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.peaks import angle
-from springblock.beyond.question import Ensembles, Question, number
+from springblock.beyond.question import Ensembles, grouped, number
 from springblock.beyond.resampling import FEWEST, SideLength
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-LAST = 6  #: blocks, the end of all fits here
+NEEDS = "groups grooves and angles"
 _FAR = 3  #: blocks, the paper's lower bound of l_c
 
 
 def by_angle(ensembles: Ensembles) -> dict[float, Sequence[Record]]:
     """Realisations by angle between sliding and grooves, of the pattern with most angles."""
-    found: dict[Scene, dict[float, Sequence[Record]]] = {}
-    for scene, runs in ensembles.items():
-        if scene.n_p and scene.n_p2 and not scene.n_p3 and not scene.varied:
-            found.setdefault(replace(scene, direction="x"), {})[angle(scene.direction)] = runs
-    return dict(sorted(max(found.values(), key=len, default={}).items()))
+    found = grouped(
+        (replace(scene, direction="x"), angle(scene.direction), runs)
+        for scene, runs in ensembles.items()
+        if scene.n_p and scene.n_p2 and not scene.n_p3 and not scene.varied
+    )
+    return max(found.values(), key=len, default={})
 
 
 def edges(runs: Sequence[Record]) -> dict[str, Array]:
@@ -37,18 +37,19 @@ def at(times: Array, r: int) -> Interval:
     return Interval(*(limit[r] for limit in Correlation(times).interval))
 
 
-def _answers(ensembles: Ensembles) -> Iterator[str]:
+def answers(ensembles: Ensembles) -> Iterator[str]:
+    """Sentences and a table in Markdown; none without what `NEEDS` names."""
     found = {at: runs for at, runs in by_angle(ensembles).items() if len(runs) >= FEWEST}
     if len(found) < 3:
         return
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "l_c (blocks)", "realisations"]
-    lines, places = [], {degrees: edges(runs) for degrees, runs in found.items()}
+    places = {degrees: edges(runs) for degrees, runs in found.items()}
+    lines = []
     for edge in ("sides", "grooves"):
         for degrees, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
             length = number(SideLength(times[edge], LAST).interval)
-            count = str(len(found[degrees]))
-            lines.append([edge, f"{degrees:g}°", close, far, length, count])
+            lines.append([edge, f"{degrees:g}°", close, far, length, str(len(found[degrees]))])
     for edge in ("sides", "grooves"):
         low, high = (at(places[degrees][edge], _FAR) for degrees in (min(places), max(places)))
         apart = "below" if high.high < low.low else "not told apart from"
@@ -57,13 +58,3 @@ def _answers(ensembles: Ensembles) -> Iterator[str]:
             f"{number(low)} when sliding along them."
         )
     yield markdown_table(header, lines)
-
-
-QUESTION = Question(
-    "Does correlation need sliding along the edge?",
-    f"""c(r) of first detachment times along the sides of grooved pillars and along the edges of the
-grooves within them, by the angle between sliding direction and grooves. The paper has it along and
-across. l_c is that of A exp(-r/l_c), fitted from r = 1 to {LAST} blocks everywhere.""",
-    "groups grooves and angles",
-    _answers,
-)

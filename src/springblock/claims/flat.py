@@ -1,37 +1,57 @@
-"""Flat surfaces: isolated precursors anywhere, then the front (section 3.1 of the paper)."""
+"""The method, and flat surfaces: isolated precursors, then the front (sections 2 and 3.1)."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from springblock.accuracy.conventions import PAPER_STEP, ensemble_error
 from springblock.analysis.estimate import Estimate
-from springblock.analysis.statistics import bootstrap_interval, repeatability
+from springblock.analysis.statistics import bootstrap_interval, cluster_sizes, repeatability
 from springblock.claims import ranges
 from springblock.claims.ranges import INF, within
 from springblock.claims.rule import Evidence, Finding, Range, claim
 from springblock.claims.samples import (
     Quantity,
+    along_x,
     before_peak,
     first_patch,
     found_on,
+    from_edge,
+    in_files,
     in_table,
+    interval,
     isolated,
+    lags,
+    magnitude,
     mean,
     means_of_runs,
     neighbours,
-    over_rows,
     over_runs,
     place,
+    position,
     rates,
-    scenes_along_x,
+    relative,
+    relative_lag,
     share_of,
+    static_friction,
 )
 from springblock.io.records import Record
+from springblock.io.rows import select
 from springblock.model.asperities import draw_friction
+from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
+_FRONT = 20  #: blocks that detach side by side before they count as a front
+_LATE = 1e-6  #: s after t_max at which fronts are counted
+_AFFECTS = 0.1  #: change in proportion that is an effect
+_ALIKE = 0.05  #: change in proportion that leaves results the same
+_SLIDING = 1.15  #: t/t_avg from which on the surface slides as a whole
+_LOADED = "flat surfaces with other constants"
+#: Constants that the paper says affect the number of fronts.
+_DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 _EARLY = 0.9  #: of t_max
 _CORE = 10  #: blocks from the edges of the surface to its core
 _SMALL = 0.2  #: difference in standard deviations that is called small (Cohen 1988)
@@ -41,12 +61,151 @@ _BURST = 0.02  #: of t_max, over which detachments are counted
 _FLAT = "realisations of the flat surface"
 
 
+@claim("A step of 1e-8 s suffices", "2", 1, "the table `work_precision`")
+def step_suffices(evidence: Evidence) -> Iterator[Finding]:
+    """h = 1e-8 s reduces integration errors under the statistical uncertainty.
+
+    Tested: bias within one standard error of an ensemble of 20, on small surfaces.
+    """
+    for row in select(evidence.precision, step=PAPER_STEP, comparison="paired"):
+        keys = {key: row[key] for key in ("scene", "quantity")}
+        scatter = select(evidence.precision, comparison="scatter", **keys)
+        if scatter:
+            yield Finding(
+                {"integrator": row["integrator"], **keys},
+                f"relative bias at h = {PAPER_STEP:.0e} s",
+                interval(row, "error"),
+                within(ensemble_error(scatter[0])),
+                f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}",
+            )
+
+
+def varied(evidence: Evidence, *names: str) -> list[Scene]:
+    """Flat surfaces with these constants, and no others but the step, of their own; in order."""
+    size = _paper(evidence).n_blocks
+    found = [s for s in evidence.records if not s.level and s.n_blocks == size]
+    alike = [s for s in found if {name for name, _ in s.varied} - {"step"} == set(names)]
+    return sorted(alike, key=lambda scene: scene.varied)
+
+
+def _paper(evidence: Evidence) -> Scene:
+    """The flat surface, with the study's constants, of the size whose constants are varied."""
+    sizes = [s.n_blocks for s in evidence.records if not s.level and s.varied]
+    return Scene(max(sizes, default=1))
+
+
+def swing(run: Run) -> float:
+    """Root mean square of the force about its mean while the surface slides, over that mean."""
+    force = run.force[run.time > _SLIDING * run.t_avg]
+    return float(force.std() / force.mean()) if len(force) > 1 else float("nan")
+
+
+@claim("Damping removes oscillations", "2", 1, f"{_LOADED}, one of them without damping")
+def damping(evidence: Evidence) -> Iterator[Finding]:
+    """A viscous damping force is added to eliminate artificial block oscillations.
+
+    Tested: with it, the force swings less than half as much while the surface slides, after 1.15
+    t_avg.
+    """
+    flat = _paper(evidence)
+    for scene in varied(evidence, "gamma"):
+        if dict(scene.varied)["gamma"] == 0.0 and flat in evidence.records:
+            damped, free = (over_runs(swing, evidence.records[s]) for s in (flat, scene))
+            yield Finding(
+                {"N": scene.n_blocks},
+                "swing of the force while sliding, with damping over without",
+                position(damped, np.zeros(len(free)), free),
+                ranges.FEWER_THAN_HALF,
+                in_files(flat, scene),
+            )
+
+
+@claim("Only the ratio of modulus and pressure matters", "2", 1, f"{_LOADED} at the same ratio")
+def same_ratio(evidence: Evidence) -> Iterator[Finding]:
+    """The relevant parameter is the ratio between Young's modulus and applied pressure; results are
+    qualitatively the same for larger moduli, if the pressure is also increased.
+
+    Tested: static friction within 5 %, and t_max < t_avg.
+    """
+    flat = _paper(evidence)
+    scenes = varied(evidence, "youngs_modulus", "pressure")
+    for scene in scenes if flat in evidence.records else ():
+        constants = dict(scene.varied)
+        case = {"E in Pa": constants["youngs_modulus"], "P in Pa": constants["pressure"]}
+        own, paper = (over_runs(static_friction, evidence.records[s]) for s in (scene, flat))
+        yield Finding(
+            case,
+            "static friction minus that of the paper's material, over the latter",
+            relative(own, paper, paper),
+            within(_ALIKE),
+            in_files(scene, flat),
+        )
+        lag = mean(over_runs(relative_lag, evidence.records[scene]))
+        yield Finding(case, "(t_max - t_avg)/t_max", lag, ranges.NEGATIVE, in_files(scene))
+
+
+def fronts(run: Run) -> float:
+    """Number of fronts just after t_max."""
+    sizes = cluster_sizes(run.t_det <= run.t_max + _LATE, by_corners=True)  # NaN: never
+    return float(np.count_nonzero(sizes > _FRONT))
+
+
+@claim("Velocity, pressure and scatter affect the number of fronts", "3.1", 2, _LOADED)
+def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
+    """Parameters like the slider velocity, pressure, or statistical distributions of the local
+    friction coefficients all affect the number of wave fronts.
+
+    Tested: clusters of more than 20 detached blocks 1 µs after t_max; their number changes by a
+    tenth or more of the paper's.
+    """
+    flat = _paper(evidence)
+    for name in _DECISIVE:
+        scenes = varied(evidence, name)
+        if len(scenes) < 2 or flat not in evidence.records:
+            continue
+        chosen = scenes[0], scenes[-1], flat
+        low, high = (dict(scene.varied)[name] for scene in chosen[:2])
+        yield Finding(
+            {"constant": name},
+            f"change of the number of fronts from {low:g} to {high:g}, over that of the paper's",
+            magnitude(relative(*(over_runs(fronts, evidence.records[s]) for s in chosen))),
+            (_AFFECTS, ranges.INF),
+            in_files(*chosen),
+        )
+
+
+def first_front(run: Run) -> float:
+    """Time at which the first front begins over t_max; by bisection, since clusters only grow."""
+
+    def has_front(time: float) -> bool:
+        return bool(cluster_sizes(run.t_det <= time, by_corners=True).max() > _FRONT)
+
+    times = np.sort(run.t_det[np.isfinite(run.t_det)])
+    return float(times[bisect_left(times[:-1], True, key=has_front)]) / run.t_max
+
+
+@claim("Fronts begin at t_max whatever the loading", "3.1", 2, _LOADED)
+def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
+    """In any case the time instant t_max corresponds to the onset of propagation.
+
+    Tested: the first cluster of more than 20 blocks has formed within a tenth of t_max.
+    """
+    for name in _DECISIVE:
+        for scene in varied(evidence, name):
+            yield Finding(
+                {"constant": name, "value": dict(scene.varied)[name]},
+                f"time at which {_FRONT} blocks side by side have detached, over t_max",
+                mean(over_runs(first_front, evidence.records[scene])),
+                within(_AFFECTS, 1.0),
+                in_files(scene),
+            )
+
+
 def _means(
     evidence: Evidence, statistic: str, quantity: Quantity, claimed: Range, unit: str = "1"
 ) -> Iterator[Finding]:
     """Mean of a quantity over the realisations of each flat surface."""
-    flat = scenes_along_x(evidence.records, 0)
-    return means_of_runs(evidence, flat, statistic, quantity, claimed, unit)
+    return means_of_runs(along_x(evidence.records, 0), statistic, quantity, claimed, unit)
 
 
 def shuffled(run: Record, until: float) -> float:
@@ -70,21 +229,21 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: most are isolated, and those that are not are less than twice as many as by chance.
     """
-    for scene in scenes_along_x(evidence.records, 0):
+    name = (
+        "share of the blocks detached by then that let go while all eight neighbours were at rest "
+        "since the start"
+    )
+    by_chance = "share of the others, over that of the same detachment times shuffled"
+    fewer_than_twice = (-INF, ranges.COMPARABLE[1])
+    for scene, runs in along_x(evidence.records, 0).items():
         for until in (_EARLY, 1.0):
-            case, runs = {"t/t_max below": until}, evidence.records[scene]
+            case = {"t/t_max below": until}
             observed = over_runs(partial(isolated, until=until), runs)
             chance = over_runs(partial(shuffled, until=until), runs)
-            name = (
-                "share of the blocks detached by then that let go while all eight neighbours were "
-                "at rest since the start"
-            )
             yield found_on(scene, name, mean(observed), ranges.MOST, **case, measure="share")
-            if not len(observed):
-                continue
-            name = "share of the others, over that of the same detachment times shuffled"
-            claimed, ratio = (-INF, ranges.COMPARABLE[1]), clustering(observed, chance)
-            yield found_on(scene, name, ratio, claimed, **case, measure="chance")
+            if len(observed):
+                ratio = clustering(observed, chance)
+                yield found_on(scene, by_chance, ratio, fewer_than_twice, **case, measure="chance")
 
 
 def weakest(run: Record) -> float:
@@ -168,9 +327,8 @@ def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
 @claim("t_max < t_avg on flat surfaces", "3.1", 2, _FLAT)
 def peak_before_average(evidence: Evidence) -> Iterator[Finding]:
     """The force maximum occurs before the average detachment time."""
-    for scene in scenes_along_x(evidence.summaries, 0):
-        lag = mean(over_rows(lambda row: row["t_max"] - row["t_avg"], evidence.summaries[scene]))
-        source = in_table(scene)
+    for scene, rows in along_x(evidence.summaries, 0).items():
+        lag, source = mean(lags(rows)), in_table(scene)
         yield Finding(place(scene), "t_max - t_avg", lag, ranges.NEGATIVE, source, "s")
 
 
@@ -179,18 +337,16 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     """In repeated simulations the spatial distribution of the initial detachment time is
     uniform.
     """
-    for scene in scenes_along_x(evidence.records, 0):
-        n = scene.n_blocks
-        from_edge = np.minimum(np.arange(n), np.arange(n)[::-1])
-        depth = np.minimum.outer(from_edge, from_edge)
-        core = depth >= min(_CORE, n // 4)
-        times = np.stack([run.t_det for run in evidence.records[scene]])
+    name = "share of the variance of t_det that place explains (jackknife)"
+    lateness, unit = "mean t_det minus that of the core", "standard deviations of t_det"
+    for scene, runs in along_x(evidence.records, 0).items():
+        depth = from_edge(scene.n_blocks)
+        core = depth >= min(_CORE, scene.n_blocks // 4)
+        times = np.stack([run.t_det for run in runs])
         by_place = Estimate.of(repeatability(times[:, core]), len(times))
-        name = "share of the variance of t_det that place explains (jackknife)"
         yield found_on(scene, name, by_place, ranges.ALIKE, part="core")
         late = mean([(t[depth == 0].mean() - t[core].mean()) / t.std() for t in times])
-        name, unit = "mean t_det minus that of the core", "standard deviations of t_det"
-        yield found_on(scene, name, late, within(_SMALL), unit, part="outermost blocks")
+        yield found_on(scene, lateness, late, within(_SMALL), unit, part="outermost blocks")
 
 
 @claim("Nucleation anywhere on flat surfaces", "3.2", 3, _FLAT)

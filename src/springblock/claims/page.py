@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 
 from springblock.io.rows import Row, markdown_table
@@ -19,46 +20,50 @@ _SECTIONS = {
     "5": "Conclusions",
 }
 
+Part = tuple[int, list[Row]]  #: a statement's number, and its rows
+
 #: The rule, what the intervals are, and what is not tested.
 _PAGE = Path(__file__).with_name("page.md")
 
 
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
-    by_claim = [list(group) for _, group in groupby(table, key=lambda row: row["claim"])]
-    numbered = list(enumerate(by_claim, 1))
+    numbered = numbered_parts(table)
     return _PAGE.read_text(encoding="utf-8").format(
         summary="\n\n".join(_contents(numbered)),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
 
 
-def _contents(numbered: Sequence[tuple[int, Sequence[Row]]]) -> list[str]:
+def numbered_parts(table: Sequence[Row]) -> list[Part]:
+    """Rows of each statement, beside its number on the page."""
+    parts = groupby(table, key=itemgetter("claim"))
+    return [(number, list(part)) for number, (_, part) in enumerate(parts, 1)]
+
+
+def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     parts = []
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
-        lines = [[_link(i, part[0]), _in_short(part[0]), decided(part)] for i, part in group]
+        lines = [_in_contents(*part) for part in group]
         heading = f"### Section {section}: {_SECTIONS[section]}"
         parts += [heading, markdown_table(["statement", "verdict", "what decided it"], lines)]
     return parts
 
 
-def _link(number: int, row: Row) -> str:
-    """A statement's number and name, and where the page says more of it."""
-    heading = f"{number}. {row['claim']}"
-    return f"[{heading}](#{anchor(heading)})"
+def _in_contents(number: int, part: Sequence[Row]) -> list[str]:
+    """A statement with a link to its rows, its verdict and what decided it."""
+    heading = f"{number}. {part[0]['claim']}"
+    verdict = _verdict(part[0])
+    if len(verdict) > _LINE:
+        verdict = verdict.split(":")[0]  # a list of cases would not fit a line
+    return [f"[{heading}](#{anchor(heading)})", verdict, decided(part)]
 
 
 def anchor(heading: str) -> str:
     """The anchor that Markdown gives to a heading."""
     kept = "".join(c for c in heading.lower() if c.isalnum() or c in " -_")
     return kept.replace(" ", "-")
-
-
-def _in_short(row: Row) -> str:
-    """The verdict, without a list of cases that would not fit a line."""
-    whole = _verdict(row)
-    return whole if len(whole) <= _LINE else whole.split(":")[0]
 
 
 def _verdict(row: Row) -> str:
@@ -77,16 +82,12 @@ def decided(part: Sequence[Row]) -> str:
     words = []
     for kind in kinds[judged]:
         found = [row for row in part if row["outcome"] == kind]
-        said = f"{len(found)} of {len(part)} {_verb(kind, len(found))}"
-        clearest = max(found, key=_clearness) if kind == "fails" else min(found, key=_clearness)
-        how = "most clearly" if kind == "fails" else "most narrowly"
-        decided = _in_words(clearest, part)
-        words.append(f"{said}, {how} {decided}" if found[1:] else decided)
+        choose, how = (max, "most clearly") if kind == "fails" else (min, "most narrowly")
+        decided = _in_words(choose(found, key=_clearness), part)
+        if found[1:]:
+            decided = f"{len(found)} of {len(part)} {kind.removesuffix('s')}, {how} {decided}"
+        words.append(decided)
     return f"{'; '.join(words)}."
-
-
-def _verb(kind: str, number: int) -> str:
-    return kind if number == 1 else {"holds": "hold", "fails": "fail"}[kind]
 
 
 def _wanted(row: Row) -> float:
@@ -134,18 +135,13 @@ def _section(number: int, part: Sequence[Row]) -> str:
     if first["verdict"] == "not tested":
         lines[-1] += f" {first['rests_on'].capitalize()}."
     else:
-        header = ["case", "statistic", _heading(len(part)), "claimed", "outcome"]
+        together = f" together, {100.0 - 5.0 / len(part):.4g} % alone" if part[1:] else ""
+        value = f"value [95 % interval{together}]"
+        header = ["case", "statistic", value, "claimed", "outcome"]
         lines.append(markdown_table(header, [_cells(row) for row in part]))
         sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
         lines.append("\n".join(["Rests on", "", *(f"- {source}" for source in sources)]))
     return "\n\n".join(lines)
-
-
-def _heading(together: int) -> str:
-    """Heading of the values; the level of each interval where several hold together."""
-    if together == 1:
-        return "value [95 % interval]"
-    return f"value [95 % interval together, {100.0 - 5.0 / together:.4g} % alone]"
 
 
 def _cells(row: Row) -> list[str]:

@@ -1,7 +1,7 @@
 """What a claim is and rests on, and the rule from intervals to verdicts."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from statistics import median
@@ -14,6 +14,7 @@ from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
+Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
@@ -27,7 +28,7 @@ _MANY = 10**6  #: realisations beyond which nobody would go
 class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
-    records: Mapping[Scene, Sequence[Record]] = field(default_factory=dict)  #: realisations
+    records: Records = field(default_factory=dict)
     summaries: RowsByScene = field(default_factory=dict)  #: the table `realisations`
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)
@@ -130,20 +131,14 @@ def outcomes(findings: Sequence[Finding]) -> list[str]:
     cases.
     """
     together = len(findings)
-    first = [finding.outcome(together) for finding in findings]
-
-    def finally_judged(finding: Finding, outcome: str) -> str:
-        holding = [
-            other.estimate.value
-            for other, found in zip(findings, first, strict=True)
-            if found == "holds" and _comparable(other, finding)
-        ]
-        if outcome != "open" or not holding:
-            return outcome
-        powerful = not finding.estimate.n or finding.had_power_at(median(holding), together)
-        return "open" if powerful else "underpowered"
-
-    return [finally_judged(*pair) for pair in zip(findings, first, strict=True)]
+    found = [finding.outcome(together) for finding in findings]
+    holds = [each for each, outcome in zip(findings, found, strict=True) if outcome == "holds"]
+    for i, finding in enumerate(findings):
+        values = [other.estimate.value for other in holds if _comparable(other, finding)]
+        if found[i] == "open" and values and finding.estimate.n:
+            powerful = finding.had_power_at(median(values), together)
+            found[i] = "open" if powerful else "underpowered"
+    return found
 
 
 def _comparable(first: Finding, second: Finding) -> bool:
@@ -169,24 +164,20 @@ def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
         return "not tested", ""
     judged = zip(findings, outcomes(findings), strict=True)
     cases = groupby(judged, key=lambda pair: pair[0].case)
-    decided = [(case, _together(outcome for _, outcome in group)) for case, group in cases]
+    decided = [(case, _together({outcome for _, outcome in group})) for case, group in cases]
     found = [outcome for _, outcome in decided]
     if {"holds", "fails"} <= set(found):
         return "depends on", _difference(decided)
     if "fails" in found:
         return "not reproduced", _cases(decided, _varied(decided)) if set(found) & _OPEN else ""
-    weak = found.count("underpowered")
-    if "open" not in found and found.count("holds") > weak:
-        return "reproduced", ""
-    return "not settled", ""
+    settled = "open" not in found and found.count("holds") > found.count("underpowered")
+    return "reproduced" if settled else "not settled", ""
 
 
-def _together(found: Iterable[str]) -> str:
-    kinds = set(found)
-    return next(kind for kind in ("fails", "underpowered", "open", "holds") if kind in kinds)
+def _together(found: Collection[str]) -> str:
+    return next(kind for kind in ("fails", "underpowered", "open", "holds") if kind in found)
 
 
-_BOTH = ("holds", "fails")
 _OPEN = {"open", "underpowered"}
 
 
@@ -199,7 +190,7 @@ def _difference(decided: Sequence[tuple[Case, str]]) -> str:
     keys = dict.fromkeys(key for case, _ in decided for key in case)
     holds, fails = (
         {key: {case.get(key) for case, found in decided if found == which} for key in keys}
-        for which in _BOTH
+        for which in ("holds", "fails")
     )
     telling = [key for key in keys if not holds[key] & fails[key]]
     telling = telling or [key for key in keys if holds[key] != fails[key]]

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby, pairwise
 from operator import attrgetter
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,12 +17,13 @@ from springblock.analysis.statistics import (
     samples_interval,
 )
 from springblock.claims import ranges
-from springblock.claims.rule import Evidence, Finding, Range, describe
+from springblock.claims.rule import Case, Evidence, Finding, Range, Records, describe
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
+T = TypeVar("T")
 Mask = NDArray[np.bool_]
 Quantity = Callable[[Record], float]  #: of a realisation
 
@@ -31,14 +32,15 @@ ALONG = "x"  #: the paper's sliding direction
 static_friction: Quantity = attrgetter("static_friction")
 
 
-def scenes_along_x(scenes: Iterable[Scene], level: int, smallest: int = 0) -> list[Scene]:
+def along_x(table: Mapping[Scene, T], level: int, smallest: int = 0) -> dict[Scene, T]:
     """Scenes of so many levels, the first pillars, that slide along x, by N, n_s/n_p and n_p.
 
     Those with constants of their own are left out.
     """
-    found = [s for s in scenes if s.level == level and s.n_p >= smallest and not s.varied]
+    found = [s for s in table if s.level == level and s.n_p >= smallest and not s.varied]
     along = [s for s in found if s.direction == ALONG and (s.n_p > 0) == (level > 0)]
-    return sorted(along, key=lambda s: (s.n_blocks, ratio(s), s.n_p, s.n_p2, s.n_s2))
+    along.sort(key=lambda s: (s.n_blocks, ratio(s), s.n_p, s.n_p2, s.n_s2))
+    return {scene: table[scene] for scene in along}
 
 
 def ratio(scene: Scene) -> Fraction:
@@ -46,9 +48,9 @@ def ratio(scene: Scene) -> Fraction:
     return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
 
 
-def families(scenes: Iterable[Scene], smallest: int = 0) -> Iterator[list[Scene]]:
+def families(table: Mapping[Scene, Any], smallest: int = 0) -> Iterator[list[Scene]]:
     """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
-    groups = groupby(scenes_along_x(scenes, 1, smallest), key=family_place)
+    groups = groupby(along_x(table, 1, smallest), key=family_place)
     return (list(family) for _, family in groups)
 
 
@@ -68,14 +70,14 @@ def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
     return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
 
 
+def in_files(*scenes: Scene, folder: str = "realisations") -> str:
+    """Name the folders that hold the realisations, or the preludes, of these scenes."""
+    return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
+
+
 def in_table(*scenes: Scene) -> str:
     """Name the rows of the table of realisations that hold these scenes."""
     return "; ".join(f"tables/realisations: {scene.folder}" for scene in scenes)
-
-
-def in_files(*scenes: Scene) -> str:
-    """Name the folders that hold the realisations of these scenes."""
-    return "; ".join(f"realisations/{scene.folder}" for scene in scenes)
 
 
 def in_rows(table: str, scene: Scene, **more: str | int) -> str:
@@ -90,14 +92,15 @@ def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
     return values[np.isfinite(values)]
 
 
-def over_rows(function: Callable[[Row], float], rows: Iterable[Row]) -> Array:
-    """A number per realisation, (k,), from rows of the table `realisations`."""
-    return np.array([function(row) for row in rows])
+def lags(rows: Iterable[Row]) -> Array:
+    """t_max - t_avg of each realisation, (k,) s, from rows of the table `realisations`."""
+    return np.array([row["t_max"] - row["t_avg"] for row in rows])
 
 
-def interval(row: Row, value: str, low: str = "ci_low", high: str = "ci_high") -> Estimate:
+def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
     """A value of a row with its interval."""
-    return Estimate(float(row[value]), float(row[low]), float(row[high]), row["realisations"])
+    low, high = float(row[f"{limits}_low"]), float(row[f"{limits}_high"])
+    return Estimate(float(row[value]), low, high, row["realisations"])
 
 
 def mean(sample: ArrayLike) -> Estimate:
@@ -120,9 +123,33 @@ def difference(first: Array, second: Array) -> Estimate:
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
-def compared(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene) -> Estimate:
+def compared(
+    evidence: Evidence,
+    case: Case,
+    statistic: str,
+    quantity: Quantity,
+    first: Scene,
+    second: Scene,
+    claimed: Range = ranges.POSITIVE,
+) -> Finding:
     """Mean of a quantity over the realisations of one scene minus that over those of another."""
-    return difference(*(over_runs(quantity, evidence.records[s]) for s in (first, second)))
+    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
+    return Finding(case, statistic, difference(*samples), claimed, in_files(first, second))
+
+
+def relative(first: Array, second: Array, base: Array) -> Estimate:
+    """Mean of a sample minus that of another, over that of a third, whose error is left out."""
+    apart, scale = difference(first, second), mean(base).value
+    if not scale:
+        return UNKNOWN
+    return Estimate(apart.value / scale, apart.ci_low / scale, apart.ci_high / scale, apart.n)
+
+
+def magnitude(estimate: Estimate) -> Estimate:
+    """The same seen from the other side, where it is negative."""
+    if not estimate.value < 0.0:
+        return estimate
+    return Estimate(-estimate.value, -estimate.ci_high, -estimate.ci_low, estimate.n)
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
@@ -156,17 +183,11 @@ def found_on(
 
 
 def means_of_runs(
-    evidence: Evidence,
-    scenes: Iterable[Scene],
-    statistic: str,
-    quantity: Quantity,
-    claimed: Range,
-    unit: str = "1",
+    records: Records, statistic: str, quantity: Quantity, claimed: Range, unit: str = "1"
 ) -> Iterator[Finding]:
     """Mean of a quantity over the realisations of each scene."""
-    for scene in scenes:
-        sample = over_runs(quantity, evidence.records[scene])
-        yield found_on(scene, statistic, mean(sample), claimed, unit)
+    for scene, runs in records.items():
+        yield found_on(scene, statistic, mean(over_runs(quantity, runs)), claimed, unit)
 
 
 def in_order(
@@ -196,7 +217,7 @@ def neighbours(field: Array, outside: float) -> Array:
     return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
 
 
-def isolated(run: Run, until: float) -> float:
+def isolated(run: Run, until: float = 1.0) -> float:
     """Share of the blocks detached before `until` t_max that had eight resting neighbours then.
 
     Blocks that never detach, NaN, count as resting.
@@ -217,6 +238,12 @@ def rates(run: Run, width: float) -> Array:
     return counts
 
 
+def from_edge(size: int) -> NDArray[np.intp]:
+    """Distance of each block of a square from its edge, (size, size)."""
+    from_end = np.minimum(np.arange(size), np.arange(size)[::-1])
+    return np.minimum.outer(from_end, from_end)
+
+
 def first_patch(times: Array, size: int) -> float:
     """Where the patch of `size` by `size` blocks lies that detaches first, (n, n) s.
 
@@ -224,7 +251,6 @@ def first_patch(times: Array, size: int) -> float:
     1/2 on average if every place is as good, 0 at the edge, 1 at the centre.
     """
     windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
-    from_edge = np.minimum(np.arange(len(windows)), np.arange(len(windows))[::-1])
-    depth = np.minimum.outer(from_edge, from_edge)
+    depth = from_edge(len(windows))
     here = depth.flat[np.argmin(windows)]
     return float(np.mean(depth < here) + 0.5 * np.mean(depth == here))

@@ -4,7 +4,7 @@ All lengths are those of A exp(-r/l_c) fitted over the same distances, r = 1 to 
 of 20 blocks or more: on shorter ones the paper finds l_c difficult to estimate.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
 from springblock.claims.samples import (
     ALONG,
     SMALLEST,
+    along_x,
     families,
     family_place,
     found_on,
@@ -25,7 +26,6 @@ from springblock.claims.samples import (
     interval,
     mean,
     place,
-    scenes_along_x,
 )
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
@@ -47,6 +47,9 @@ _SHORT = 10  #: n_p, sides no longer than a few l_c
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 _TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
 _LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
+_WITH_GROOVES = f"{_LENGTHS}, with grooves and without, from 220 realisations or more"
+_ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
+_PILLARS = "realisations of pillars with n_p of 4 or more"
 
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
@@ -73,7 +76,7 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
 
 def _length(row: Row) -> Estimate:
     """l_c of A exp(-r/l_c)."""
-    return interval(row, "tail", "tail_low", "tail_high")
+    return interval(row, "tail", "tail")
 
 
 def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
@@ -81,24 +84,26 @@ def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
     return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
 
 
+def _fitted(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
+    """Rows of c(r) along these sides at the distances of the fit."""
+    rows = select(evidence.correlation[scene], side=side)
+    return [row for row in rows if 1 <= row["r"] <= LAST]
+
+
 @claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range."""
-    for scene in scenes_along_x(evidence.correlation, 1, SMALLEST):
-        rows = evidence.correlation[scene]
+    name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
+    for scene, rows in along_x(evidence.correlation, 1, SMALLEST).items():
         far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
         near = select(rows, side="y", r=1)
         if len(far) < 2 or not near:
             continue
-        yield Finding(
-            place(scene),
-            f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)",
-            paired_difference(*(interval(row, "correlation") for row in far)),
-            ranges.POSITIVE,
-            in_rows("correlation", scene, r=_FAR),
-        )
-        source = in_rows("correlation", scene, side="y", r=1)
+        apart = paired_difference(*(interval(row, "correlation") for row in far))
+        source = in_rows("correlation", scene, r=_FAR)
+        yield Finding(place(scene), name, apart, ranges.POSITIVE, source)
         c_y = interval(near[0], "correlation")
+        source = in_rows("correlation", scene, side="y", r=1)
         yield Finding(place(scene), "c_y(r = 1)", c_y, _DECAYED, source)
 
 
@@ -128,12 +133,7 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
     return relative, mixed(relative)
 
 
-@claim(
-    "Sides along the sliding direction detach in larger events",
-    "3.2",
-    7,
-    "realisations of pillars with n_p of 4 or more",
-)
+@claim("Sides along the sliding direction detach in larger events", "3.2", 7, _PILLARS)
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
     """Although edges parallel to the sliding direction detach slightly after the perpendicular
     ones, their slip involves a larger number of blocks.
@@ -145,7 +145,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         "blocks per event on sides along x minus those on sides along y, each beyond those of "
         "sides whose blocks come from different realisations"
     )
-    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
+    for scene in along_x(evidence.records, 1, SMALLEST):
         sizes = {}
         for side in "xy":
             number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
@@ -159,16 +159,14 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: within 0.1 of A exp(-r/l_c), r = 1 to 6, on sides of 20 blocks or more.
     """
-    for scene in scenes_along_x(evidence.correlation, 1, _BROAD):
-        for row in select(evidence.correlation[scene], side=ALONG):
-            if 1 <= row["r"] <= LAST:
-                yield Finding(
-                    place(scene),
-                    f"c_x(r) - A exp(-r/l_c) at r = {row['r']}",
-                    interval(row, "residual", "residual_low", "residual_high"),
-                    within(_CLOSE),
-                    in_rows("correlation", scene, side="x"),
-                )
+    for scene in along_x(evidence.correlation, 1, _BROAD):
+        source = in_rows("correlation", scene, side=ALONG)
+        for row in _fitted(evidence, scene):
+            name, apart = (
+                f"c_x(r) - A exp(-r/l_c) at r = {row['r']}",
+                interval(row, "residual", "residual"),
+            )
+            yield Finding(place(scene), name, apart, within(_CLOSE), source)
 
 
 @claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
@@ -177,7 +175,7 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: more than 2.5, on sides of 20 blocks or more.
     """
-    for scene in scenes_along_x(evidence.correlation_length, 1, _BROAD):
+    for scene in along_x(evidence.correlation_length, 1, _BROAD):
         for fit in _fits(evidence, scene):
             source, l_c = in_rows("correlation_length", scene, side="x"), _length(fit)
             yield Finding(place(scene), "l_c of c_x", l_c, _ABOUT_THREE_OR_MORE, source, "blocks")
@@ -213,64 +211,53 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
         "share of the sides along x that, but for their corners, detach in one event, minus "
         "that of sides whose blocks come from different realisations"
     )
-    for scene in scenes_along_x(evidence.records, 1, SMALLEST):
-        if scene.n_p > _SHORT:
-            continue
-        once = [(events(times) == 1).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, "x")]
-        yield found_on(scene, name, mean(once[0] - once[1]), ranges.POSITIVE)
+    for scene in along_x(evidence.records, 1, SMALLEST):
+        if scene.n_p <= _SHORT:
+            sides = _sides_of(evidence, scene, "x")
+            once, by_chance = ((events(times) == 1).mean(axis=(1, 2)) for times in sides)
+            yield found_on(scene, name, mean(once - by_chance), ranges.POSITIVE)
 
 
-def most_like(scene: Scene, whole: Sequence[Scene]) -> Scene:
+def most_like(scene: Scene, whole: Iterable[Scene]) -> Scene:
     """The one that differs least in N, size of pillars and distance, in this order."""
 
-    def off(other: Scene) -> tuple[int, ...]:
-        pairs = ((getattr(s, key) for s in (scene, other)) for key in ("n_blocks", "n_p", "n_s"))
-        return tuple(abs(a - b) for a, b in pairs)
+    def off(other: Scene) -> list[int]:
+        lengths = ("n_blocks", "n_p", "n_s")
+        return [abs(getattr(scene, name) - getattr(other, name)) for name in lengths]
 
     return min(whole, key=off)
 
 
 def _with_whole(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
     """Grooved pillars with many realisations, and those without grooves most like them."""
-    many = [scene for scene, rows in table.items() if rows[0]["realisations"] >= _MANY]
-    whole = scenes_along_x(many, 1, _BROAD)
-    for scene in scenes_along_x(many, 2, _BROAD) if whole else ():
+    many = {scene: rows for scene, rows in table.items() if rows[0]["realisations"] >= _MANY}
+    whole = along_x(many, 1, _BROAD)
+    for scene in along_x(many, 2, _BROAD) if whole else ():
         yield scene, most_like(scene, whole)
 
 
-@claim(
-    "Correlations keep their shape on grooved pillars",
-    "3.3",
-    7,
-    f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
-)
+@claim("Correlations keep their shape on grooved pillars", "3.3", 7, _WITH_GROOVES)
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
     """The correlation functions along the longitudinal edges display the same qualitative shape.
 
     Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.
     """
     for scene, like in _with_whole(evidence.correlation):
-        whole = {row["r"]: row for row in select(evidence.correlation[like], side=ALONG)}
+        whole = {row["r"]: row for row in _fitted(evidence, like)}
         for side, name in _SIDES.items():
-            for row in select(evidence.correlation[scene], side=side):
-                if 1 <= row["r"] <= LAST:
-                    values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
-                    yield Finding(
-                        place(scene) | {"side": name},
-                        f"c(r) minus c_x(r) on n_p = {like.n_p} without grooves, at r = {row['r']} "
-                        "(from both intervals)",
-                        unpaired_difference(*values),
-                        within(_CLOSE),
-                        in_rows("correlation", scene, side=side),
-                    )
+            for row in _fitted(evidence, scene, side):
+                values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
+                yield Finding(
+                    place(scene) | {"side": name},
+                    f"c(r) minus c_x(r) on n_p = {like.n_p} without grooves, at r = {row['r']} "
+                    "(from both intervals)",
+                    unpaired_difference(*values),
+                    within(_CLOSE),
+                    in_rows("correlation", scene, side=side),
+                )
 
 
-@claim(
-    "Grooves leave the correlation length unchanged",
-    "3.3",
-    7,
-    f"{_LENGTHS}, with grooves and without, from 220 realisations or more",
-)
+@claim("Grooves leave the correlation length unchanged", "3.3", 7, _WITH_GROOVES)
 def same_length(evidence: Evidence) -> Iterator[Finding]:
     """The typical correlation length along the longitudinal edges is also the same.
 
@@ -291,18 +278,13 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
                 )
 
 
-@claim(
-    "Precursors are uncorrelated when sliding across grooves",
-    "3.3",
-    7,
-    "tables of correlation along grooved pillars that slide across their grooves",
-)
+@claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7, _ACROSS)
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
 
     Tested: correlation below 1/e one block away, on external sides and along the grooves.
     """
-    for scene in scenes_along_x(evidence.records, 2, SMALLEST):
+    for scene in along_x(evidence.records, 2, SMALLEST):
         across = replace(scene, direction="y")
         for side, name in _SIDES.items():
             for row in select(evidence.correlation.get(across, ()), side=side, r=1):

@@ -53,30 +53,30 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
         findings = list(claim.test(evidence))
         judged, depends_on = verdict(findings)
         missing = Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}")
-        said = {"claim": claim.name, "section": claim.section, "statement": claim.statement}
         found = zip(findings or [missing], outcomes(findings) or ["open"], strict=True)
         for finding, outcome in found:
-            row = _row(finding, max(1, len(findings)))
-            row |= {"outcome": outcome, "verdict": judged, "depends_on": depends_on}
-            table.append(said | row)
+            estimate, together = finding.estimate, max(1, len(findings))
+            low, high = estimate.limits(together)
+            row = {
+                "claim": claim.name,
+                "section": claim.section,
+                "statement": claim.statement,
+                "case": describe(finding.case),
+                "statistic": finding.statistic,
+                "unit": finding.unit,
+                "value": estimate.value,
+                "ci_low": estimate.ci_low,
+                "ci_high": estimate.ci_high,
+                "together_low": low,
+                "together_high": high,
+                "claimed_low": finding.claimed[0],
+                "claimed_high": finding.claimed[1],
+                "realisations": estimate.n,
+                "outcome": outcome,
+                "settled_by": finding.settled_by(together),
+                "verdict": judged,
+                "depends_on": depends_on,
+                "rests_on": finding.rests_on,
+            }
+            table.append(row)
     return table
-
-
-def _row(finding: Finding, together: int) -> Row:
-    estimate = finding.estimate
-    low, high = estimate.limits(together)
-    return {
-        "case": describe(finding.case),
-        "statistic": finding.statistic,
-        "unit": finding.unit,
-        "value": estimate.value,
-        "ci_low": estimate.ci_low,
-        "ci_high": estimate.ci_high,
-        "together_low": low,
-        "together_high": high,
-        "claimed_low": finding.claimed[0],
-        "claimed_high": finding.claimed[1],
-        "realisations": estimate.n,
-        "settled_by": finding.settled_by(together),
-        "rests_on": finding.rests_on,
-    }

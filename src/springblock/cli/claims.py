@@ -1,13 +1,13 @@
 """springblock claims: what becomes of the paper's statements, as a table and as a page."""
 
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
 
+from springblock.beyond.question import by_scene
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
 from springblock.claims.rule import Evidence, enough
@@ -25,15 +25,6 @@ from springblock.simulation.run import Array
 Records = Mapping[Scene, Sequence[Record]]
 
 
-def _by_scene(items: Iterable[Any], scene_of: Callable[[Any], Scene]) -> dict[Scene, list[Any]]:
-    """Items by their scene; those on surfaces that the paper could not have are left out."""
-    found: dict[Scene, list[Any]] = {}
-    for item in items:
-        if (scene := scene_of(item)).is_papers:
-            found.setdefault(scene, []).append(item)
-    return found
-
-
 def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
     """Rows of tables by scene: all of the first, of others those of the scenes of `records`.
 
@@ -41,7 +32,7 @@ def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, lis
     """
     found: dict[Scene, list[Row]] = {}
     for i, file in enumerate(files):
-        rows = _by_scene(load(file).to_pylist(), Scene.from_row)
+        rows = by_scene(load(file).to_pylist(), Scene.from_row)
         found |= {scene: rows[scene] for scene in rows if i == 0 or scene in records}
     return found
 
@@ -92,7 +83,7 @@ def claims(
 ) -> None:
     """Test the claims on BATCHES of realisations and on tables; a missing table tests none."""
     with one_sentence():
-        records = _by_scene(read_records(batches), attrgetter("scene"))
+        records = by_scene(read_records(batches))
         tables = *realisations, *correlation, *correlation_length
         refuse_mixture((file, load(file)) for file in (batches[0], *tables))
         evidence = Evidence(

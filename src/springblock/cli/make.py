@@ -84,9 +84,8 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
         from springblock.accuracy.page import page
 
         return page(*(load(file).to_pylist() for file in files))
-    from springblock.beyond import QUESTIONS
-    from springblock.beyond import page as beyond
+    from springblock.beyond.page import page as beyond
     from springblock.beyond.question import by_scene
     from springblock.io.records import read_records
 
-    return beyond.page(QUESTIONS, by_scene(read_records(files)))
+    return beyond(by_scene(read_records(files)))

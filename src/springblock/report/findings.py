@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.question import number
+from springblock.beyond.question import by_scene, number
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.plotting.caption import surface_in_words
@@ -24,11 +24,8 @@ class Headline(NamedTuple):
 
 def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
     """Realisations with the paper's pattern and the study's constants, on the commonest N."""
-    found: dict[Scene, list[Row]] = {}
-    for row in rows:
-        scene = Scene.from_row(row)
-        if scene.is_papers and not scene.varied:
-            found.setdefault(scene, []).append(row)
+    by_constants = by_scene(rows, Scene.from_row)
+    found = {scene: own for scene, own in by_constants.items() if not scene.varied}
     sizes = Counter(scene.n_blocks for scene in found for _ in found[scene])
     common = max(sizes, key=lambda size: sizes[size], default=0)
     return {scene: found[scene] for scene in found if scene.n_blocks == common}

@@ -27,28 +27,22 @@ def typeset(text: str) -> Markup:
     return Markup(_SYMBOL.sub(symbol, str(escape(text))))
 
 
-class Page(NamedTuple):
-    """A page of a study."""
+def rendered(name: str, markdown: str) -> tuple[str, Markup]:
+    """Title of a page, its first heading or else its name, and the page as HTML.
 
-    name: str
-    title: str
-    body: str  #: HTML, headings and links to them marked with the page's name
-
-
-def rendered(name: str, markdown: str) -> Page:
-    """Render a page, whose first heading is its title.
-
-    What is HTML in it, is shown as it stands.
+    Headings, and links to them, are marked with its name. What is HTML in it is shown as it stands.
     """
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
+    parser.add_render_rule("table_open", lambda *_: '<div class="table" tabindex="0"><table>\n')
+    parser.add_render_rule("table_close", lambda *_: "</table>\n</div>")
     tokens = parser.parse(markdown)
     title = name
     if tokens and tokens[0].tag == "h1":
         title, tokens = tokens[1].content, tokens[3:]
     _mark(name, tokens)
     chapters = sum(token.type == "heading_open" and token.tag == "h2" for token in tokens)
-    tokens = _boxed(_folded(tokens) if chapters > _MANY else tokens)
-    return Page(name, title, parser.renderer.render(tokens, parser.options, {}))
+    tokens = _folded(tokens) if chapters > _MANY else tokens
+    return title, Markup(parser.renderer.render(tokens, parser.options, {}))
 
 
 def _mark(name: str, tokens: Sequence[Token]) -> None:
@@ -91,30 +85,12 @@ def _html(text: str) -> list[Token]:
     return [Token("html_block", "", 0, content=text)] if text else []
 
 
-def _boxed(tokens: Sequence[Token]) -> list[Token]:
-    """Put every table into a box that it may scroll in."""
-    boxed: list[Token] = []
-    for token in tokens:
-        boxed += _html('<div class="table" tabindex="0">' * (token.type == "table_open"))
-        boxed += [token, *_html("</div>" * (token.type == "table_close"))]
-    return boxed
-
-
-class Column(NamedTuple):
-    """A column of a table."""
-
-    name: str
-    unit: str  #: empty for numbers of no unit and for words
-    meaning: str
-    is_number: bool
-
-
 class Shown(NamedTuple):
     """A table: what is the same in all its rows, and the rows without that."""
 
     name: str
     same: list[str]  #: as name = value unit
-    columns: list[Column]
+    columns: list[dict[str, Any]]  #: name, unit, meaning and whether it holds numbers
     rows: list[list[str]]
 
 
@@ -125,17 +101,21 @@ def shown(name: str, table: pa.Table) -> Shown:
     same = {name: texts[0] for name, texts in values.items() if len(set(texts)) == 1}
     if table.num_rows == 1:
         same = {}
-    told = [f"{name} = {text} {columns[name].unit}".strip() for name, text in same.items() if text]
+    told = [
+        f"{name} = {text} {columns[name]['unit']}".strip() for name, text in same.items() if text
+    ]
     kept = [name for name in columns if name not in same]
     rows = [list(row) for row in zip(*(values[name] for name in kept), strict=True)]
     return Shown(name, told, [columns[name] for name in kept], rows)
 
 
-def _column(field: pa.Field) -> Column:
+def _column(field: pa.Field) -> dict[str, Any]:
+    """What is said of a column; a unit of 1, as words have it, goes without saying."""
     says = {key.decode(): value.decode() for key, value in (field.metadata or {}).items()}
     is_number = pa.types.is_floating(field.type) or pa.types.is_integer(field.type)
     unit = says.get("unit", "1") if is_number else "1"
-    return Column(field.name, "" if unit == "1" else unit, says.get("meaning", ""), is_number)
+    said = {"name": field.name, "unit": "" if unit == "1" else unit, "is_number": is_number}
+    return said | {"meaning": says.get("meaning", "")}
 
 
 def _text(value: Any) -> str:

@@ -3,7 +3,7 @@
 from base64 import b64encode
 from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -18,59 +18,39 @@ _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has
 _SWEEPS = "Sweeps"
 
 
-class Picture(NamedTuple):
-    """A figure of the study."""
-
-    name: str  #: of its file: figure_6
-    category: str
-    label: str  #: Figure 6
-    title: str
-    caption: str
-    source: str  #: the picture itself, as an address
-    width: int
-    height: int
-    size: float  #: mm, its width in print
-
-
-class Film(NamedTuple):
-    """A run that moves."""
-
-    name: str
-    title: str
-    text: str  #: what is to be seen, in words
-    source: str
-    poster: str  #: the moment of the force maximum
-    width: int
-    height: int
-
-
-def picture(path: Path) -> Picture:
-    """Read a figure; its caption is the one that the file keeps."""
+def picture(path: Path) -> dict[str, Any]:
+    """Read a figure for the page; its caption is the one that the file keeps."""
     declared, name = declarations().get(path.stem), path.stem
     with Image.open(path) as file:
         caption = str(file.info.get("Description", ""))
         size = 25.4 * file.width / float(file.info.get("dpi", (600.0,))[0])
         small = file.convert("RGB").reduce(max(1, file.width // _WIDE))
-    return Picture(
-        name=name,
-        category=declared.category if declared else _SWEEPS,
-        label=_label(name),
-        title=declared.title if declared else "",
-        caption=caption,
-        source=_webp(small),
-        width=small.width,
-        height=small.height,
-        size=size,
-    )
+    return {
+        "name": name,
+        "category": declared.category if declared else _SWEEPS,
+        "label": _label(name),
+        "title": declared.title if declared else "",
+        "caption": caption,
+        "source": _webp(small),
+        "width": small.width,
+        "height": small.height,
+        "size": size,  # mm, its width in print
+    }
 
 
-def moving(path: Path, batch: Path) -> Film:
+def moving(path: Path, batch: Path) -> dict[str, Any]:
     """Read a film of the first run of a batch, and say from the run what it shows."""
     run = read_records([batch])[0]
     poster = Image.fromarray(film.frames(run, [run.t_max - run.time[1], run.t_max])[-1])
-    source = _address("video/mp4", path.read_bytes())
-    title = path.stem.capitalize()
-    return Film(path.stem, title, in_words(run), source, _webp(poster), *poster.size)
+    return {
+        "name": path.stem,
+        "title": path.stem.capitalize(),
+        "text": in_words(run),
+        "source": _address("video/mp4", path.read_bytes()),
+        "poster": _webp(poster),  # at the force maximum
+        "width": poster.width,
+        "height": poster.height,
+    }
 
 
 def in_words(run: Record) -> str:

@@ -1,6 +1,7 @@
 """The page itself, from a template."""
 
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
@@ -10,8 +11,11 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from springblock.claims import CLAIMS
+from springblock.claims.page import anchor, decided, numbered_parts
 from springblock.io.parquet import load
-from springblock.report import findings, markup, media, statements
+from springblock.io.rows import Row, select
+from springblock.report import findings, markup, media
 
 #: Parts of the page and their titles, in order; those of the study's own pages come last, as these
 #: are called by their first heading.
@@ -27,6 +31,9 @@ PAGES = {
     "benchmark": "How fast",
     "reliability": "How reliable",
 }
+#: Verdicts in the order in which they are listed.
+VERDICTS = ("reproduced", "depends on", "not reproduced", "not settled", "not tested")
+_FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
 
@@ -35,8 +42,8 @@ class Part(NamedTuple):
 
     name: str
     title: str
-    body: str
-    figures: list[tuple[media.Picture, list[statements.Statement]]]
+    body: Markup
+    figures: list[tuple[dict[str, Any], list[Row]]]
 
 
 def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
@@ -57,22 +64,46 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
     data = {file.stem: load(file) for file in kinds[".parquet"]}
     rows = {name: table.to_pylist() for name, table in data.items()}
     runs = findings.main_runs(rows.get("realisations", []))
-    judged = statements.statements(rows.get("claims", []))
+    judged = statements(rows.get("claims", []))
     parts = _parts(kinds[".png"], kinds[".md"], judged)
     return _rendered(
         headlines=findings.headlines(runs),
         sizes=findings.sizes(runs, rows.get("correlation_length", [])),
         grooves=findings.grooves(runs),
-        labels={each.name: each.label for part in parts for each, _ in part.figures},
+        labels={each["name"]: each["label"] for part in parts for each, _ in part.figures},
         n_blocks=next(iter(runs)).n_blocks if runs else 0,
         statements=judged,
-        counted=statements.counted(judged),
+        counted=counted(judged),
         shown=[part for part in parts if part.name in FIGURES],
         films=[media.moving(file, batch) for file, batch in films.items()],
         written=[part for part in parts if part.name not in FIGURES],
         tables=[markup.shown(name, table) for name, table in data.items()],
         origin=_origin(data),
     )
+
+
+def statements(table: Sequence[Row]) -> list[Row]:
+    """Return the first row of each statement of the table `claims`, with what the page adds to it.
+
+    That is its figure, what decided its verdict, in short what this depends on, and the anchor
+    at which the page of statements says more.
+    """
+    return [
+        {
+            **part[0],
+            "figure": _FIGURES.get(part[0]["claim"]),
+            "decided": decided(part),
+            "depends_on": part[0]["depends_on"].split(":")[0],
+            "anchor": "claims-" + anchor(f"{number}. {part[0]['claim']}"),
+        }
+        for number, part in numbered_parts(table)
+    ]
+
+
+def counted(made: Sequence[Row]) -> dict[str, int]:
+    """Count verdicts, those that occur, in their order."""
+    found = Counter(statement["verdict"] for statement in made)
+    return {verdict: found[verdict] for verdict in VERDICTS if found[verdict]}
 
 
 def _rendered(**content: Any) -> str:
@@ -92,22 +123,17 @@ def _rendered(**content: Any) -> str:
     )
 
 
-def _parts(
-    figures: Iterable[Path], pages: Iterable[Path], judged: Sequence[statements.Statement]
-) -> list[Part]:
+def _parts(figures: Iterable[Path], pages: Iterable[Path], judged: Sequence[Row]) -> list[Part]:
     """Parts of the page that have something to show, in order; a page's figures follow its text."""
     texts = {file.stem: markup.rendered(file.stem, file.read_text("utf-8")) for file in pages}
-    pictures: dict[str, list[media.Picture]] = {}
+    pictures: dict[str, list[tuple[dict[str, Any], list[Row]]]] = {}
     for picture in map(media.picture, sorted(figures)):
-        pictures.setdefault(picture.category.lower(), []).append(picture)
-    titles = FIGURES | PAGES | {name: page.title for name, page in texts.items()}
+        belonging = select(judged, figure=picture["name"])
+        pictures.setdefault(picture["category"].lower(), []).append((picture, belonging))
+    titles = FIGURES | PAGES | {name: title for name, (title, _) in texts.items()}
+    bodies = {name: body for name, (_, body) in texts.items()}
     return [
-        Part(
-            name,
-            title,
-            Markup(texts[name].body) if name in texts else "",
-            [(each, statements.of_figure(each.name, judged)) for each in pictures.get(name, [])],
-        )
+        Part(name, title, bodies.get(name, Markup()), pictures.get(name, []))
         for name, title in titles.items()
         if name in texts or name in pictures
     ]
