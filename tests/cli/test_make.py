@@ -5,8 +5,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from precision import precision_rows, production_rows
-from springblock.accuracy.stability import table as stability
-from springblock.accuracy.stability.cases import Family, Outcome
+from springblock.accuracy import stability
+from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.accuracy.work_precision import SCHEMA, rows_of
 from springblock.io.parquet import rows_to_table, write
 
@@ -25,7 +25,7 @@ def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
 
 @pytest.mark.parametrize("word", ["agrees", "drifts"])
 def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_path, monkeypatch):
-    case = Family("rest", "rk4").case("nothing", 0.0, "none", lambda _: Outcome(word))
+    case = Case("rest", "rk4", "nothing", 0.0, "none", lambda _: Outcome(word))
     monkeypatch.setattr(stability, "all_cases", lambda: [case])
     output, refused = tmp_path / "table.parquet", word == "drifts"
     said = springblock("make", "stability", "--output", output, refused=refused)

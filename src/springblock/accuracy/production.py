@@ -19,7 +19,7 @@ from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.io.rows import Row
-from springblock.io.schemas import column
+from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import Prelude, compute_prelude
@@ -28,42 +28,31 @@ from springblock.simulation.simulate import simulate
 
 SCHEMA = pa.schema(
     [
-        column("scene", pa.string(), "1", "flat, pillared or grooved; pulled along x"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
-        column("quantity", pa.string(), "1", "what value and errors are of"),
-        column("unit", pa.string(), "1", "of value, scale, deviation and bias: 1, s or blocks"),
-        column("step", pa.float64(), "s", "integration step h of the leapfrog"),
-        column(
-            "value",
-            pa.float64(),
-            "see unit",
-            "mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+        *texts(scene="flat, pillared or grooved; pulled along x"),
+        N_BLOCKS,
+        *texts(
+            quantity="what value and errors are of",
+            unit="of value, scale, deviation and bias: 1, s or blocks",
         ),
-        column(
-            "scale",
-            pa.float64(),
+        *numbers("s", step="integration step h of the leapfrog"),
+        *numbers(
             "see unit",
-            "what errors are shares of: the value at the finest step, t_max for t_max - t_avg",
+            value="mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+            scale="what errors are shares of: the value at the finest step, t_max for "
+            "t_max - t_avg",
+            deviation="standard deviation of one realisation; of l_c: that of the bootstrap times "
+            "the root of the number of realisations",
+            bias="value less that of the same seeds, finest step",
+            bias_error="standard error of the bias; paired",
+            ci_low="lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
+            ci_high="upper end",
         ),
-        column(
-            "deviation",
-            pa.float64(),
-            "see unit",
-            "standard deviation of one realisation; of l_c: that of the bootstrap times the root "
-            "of the number of realisations",
-        ),
-        column("bias", pa.float64(), "see unit", "value less that of the same seeds, finest step"),
-        column("bias_error", pa.float64(), "see unit", "standard error of the bias; paired"),
-        column(
-            "ci_low",
-            pa.float64(),
-            "see unit",
-            "lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
-        ),
-        column("ci_high", pa.float64(), "see unit", "upper end"),
         column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
-        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
-        column("prelude_seconds", pa.float64(), "s", "CPU time of the prelude, shared by all"),
+        *numbers(
+            "s",
+            cpu_seconds="median CPU time of one realisation",
+            prelude_seconds="CPU time of the prelude, shared by all",
+        ),
     ]
 )
 

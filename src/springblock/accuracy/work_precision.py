@@ -11,9 +11,8 @@ twin       single runs against themselves with thresholds nudged by a little: th
 
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from functools import partial
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -21,17 +20,10 @@ from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import (
-    COMPARISONS,
-    HORIZON_NUDGE,
-    MEANS,
-    PLAIN,
-    SCENES,
-    half_width,
-)
+from springblock.accuracy.conventions import HORIZON_NUDGE, MEANS, PLAIN, half_width
 from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
-from springblock.io.schemas import column
+from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
@@ -40,32 +32,29 @@ from springblock.solver.integrators import INTEGRATORS
 
 SCHEMA = pa.schema(
     [
-        column("comparison", pa.string(), "1", "reference, paired, scatter or twin"),
-        column("scene", pa.string(), "1", "flat, pillared or grooved"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
-        column("integrator", pa.string(), "1", "leapfrog, rk4 or plain rk4"),
-        column("step", pa.float64(), "s", "integration step h"),
-        column("nudge", pa.float64(), "1", "relative change of the thresholds of a twin; else 0"),
-        column("quantity", pa.string(), "1", "what the error is of"),
-        column(
-            "error",
-            pa.float64(),
+        *texts(comparison="reference, paired, scatter or twin", scene="flat, pillared or grooved"),
+        N_BLOCKS,
+        *texts(integrator="leapfrog, rk4 or plain rk4"),
+        *numbers("s", step="integration step h"),
+        *numbers("1", nudge="relative change of the thresholds of a twin; else 0"),
+        *texts(quantity="what the error is of"),
+        *numbers(
             "1",
-            "reference and twin: root mean square over the realisations of the relative error; "
-            "t_det and t_avg relative to t_max; order: 1 - rank correlation. paired: relative bias",
+            error="reference and twin: root mean square over the realisations of the relative "
+            "error; t_det and t_avg relative to t_max; order: 1 - rank correlation. "
+            "paired: relative bias",
+            ci_low="paired: lower end of the 95 % t interval; else error",
+            ci_high="paired: upper end; else error",
+            worst="largest modulus among the realisations",
         ),
-        column("ci_low", pa.float64(), "1", "paired: lower end of the 95 % t interval; else error"),
-        column("ci_high", pa.float64(), "1", "paired: upper end; else error"),
-        column("worst", pa.float64(), "1", "largest modulus among the realisations"),
         column("realisations", pa.int32(), "1", "number of seeds"),
-        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
-        column("force_evaluations", pa.float64(), "1", "mean number per realisation"),
+        *numbers("s", cpu_seconds="median CPU time of one realisation"),
+        *numbers("1", force_evaluations="mean number per realisation"),
     ]
 )
 
 
-@dataclass(frozen=True)
-class _Surfaces:
+class _Surfaces(NamedTuple):
     """Surfaces that stand for a scene."""
 
     single: Pattern  #: small enough for the reference solution
@@ -74,12 +63,12 @@ class _Surfaces:
     seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
 
 
-_FLAT = _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100)
-_PILLARED = _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100)
-_GROOVED = _Surfaces(
-    Pattern.pillars(6, 5, 1).grooved(2, 1), 2.0e-4, Pattern.pillars(16, 8, 8).grooved(2, 1), 200
-)
-_SURFACES = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+_GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
+_SURFACES = {
+    "flat": _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100),
+    "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100),
+    "grooved": _Surfaces(_GROOVES[0], 2.0e-4, _GROOVES[1], 200),
+}
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
@@ -278,4 +267,4 @@ def rows_of(
 
 
 #: Rows of each comparison, by its name, from the name of a scene.
-ROWS = dict(zip(COMPARISONS, (single_rows, paired_rows, twin_rows), strict=True))
+ROWS = {"reference": single_rows, "paired": paired_rows, "twin": twin_rows}
