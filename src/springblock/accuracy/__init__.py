@@ -9,5 +9,5 @@ production        bias, scatter and cost of the study's own ensembles
 budget            what an ensemble misses for so much CPU time
 kernels           the compiled loops, driven by hand
 stability         stiff and extreme cases
-page              what to trust, in words; full_size, its section on the study's own ensembles
+page              what to trust, in words
 """
