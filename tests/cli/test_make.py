@@ -1,5 +1,6 @@
 """springblock make."""
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -40,7 +41,7 @@ def collect(springblock, tmp_path):
     def collected(*versions, refused=False):
         parts, output = [], tmp_path / "table.parquet"
         for number, version in enumerate(versions):
-            errors = [{"t_max": 3.0}, {"t_max": 4.0}]
+            errors = {"t_max": np.array([3.0, 4.0])}
             rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
             parts.append(tmp_path / f"{number}.parquet")
             write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})

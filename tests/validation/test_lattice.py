@@ -225,7 +225,7 @@ def test_a_spring_across_the_edge_may_burst_alone(axis):
     u = np.zeros((2, 8, 8))
     u[axis] = 0.2 * np.mgrid[:8, :8][1 - axis]
     assert np.isfinite(spring_forces(u)).all()
-    with pytest.raises(SimulationError, match="a spring in rows 0 to 8 has collapsed or burst"):
+    with pytest.raises(SimulationError, match="has collapsed or burst"):
         spring_forces(u, periodic=True)
 
 

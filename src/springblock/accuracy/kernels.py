@@ -24,42 +24,30 @@ STIFFNESS = 0.25
 SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
 
 
-def with_border(displacement: Array, periodic: bool = False) -> list[Array]:
-    """Lay a displacement (2, N_y, N_x) out as the kernels want it, its edges free of strain."""
-    grid = Grid.of(displacement.shape[1:], periodic)
-    fields = [np.zeros((int(grid.n_y) + periodic) * int(grid.pitch)) for _ in displacement]
-    for field, u in zip(fields, displacement, strict=True):
-        unpadded(field, grid)[:] = u
-    close_edges(*fields, grid)
-    close_rows(*fields, grid)
-    return fields
-
-
 def spring_forces(displacement: Array, band: int | None = None, periodic: bool = False) -> Array:
     """Return F_int/(K_int l), (2, N_y, N_x), by the compiled bands, for displacements in l.
 
     Bands are of as many rows as the solver chooses, or of `band`.
     """
     grid = Grid.of(displacement.shape[1:], periodic)
-    n_y, n_x = grid.shape
-    ux, uy = with_border(displacement, periodic)
+    (n_y, n_x), pitch = grid.shape, int(grid.pitch)
+    ux, uy = (np.zeros((n_y + periodic) * pitch) for _ in displacement)
+    for field, u in zip((ux, uy), displacement, strict=True):
+        unpadded(field, grid)[:] = u
+    close_edges(ux, uy, grid)
+    close_rows(ux, uy, grid)
     s, every_row = scratch(), np.ones(n_y + 1, bool)
-    band = band or grid.band_rows
+    band = band or int(grid.band_rows)
     forces = []
     for start in range(0, n_y, band):
         stop = min(start + band, n_y)
-        _, broken = forces_on_band(ux, uy, rows(grid, start, stop), every_row, s, *SPRINGS)
-        if broken:
-            raise SimulationError(f"a spring in rows {start} to {stop} has collapsed or burst")
-        pitch = int(grid.pitch)
+        rows = Band(np.uint64(start), np.uint64(stop), grid)
+        y, x = map(int, forces_on_band(ux, uy, rows, every_row, s, *SPRINGS))
+        if x:  # counted from one
+            raise SimulationError(f"a spring of block ({y}, {x - 1}) has collapsed or burst")
         found = [s[int(field) :][: (stop - start) * pitch] for field in (FORCE_X, FORCE_Y)]
         forces.append(np.reshape(found, (2, -1, pitch))[:, :, 1 : n_x + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
-
-
-def rows(grid: Grid, start: int, stop: int) -> Band:
-    """Rows [start, stop) of a lattice, as the kernels want them."""
-    return Band(np.uint64(start), np.uint64(stop), grid)
 
 
 def swing(

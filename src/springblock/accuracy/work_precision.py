@@ -80,15 +80,15 @@ FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
 NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
 TWIN_STEP = 5e-9
 TWIN_SEEDS = range(3)
-Errors = dict[str, float]
+Errors = dict[str, Array]  #: by what they are of, one for each realisation
 Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
 Result = TypeVar("Result")
 
 
-def run_errors(run: Solved, exact: Solved, until: float) -> Errors:
-    """Relative errors of one run; times relative to the exact t_max.
+def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
+    """Return the relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
     """
@@ -109,19 +109,15 @@ def run_errors(run: Solved, exact: Solved, until: float) -> Errors:
     }
 
 
+def stacked(errors: Iterable[dict[str, float]]) -> Errors:
+    """Collect the errors of several runs by their names."""
+    rows = list(errors)
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
 def root_mean_square(values: Array) -> float:
-    """Zero for no values at all."""
+    """Return the root of the mean square, zero for no values at all."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
-
-
-def means(run: Realisation) -> Errors:
-    """What ensembles are used for."""
-    return {name: getattr(run, name) for name in MEANS}
-
-
-def relative(values: Errors, exact: Errors) -> Errors:
-    """Relative errors."""
-    return {name: float(values[name] / exact[name] - 1.0) for name in exact}
 
 
 def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
@@ -131,20 +127,15 @@ def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
 
 
 def solve_with(integrator: str, step: float, surface: Surface, duration: float) -> Computed:
-    """One realisation by any of the three methods."""
+    """Compute one realisation by any of the three methods."""
+    how: Row = {"step": step, "duration": duration, "sample_interval": SAMPLE_INTERVAL}
     if integrator == PLAIN:
-        return plain_rk4.solve(*surface, duration, step, SAMPLE_INTERVAL)
-    return simulate(
-        *surface,
-        integrator=integrator,
-        step=step,
-        duration=duration,
-        sample_interval=SAMPLE_INTERVAL,
-    )
+        return plain_rk4.solve(*surface, **how)
+    return simulate(*surface, integrator=integrator, **how)
 
 
 def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
-    """What one of these timed runs costs."""
+    """Return what one of these timed runs costs."""
     solutions, seconds = zip(*runs, strict=True)
     evaluations = 4 if integrator == PLAIN else INTEGRATORS[integrator].FORCE_EVALUATIONS
     steps = float(np.mean([run.steps for run in solutions]))
@@ -162,10 +153,8 @@ def single_rows(scene: str) -> Iterator[Row]:
         solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
-            errors = [
-                run_errors(run, solution, until)
-                for (run, _), solution, until in zip(runs, exact, horizons, strict=True)
-            ]
+            computed = [run for run, _ in runs]
+            errors = stacked(map(run_errors, computed, exact, horizons))
             cost = cost_of(integrator, runs)
             yield from rows_of("reference", scene, integrator, step, errors, cost)
 
@@ -173,25 +162,26 @@ def single_rows(scene: str) -> Iterator[Row]:
 def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
-    exact = [means(run) for run, _ in ensemble(scene, "leapfrog", FINE_STEP, seeds)]
+    exact = means(ensemble(scene, "leapfrog", FINE_STEP, seeds))
     for integrator, steps in PAIRED_STEPS.items():
         few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
         for step in steps:
             runs = ensemble(scene, integrator, step, few)
-            errors = [
-                relative(means(run), fine) for (run, _), fine in zip(runs, exact, strict=False)
-            ]
-            cost = cost_of(integrator, runs)
-            yield from rows_of("paired", scene, integrator, step, errors, cost)
-    middle = {name: float(np.mean([each[name] for each in exact])) for name in MEANS}
-    spread = [relative(each, middle) for each in exact]
+            errors = {name: found / exact[name][:few] - 1.0 for name, found in means(runs).items()}
+            yield from rows_of("paired", scene, integrator, step, errors, cost_of(integrator, runs))
+    spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread, (0.0, 0.0))
+
+
+def means(runs: Iterable[tuple[Realisation, float]]) -> Errors:
+    """Return what ensembles are used for, of each of these timed runs."""
+    return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
 
 
 def ensemble(
     scene: str, integrator: str, step: float, seeds: int
 ) -> list[tuple[Realisation, float]]:
-    """Runs of so many seeds, each with its CPU seconds."""
+    """Compute realisations of so many seeds, each with its CPU seconds."""
     pattern = _SURFACES[scene].ensemble
     how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
     pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
@@ -206,7 +196,7 @@ def twin_rows(scene: str) -> Iterator[Row]:
     steps = _SURFACES[scene].duration / TWIN_STEP
     for nudge in tqdm(NUDGES, desc=f"{scene}, twins"):
         pairs = [timed(partial(twins, scene, seed, nudge)) for seed in TWIN_SEEDS]
-        errors = [run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs]
+        errors = stacked(run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs)
         cost = (float(np.median([seconds for _, seconds in pairs])) / 2.0, steps)
         yield from rows_of("twin", scene, "leapfrog", TWIN_STEP, errors, cost, nudge)
 
@@ -235,15 +225,14 @@ def rows_of(
     scene: str,
     integrator: str,
     step: float,
-    errors: list[Errors],
+    errors: Errors,
     cost: Cost,
     nudge: float = 0.0,
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity."""
     of_means = comparison in ("paired", "scatter")
     pattern = _SURFACES[scene].ensemble if of_means else _SURFACES[scene].single
-    for quantity in errors[0]:
-        values = np.array([error[quantity] for error in errors])
+    for quantity, values in errors.items():
         count, error, half = len(values), root_mean_square(values), 0.0
         if of_means:
             error = float(values.mean())
