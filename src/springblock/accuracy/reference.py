@@ -88,24 +88,21 @@ class _Lattice:
 
     def __init__(self, contact: Flags, periodic: bool, spacing: float, stiffness: float) -> None:
         n_y, n_x = contact.shape
-        first, second, axes, stiffnesses = [], [], [], []
-        for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5)):
-            for y, x in np.ndindex(n_y, n_x):
-                if periodic or (y + dy < n_y and 0 <= x + dx < n_x):
-                    first.append(y * n_x + x)
-                    second.append((y + dy) % n_y * n_x + (x + dx) % n_x)
-                    axes.append((dx * spacing, dy * spacing))
-                    stiffnesses.append(k * stiffness)
-        bonds = np.arange(len(first))
+        block = np.arange(n_y * n_x).reshape(n_y, n_x)
+        bonds = [
+            (block[y, x], block[(y + dy) % n_y, (x + dx) % n_x], dx * spacing, dy * spacing, k)
+            for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5))
+            for y, x in np.ndindex(n_y, n_x)
+            if periodic or (y + dy < n_y and 0 <= x + dx < n_x)
+        ]
+        first, second, *axis, k = np.array(bonds, float).reshape(-1, 5).T
+        bond, signs = np.tile(np.arange(len(bonds)), 2), np.repeat([-1.0, 1.0], len(bonds))
         ends = np.concatenate([first, second]).astype(int)
-        signs = np.repeat([-1.0, 1.0], len(bonds))
-        shape = (len(bonds), n_y * n_x)
-        difference = sparse.csr_array((signs, (np.tile(bonds, 2), ends)), shape=shape)
-        self._difference = sparse.block_diag([difference, difference], format="csr")
+        self._difference = sparse.csr_array((signs, (bond, ends)), shape=(len(bonds), block.size))
         self._net = sparse.csr_array(-self._difference.T)
-        self._axis = np.array(axes, dtype=float).reshape(-1, 2).T[:, :, None]  # L e
+        self._axis = np.array(axis)[:, :, None]  # L e
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
-        self._stiffness = np.array(stiffnesses, dtype=float)[:, None]
+        self._stiffness = stiffness * k[:, None]
 
     def _stretch(self, u: Array) -> tuple[Array, Array]:
         """Bond vectors r, and q = r²/L² - 1 without the cancellation this form has."""
@@ -129,8 +126,8 @@ class _Lattice:
 
 
 def _times(matrix: sparse.csr_array, u: Array) -> Array:
-    """Both components (2, n, k) of u, multiplied at once."""
-    return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
+    """Multiply both components of u (2, n, k)."""
+    return np.stack([matrix @ component for component in u])
 
 
 class _System:

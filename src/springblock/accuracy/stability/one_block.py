@@ -6,7 +6,7 @@ W = (mu_s - mu_d)/v_c with its speed.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -37,7 +37,6 @@ SPEED, MU_STATIC, MU_DYNAMIC = 0.01, 1.0, 0.6
 DROP = MU_STATIC - MU_DYNAMIC
 MILLION, TENTH = 1_000_000, 100_000  #: steps at rest
 AFTER_SLIP = "spring force after the slip, F_n"
-Motion = Callable[[float], tuple[float, float]]  #: way and speed at a time after the release
 
 
 def pull_block(
@@ -197,37 +196,31 @@ def weakening(integrator: str, law: str, rate: float, material: Material | None 
     return in_steps_of(0.02, integrator, replace(material, **weak))
 
 
-def while_weakening(rate: float) -> Motion:
-    """s" = v t + (W - 1) s from rest: it grows as sinh, or swings about a steady creep."""
-    k = math.sqrt(abs(rate - 1.0))
-    grow, speed_up = (math.sinh, math.cosh) if rate > 1.0 else (math.sin, math.cos)
-
-    def motion(t: float) -> tuple[float, float]:
-        return SPEED / k**2 * abs(grow(k * t) / k - t), SPEED / k**2 * abs(speed_up(k * t) - 1.0)
-
-    return motion
-
-
 def force_while_creeping(integrator: str, rate: float) -> Outcome:
-    """Friction falls more slowly than the spring: no slip. Seen before it comes to rest again."""
+    """Friction falls more slowly than the spring: s" = v t - (1 - W) s swings about a creep.
+
+    There is no slip; seen before it comes to rest again.
+    """
     pull = weakening(integrator, "slip_weakening", rate)
-    run, force, end = pull_block(pull, MU_STATIC / SPEED + 5.0 / math.sqrt(1.0 - rate))
+    k = math.sqrt(1.0 - rate)
+    run, force, end = pull_block(pull, MU_STATIC / SPEED + 5.0 / k)
     t = end - MU_STATIC / SPEED
-    closed_form = MU_STATIC + SPEED * t - while_weakening(rate)(t)[0]
+    closed_form = MU_STATIC + SPEED * t - SPEED / k**2 * (t - math.sin(k * t) / k)
     return pull.judge(run, force, closed_form, SPEED * t * pull.h**2 / closed_form)
 
 
 def force_after_slip_weakening(integrator: str, rate: float) -> Outcome:
-    """The way grows to d_c, and then the block swings under mu_d until it stops.
+    """The way, s" = v t + (W - 1) s, grows to d_c; then the block swings under mu_d and stops.
 
     What friction takes while it weakens, and where the block stops, is off by a share of
     (mu_s - mu_d) h². The time until it is weak is off by a share of (k h)²/4, k² = W - 1, and all
     of it is missed beyond k h = 2, where a block weakens at once.
     """
     pull = weakening(integrator, "slip_weakening", rate)
-    motion, k, far = while_weakening(rate), math.sqrt(rate - 1.0), DROP / rate
-    weak = brentq(lambda t: motion(t)[0] - far, 0.0, 20.0 / k)
-    over, rise = MU_STATIC + SPEED * weak - far - MU_DYNAMIC, SPEED - motion(weak)[1]
+    k, far = math.sqrt(rate - 1.0), DROP / rate
+    weak = brentq(lambda t: SPEED / k**2 * (math.sinh(k * t) / k - t) - far, 0.0, 20.0 / k)
+    over = MU_STATIC + SPEED * weak - far - MU_DYNAMIC
+    rise = SPEED - SPEED / k**2 * (math.cosh(k * weak) - 1.0)
     lasts = brentq(lambda t: rise * math.cos(t) - over * math.sin(t) - SPEED, 1.5, 5.0)
     closed_form = MU_DYNAMIC + (over * math.cos(lasts) + rise * math.sin(lasts))
     late = weak * min((k * pull.h) ** 2 / 4.0, 1.0)
