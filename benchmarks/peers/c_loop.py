@@ -47,11 +47,7 @@ class CLoop:
     """One run of the leapfrog in C, pulled along x; units l and steps."""
 
     def __init__(
-        self,
-        contact: np.ndarray,
-        mu_static: np.ndarray,
-        mu_dynamic: np.ndarray,
-        step: float,
+        self, contact: np.ndarray, mu_static: np.ndarray, mu_dynamic: np.ndarray, step: float
     ) -> None:
         m = Material()
         self.n = len(contact)
@@ -65,18 +61,15 @@ class CLoop:
         self._fields[6, :, :-1] = np.where(contact, mu_dynamic * load, 0.0)
         self.displacement, self.velocity = self._fields[0:2, :, :-1], self._fields[2:4, :, :-1]
         self.t_det = self._fields[4, :, :-1]  #: (N, N) steps, infinite before
-        series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
-        number = ctypes.c_double
+        self._series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
+        slide = m.slider_velocity * step / m.spacing
+        numbers = (math.exp(-m.gamma * step), m.k_s * compliance, slide, 0.0)
         self._constants = (
             _address(self._fields),
             self.n,
-            _address(series),
-            number(math.exp(-m.gamma * step)),
-            number(m.k_s * compliance),
-            number(m.slider_velocity * step / m.spacing),
-            number(0.0),
+            _address(self._series),
+            *map(ctypes.c_double, numbers),
         )
-        self._kept = series  # the address above is its
         self._advance = compiled("loop").advance
         self._advance.restype = None
 

@@ -26,6 +26,9 @@ from springblock.accuracy.kernels import swing
 
 _ROOT = Path(__file__).parents[2]
 MATERIAL = Material(gamma=0.0)
+#: N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half.
+STIFFNESS = {"axial": 0.5 * MATERIAL.k_int, "diagonal": 0.25 * MATERIAL.k_int}
+STIFFNESS["slider"] = MATERIAL.k_s
 #: Largest difference from the solver, relative to the largest displacement, after CHECK_STEPS. The
 #: springs there are written with the cancellation r - L, which a strain of 1e-4 shows.
 TOLERANCE = 1e-8
@@ -63,7 +66,7 @@ class LammpsLattice:
         with tempfile.TemporaryDirectory() as folder:
             data = Path(folder) / "lattice"
             data.write_text("\n".join(_data(self.n)) + "\n")
-            self._lammps.commands_string(_SETUP.format(data=data, step=step, k=_stiffness()))
+            self._lammps.commands_string(_SETUP.format(data=data, step=step, **STIFFNESS))
         self._rest = self._gathered("x")
         self._scatter("x", self._rest + displacement)
         self._lammps.command("run 0")
@@ -107,24 +110,15 @@ pair_style none
 bond_style harmonic
 comm_modify cutoff 3.0
 read_data {data}
-bond_coeff 1 {k[axial]} 1.0
-bond_coeff 2 {k[diagonal]} 1.4142135623730951
+bond_coeff 1 {axial} 1.0
+bond_coeff 2 {diagonal} 1.4142135623730951
 neigh_modify once yes
 fix motion all nve
-fix slider all spring/self {k[slider]}
+fix slider all spring/self {slider}
 fix plane all enforce2d
 timestep {step}
 thermo 1000000000
 """
-
-
-def _stiffness() -> dict[str, float]:
-    """In N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half."""
-    return {
-        "axial": 0.5 * MATERIAL.k_int,
-        "diagonal": 0.25 * MATERIAL.k_int,
-        "slider": MATERIAL.k_s,
-    }
 
 
 def _data(n: int) -> Iterator[str]:

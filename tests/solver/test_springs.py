@@ -106,10 +106,12 @@ def test_one_spring_out_of_range_calls_for_the_closed_form(spring, swung, pivot)
     )
 
 
-@pytest.mark.parametrize("band", [1, 2, 3])
-def test_no_bit_depends_on_the_rows_of_a_band(band, rng):
-    u = 0.01 * rng.uniform(-1.0, 1.0, (2, N, N))  # some rows within the series' range, some not
-    np.testing.assert_array_equal(spring_forces(u, band), spring_forces(u))
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("band", [1, 2, 3, 4])
+def test_no_bit_depends_on_the_rows_of_a_band(band, periodic, rng):
+    u = 0.01 * rng.uniform(-1.0, 1.0, (2, 7, 13))  # some rows within the series' range, some not
+    whole = spring_forces(u, periodic=periodic)
+    np.testing.assert_array_equal(spring_forces(u, band, periodic), whole)
 
 
 @pytest.mark.parametrize("amplitude", [1e-9, 1e-2, 0.2])

@@ -72,6 +72,9 @@ _SURFACES = {
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
+#: By one step of each method.
+FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
+FORCE_EVALUATIONS[PLAIN] = 4
 SAMPLE_INTERVAL = 8e-8
 SEEDS = range(2)
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8))
@@ -126,9 +129,15 @@ def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
     return solve(), time.process_time() - start
 
 
-def solve_with(integrator: str, step: float, surface: Surface, duration: float) -> Computed:
+def solve_with(
+    integrator: str,
+    step: float,
+    surface: Surface,
+    duration: float,
+    sample_interval: float = SAMPLE_INTERVAL,
+) -> Computed:
     """Compute one realisation by any of the three methods."""
-    how: Row = {"step": step, "duration": duration, "sample_interval": SAMPLE_INTERVAL}
+    how: Row = {"step": step, "duration": duration, "sample_interval": sample_interval}
     if integrator == PLAIN:
         return plain_rk4.solve(*surface, **how)
     return simulate(*surface, integrator=integrator, **how)
@@ -137,9 +146,8 @@ def solve_with(integrator: str, step: float, surface: Surface, duration: float) 
 def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
     """Return what one of these timed runs costs."""
     solutions, seconds = zip(*runs, strict=True)
-    evaluations = 4 if integrator == PLAIN else INTEGRATORS[integrator].FORCE_EVALUATIONS
     steps = float(np.mean([run.steps for run in solutions]))
-    return float(np.median(seconds)), steps * evaluations
+    return float(np.median(seconds)), steps * FORCE_EVALUATIONS[integrator]
 
 
 def single_rows(scene: str) -> Iterator[Row]:
@@ -149,7 +157,7 @@ def single_rows(scene: str) -> Iterator[Row]:
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in SEEDS]
-    for integrator in (*INTEGRATORS, PLAIN):
+    for integrator in FORCE_EVALUATIONS:
         solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
