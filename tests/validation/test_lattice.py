@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from springblock import Material
-from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
-from springblock.accuracy.stability.schemes import swing_factor
+from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing, swing_factor
 from springblock.simulation.energy import elastic_energy
 from springblock.simulation.simulate import SimulationError
 

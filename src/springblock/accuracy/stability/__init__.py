@@ -7,7 +7,7 @@ its closed form; how far it may be off follows from the order of the scheme, or 
   first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
   damping that is stiff within a step, may be wrong by what changes in one step.
 - While a block slides one way, or has no friction, both schemes are linear at small strains, and
-  their own solution is known exactly (`schemes`). What is left is the strain, and rounding.
+  their own solution is known exactly (`kernels`). What is left is the strain, and rounding.
 
 Each of these also bounds what may be missing from the energy balance (`Pull.keeps_energy`).
 

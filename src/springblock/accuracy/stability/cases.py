@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from springblock.accuracy.kernels import limit
 from springblock.accuracy.specimens import Surface
-from springblock.accuracy.stability.schemes import limit
 from springblock.model.material import Material
 from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import SimulationError, simulate

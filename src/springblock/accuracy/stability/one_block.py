@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from springblock.accuracy.kernels import UNDAMPED
+from springblock.accuracy.kernels import UNDAMPED, limit, limit_of_damping
 from springblock.accuracy.specimens import Array, uniform
 from springblock.accuracy.stability.cases import (
     FRICTION,
@@ -28,7 +28,6 @@ from springblock.accuracy.stability.cases import (
     Pull,
     pulled_at,
 )
-from springblock.accuracy.stability.schemes import limit, limit_of_damping
 from springblock.accuracy.stability.surfaces import beyond_the_limit
 from springblock.model.material import LAWS, Material
 from springblock.simulation.run import Realisation

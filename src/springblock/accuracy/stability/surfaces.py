@@ -10,10 +10,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from springblock.accuracy import reference
-from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
+from springblock.accuracy import kernels, reference
+from springblock.accuracy.kernels import UNDAMPED, spring_forces
 from springblock.accuracy.specimens import Array, drawn, flat, uniform
-from springblock.accuracy.stability import schemes
 from springblock.accuracy.stability.cases import (
     FIRST,
     FRICTION,
@@ -60,7 +59,7 @@ def steps(integrator: str) -> Iterator[Case]:
     for share in (0.05, 0.1, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99):
         name = f"pillars at {share:.0%} of the limit"
         yield case(name, share, FRICTION, near_the_limit, (PAPER, share), "stable")
-    edge = schemes.STABLE[integrator] / PAPER.omega_max
+    edge = kernels.STABLE[integrator] / PAPER.omega_max
     for share in (1.001, 1.01, 1.5, 10.0):
         name, arguments = f"pillars at {share:g} times the limit", (PAPER, share * edge, edge)
         yield case(name, share, LARGEST, beyond_the_limit, arguments, "refused")
@@ -68,7 +67,7 @@ def steps(integrator: str) -> Iterator[Case]:
     yield case(name, share, FRICTION, near_the_limit, (HEAVY, share), "stable")
     name = "overdamped pillars at 99% of the limit"
     yield case(name, share, FRICTION, near_the_limit_of_damping, (share,), "bounded")
-    edge = schemes.limit_of_damping(integrator, SYRUP)
+    edge = kernels.limit_of_damping(integrator, SYRUP)
     name, share = "overdamped pillars at 1.01 times the limit", 1.01
     yield case(name, share, LARGEST, beyond_the_limit, (SYRUP, share * edge, edge), "refused")
     for share, expected in ((0.99, "bounded"), (1.01, "grows")):
@@ -155,14 +154,16 @@ def swing_of_the_highest_mode(integrator: str, share: float) -> Outcome:
     """
     taken, (eigenvalue, mode) = 30, highest_mode(8)
     omega = math.sqrt((UNDAMPED.k_s + UNDAMPED.k_int * eigenvalue) / UNDAMPED.mass)
-    phase = share * schemes.STABLE[integrator]
-    value = float(np.vdot(mode, swing(TINY * mode, taken, phase / omega, integrator))) / TINY
+    phase = share * kernels.STABLE[integrator]
+    value = (
+        float(np.vdot(mode, kernels.swing(TINY * mode, taken, phase / omega, integrator))) / TINY
+    )
     # leapfrog starts from rest half a step before, and so below its amplitude
     bound = 1.0
     if integrator == "leapfrog":
         bound /= abs(np.cos(np.arcsin(complex(phase / 2.0))))
     word = "bounded" if abs(value) <= bound else "grows"
-    return compared(value, schemes.swing_factor(integrator, phase, taken), 1e-6, word)
+    return compared(value, kernels.swing_factor(integrator, phase, taken), 1e-6, word)
 
 
 def stiffnesses(integrator: str) -> Iterator[Case]:
@@ -217,7 +218,7 @@ def free_column(integrator: str, material: Material) -> Outcome:
     values, modes = np.linalg.eigh(stiffness)
     phase = pull.step * np.sqrt(values / material.mass)
     share = material.k_s * modes[0] / values  # of the slider's path, by mode
-    closed_form = float(modes[0] @ (share * schemes.path(integrator, phase, count)))
+    closed_form = float(modes[0] @ (share * kernels.path(integrator, phase, count)))
     value = float(run.displacement[0, 0, 1])
     slide = material.slider_velocity * pull.step
     tolerance = abs(value) / material.spacing + ROUNDING
@@ -335,7 +336,7 @@ def pull_column(integrator: str, strain: float) -> tuple[Pull, Realisation]:
     velocity = abs(slow_speed(strain)) * UNDAMPED.spacing * UNDAMPED.omega_min
     material = replace(UNDAMPED, slider_velocity=velocity)
     end = DURATION / material.omega_min
-    count = math.ceil(end / (0.01 * schemes.limit(integrator, material)))
+    count = math.ceil(end / (0.01 * kernels.limit(integrator, material)))
     pull = Pull(integrator, material, end / count)
     return pull, pull.simulate(FREE_COLUMN, count, direction=180 if strain < 0.0 else 0)
 
