@@ -53,9 +53,3 @@ def _three_digits(number: float) -> str:
     if np.isnan(number):
         return ""
     return np.format_float_positional(number, 3, fractional=False, trim="-")
-
-
-def append(line: str) -> None:
-    """Add a line to the file."""
-    with FILE.open("a", encoding="utf-8") as file:
-        file.write(f"{line}\n")

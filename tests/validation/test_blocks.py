@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, simulate
+from springblock import simulate
 from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
 from springblock.accuracy.stability import one_block
@@ -88,15 +88,6 @@ def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, int
         assert run.time[lowest] - run.time[slip] == pytest.approx(lasts, abs=2 * step)
         rising = np.diff(run.force[lowest + 2 : following])
         np.testing.assert_allclose(rising, RATE * step, rtol=1e-9)  # differences of 1e-6 N
-
-
-def test_a_block_with_mu_s_below_mu_d_lets_go_once_and_follows_the_slider(integrator):
-    """It starts at mu_d F_n, not at mu_s F_n, with v (1 - cos omega tau): without a drop."""
-    run = pull(0.3, 0.61, after=2e-5, integrator=integrator, material=Material())
-    assert run.t_first == pytest.approx(release_time(0.61), rel=1e-14)
-    assert run.switches.sum() == 1
-    beside = np.abs(run.force[run.time > run.t_first] - 0.61 * LOAD)
-    assert beside.max() < 1.01 * RATE / OMEGA + RATE * 1e-8  # a step late, and sampled in steps
 
 
 def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
