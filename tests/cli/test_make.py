@@ -93,6 +93,7 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     assert "this page was written without" not in text
     # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16
     assert "| l_c |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
+    assert "| t_max | 80000000 ± " in text  # 80 s in µs
     assert "| static friction | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 |" in text
     assert "| +0.250 [+0.150, +0.350] (4.47) |" in text  # of a scale of 50; 20 % over 20 seeds
     # 20 seeds of half a second each, or twice as many at twice the step and four times the bias
