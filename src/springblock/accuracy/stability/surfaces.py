@@ -155,9 +155,8 @@ def swing_of_the_highest_mode(integrator: str, share: float) -> Outcome:
     taken, (eigenvalue, mode) = 30, highest_mode(8)
     omega = math.sqrt((UNDAMPED.k_s + UNDAMPED.k_int * eigenvalue) / UNDAMPED.mass)
     phase = share * kernels.STABLE[integrator]
-    value = (
-        float(np.vdot(mode, kernels.swing(TINY * mode, taken, phase / omega, integrator))) / TINY
-    )
+    swung = kernels.swing(TINY * mode, taken, phase / omega, integrator)
+    value = float(np.vdot(mode, swung)) / TINY
     # leapfrog starts from rest half a step before, and so below its amplitude
     bound = 1.0
     if integrator == "leapfrog":
