@@ -34,13 +34,11 @@ def line(machine: Mapping[str, str], rows: Iterable[Row], n: int) -> str:
     def step(name: str) -> Row:
         return found.get((name, BLOCK_STEP, "flat"), absent)
 
-    kernels = ("LAMMPS", "rk4", "plain rk4")
     scenes = ("flat", "pillars", "grooves")
     numbers = [
-        step("leapfrog").value,
-        step("C loop").value,
+        *(step(name).value for name in ("leapfrog", "C loop")),
         1.0 / step("C loop").ratio,
-        *(step(name).value for name in kernels),
+        *(step(name).value for name in ("LAMMPS", "rk4", "plain rk4")),
         100.0 * step("leapfrog").of_peak,
         *(found.get((WITH_PRELUDE, "s", scene), absent).ratio for scene in scenes),
     ]
@@ -55,9 +53,3 @@ def _three_digits(number: float) -> str:
     if np.isnan(number):
         return ""
     return np.format_float_positional(number, 3, fractional=False, trim="-")
-
-
-def append(line: str) -> None:
-    """Add a line to the file."""
-    with FILE.open("a", encoding="utf-8") as file:
-        file.write(f"{line}\n")

@@ -15,14 +15,14 @@ Call with `python -m benchmarks` from the repository, or `make bench`.
 
 import os
 import platform
+import re
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from importlib import metadata
 from pathlib import Path
-from typing import Protocol
+from typing import NamedTuple
 
 import click
 import llvmlite.binding
@@ -94,14 +94,10 @@ STEPS = 300  #: of a kernel in one repetition, some 50 ms
 ROUNDS = 10_000_000  #: of multiply-adds
 MULTIPLY_ADDS = "multiply-adds"
 
+MOVING = "all blocks move"
+
 Flags = NDArray[np.bool_]
-
-
-class Lattice(Protocol):
-    """Anything that can be timed step by step."""
-
-    def advance(self, steps: int) -> object:
-        """Take so many steps."""
+Steps = Callable[[int], object]  #: takes so many steps
 
 
 class Solver:
@@ -115,8 +111,9 @@ class Solver:
             velocity = np.where(still, 0.0, velocity)
         how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
         self.state, self.constants = prepare(contact, mu_static, mu_dynamic, *how)
-        for component, start in zip(self.velocity, velocity, strict=True):
-            component[:] = start
+        blocks, grid = self.state.blocks, self.constants.grid
+        self.velocity = unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)  # views
+        self.velocity[0][:], self.velocity[1][:] = velocity
         self.advance(min(WARM_UP, 1 + BLOCK_STEPS // n**2))
 
     def advance(self, steps: int, cores: int = 1) -> None:
@@ -126,27 +123,10 @@ class Solver:
         self.taken += steps
 
     @property
-    def velocity(self) -> tuple[Array, Array]:
-        """Both components, (N, N) each, views."""
-        blocks, grid = self.state.blocks, self.constants.grid
-        return unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)
-
-    @property
     def moving(self) -> str:
-        """How many blocks move now."""
-        rest = ~np.any(self.velocity, axis=0)
-        return f"{100.0 * (1.0 - rest.mean()):.4g} % of the blocks move"
-
-
-class PlainRungeKutta:
-    """Runge-Kutta as one would first write it, from rest in every call."""
-
-    def __init__(self, n: int) -> None:
-        self.surface = in_motion(n)[:3]
-
-    def advance(self, steps: int) -> None:
-        """Take so many steps."""
-        plain_rk4.solve(*self.surface, steps * PAPER_STEP, PAPER_STEP, steps * PAPER_STEP)
+        """Say how many blocks move now."""
+        moving = np.any(self.velocity, axis=0).mean()
+        return f"{100.0 * moving:.4g} % of the blocks move"
 
 
 def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
@@ -157,41 +137,42 @@ def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
     return np.ones((n, n), bool), THRESHOLDS * mu_static, THRESHOLDS * mu_dynamic, velocity
 
 
-def c_loop_in_motion(n: int) -> CLoop:
-    """The leapfrog in C; raises Missing."""
+def c_loop_in_motion(n: int) -> Steps:
+    """Return the leapfrog in C; raises Missing."""
     c_loop.require()
     contact, mu_static, mu_dynamic, velocity = in_motion(n)
     loop = CLoop(contact, mu_static, mu_dynamic, PAPER_STEP)
     loop.velocity[:] = velocity
-    return loop
+    return loop.advance
 
 
-def lammps_in_motion(n: int) -> LammpsLattice:
-    """The frictionless lattice in LAMMPS, from strained springs; raises Missing."""
+def lammps_in_motion(n: int) -> Steps:
+    """Return the frictionless lattice in LAMMPS, from strained springs; raises Missing."""
     lammps_lattice.require()
-    return LammpsLattice(in_motion(n)[3], PAPER_STEP)
+    return LammpsLattice(in_motion(n)[3], PAPER_STEP).advance
 
 
-@dataclass(frozen=True)
-class Contender:
+def plain_in_motion(n: int) -> Steps:
+    """Return Runge-Kutta as one would first write it, from rest in every call."""
+    surface = in_motion(n)[:3]
+    return lambda k: plain_rk4.solve(*surface, k * PAPER_STEP, PAPER_STEP, k * PAPER_STEP)
+
+
+class Contender(NamedTuple):
     """What takes part in the comparison of kernels."""
 
-    make: Callable[[int], Lattice]  #: from N; raises Missing
+    make: Callable[[int], Steps]  #: from N; raises Missing
     steps: int  #: per repetition
     note: str
     operations: float = np.nan  #: per block and step; NaN where nobody has counted them
 
 
 CONTENDERS = {
-    "leapfrog": Contender(partial(Solver, "leapfrog"), STEPS, "all blocks move", LEAPFROG),
-    "C loop": Contender(
-        c_loop_in_motion, STEPS, "leapfrog without energy balance and watch over strains", LEAPFROG
-    ),
-    "LAMMPS": Contender(
-        lammps_in_motion, STEPS // 5, "bonds, tethers, velocity Verlet; no friction"
-    ),
-    "rk4": Contender(partial(Solver, "rk4"), STEPS // 5, "all blocks move", RK4),
-    "plain rk4": Contender(PlainRungeKutta, STEPS // 30, "numba, as one would first write it"),
+    "leapfrog": Contender(lambda n: Solver("leapfrog", n).advance, STEPS, MOVING, LEAPFROG),
+    "C loop": Contender(c_loop_in_motion, STEPS, "leapfrog without balance and watch", LEAPFROG),
+    "LAMMPS": Contender(lammps_in_motion, STEPS // 5, "bonds and tethers; no friction"),
+    "rk4": Contender(lambda n: Solver("rk4", n).advance, STEPS // 5, MOVING, RK4),
+    "plain rk4": Contender(plain_in_motion, STEPS // 30, "numba, as one would first write it"),
 }
 
 
@@ -201,35 +182,30 @@ def kernel() -> Iterator[Row]:
     absent: dict[str, Missing] = {}
     for name, contender in CONTENDERS.items():
         try:
-            lattice = contender.make(N)
+            advance = contender.make(N)
         except Missing as why:
             absent[name] = why
             continue
-        lattice.advance(min(WARM_UP, contender.steps))
-        runs[name] = partial(lattice.advance, contender.steps)
-    multiply_adds = None
+        advance(min(WARM_UP, contender.steps))
+        runs[name] = partial(advance, contender.steps)
     with suppress(Missing):
-        multiply_adds = Peak(ROUNDS)
-        runs[MULTIPLY_ADDS] = multiply_adds.run
+        peak = Peak(ROUNDS)
+        runs[MULTIPLY_ADDS] = peak.run
     seconds = interleaved(runs, REPETITIONS)
     operation: Array | float = np.nan  # at the core's peak, ns
-    if multiply_adds:
-        rate = 1e-9 * multiply_adds.operations / seconds[MULTIPLY_ADDS]
+    if MULTIPLY_ADDS in runs:
+        rate = 1e-9 * peak.operations / seconds[MULTIPLY_ADDS]
         operation = 1.0 / rate
         yield Row("kernel", MULTIPLY_ADDS, "Gflop/s", rate, note="the peak of one core")
-    steps = {name: contender.steps for name, contender in CONTENDERS.items()}
-    cost = {name: 1e9 * seconds[name] / steps[name] / N**2 for name in runs if name in steps}
+    leapfrog = 1e9 * seconds["leapfrog"] / STEPS / N**2
     for name, contender in CONTENDERS.items():
         here = partial(Row, "kernel", name, BLOCK_STEP, scene="flat", n_blocks=N)
         if name in absent:
             yield here(np.nan, note=str(absent[name]))
-            continue
-        yield here(
-            cost[name],
-            reference=cost["leapfrog"],
-            at_peak=contender.operations * operation,
-            note=contender.note,
-        )
+        else:
+            cost = 1e9 * seconds[name] / contender.steps / N**2
+            at_peak = contender.operations * operation
+            yield here(cost, reference=leapfrog, at_peak=at_peak, note=contender.note)
 
 
 def realisation() -> Iterator[Row]:
@@ -257,8 +233,7 @@ def against_c(scene: str, n: int, runs: Runs, duration: float) -> Iterator[Row]:
     """Rows of these runs; the ratio is to the C loop from zero, as long, at the paper's step."""
     bound: Array | float = np.nan
     with suppress(Missing):
-        loop = c_loop_in_motion(n)
-        runs = {**runs, "C": partial(loop.advance, STEPS)}
+        runs = {**runs, "C": partial(c_loop_in_motion(n), STEPS)}
     seconds = interleaved(runs, FEW)
     if "C" in seconds:
         bound = seconds.pop("C") / STEPS * round(duration / PAPER_STEP)
@@ -279,13 +254,11 @@ def scaling() -> Iterator[Row]:
             solvers[name] = Solver("leapfrog", N, still)
     steps = {name: max(1, BLOCK_STEPS // solver.n**2) for name, solver in solvers.items()}
     runs = {name: partial(solver.advance, steps[name]) for name, solver in solvers.items()}
-    cost = {
-        name: 1e9 * each / steps[name] / solvers[name].n ** 2
-        for name, each in interleaved(runs, REPETITIONS).items()
-    }
-    for name, each in cost.items():
-        here, note = ("flat", solvers[name].n), solvers[name].moving
-        yield Row("scaling", name, BLOCK_STEP, each, *here, cost[reference], note=note)
+    seconds = interleaved(runs, REPETITIONS)
+    cost = {name: 1e9 * seconds[name] / steps[name] / solvers[name].n ** 2 for name in solvers}
+    for name, solver in solvers.items():
+        each, whole = cost[name], cost[reference]
+        yield Row("scaling", name, BLOCK_STEP, each, "flat", solver.n, whole, note=solver.moving)
 
 
 def cores() -> Iterator[Row]:
@@ -303,12 +276,7 @@ def cores() -> Iterator[Row]:
             yield Row("cores", name, BLOCK_STEP, each, "flat", n, alone)
 
 
-PARTS: dict[str, Callable[[], Iterator[Row]]] = {
-    "kernel": kernel,
-    "realisation": realisation,
-    "scaling": scaling,
-    "cores": cores,
-}
+PARTS = {part.__name__: part for part in (kernel, realisation, scaling, cores)}
 LEGEND = """
 ratio: kernel, to a step of the leapfrog; realisation, to all steps by the C loop; scaling, to
 N = 120, all moving; cores, to one core. of peak: share of the multiply-adds that one core can do.
@@ -318,15 +286,10 @@ Times are CPU times but for those of cores.
 
 def machine() -> dict[str, str]:
     """What the numbers depend on besides the code."""
-    cpu = Path("/proc/cpuinfo")
-    models = [
-        line.partition(": ")[2]
-        for line in (cpu.read_text().splitlines() if cpu.exists() else [])
-        if line.startswith("model name")
-    ]
-    has = llvmlite.binding.get_host_cpu_features()
+    file, has = Path("/proc/cpuinfo"), llvmlite.binding.get_host_cpu_features()
+    model = re.search(r"model name\s*: (.*)", file.read_text()) if file.exists() else None
     return {
-        "cpu": models[0] if models else platform.processor() or platform.machine(),
+        "cpu": model[1] if model else platform.processor() or platform.machine(),
         "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
         "python": platform.python_version(),
         **{name: metadata.version(name) for name in ("numba", "llvmlite", "numpy")},
@@ -357,4 +320,5 @@ def main(parts: tuple[str, ...], release: bool) -> None:
         line = history.line(here, rows, N)
         click.echo(f"\n{'added to' if release else 'as a line of'} benchmarks/history.csv:\n{line}")
     if release:
-        history.append(line)
+        with history.FILE.open("a", encoding="utf-8") as file:
+            file.write(f"{line}\n")

@@ -11,7 +11,7 @@ import springblock
 from precision import precision_rows, production_rows
 from springblock import Material, Realisation
 from springblock.accuracy.page import page as accuracy_page
-from springblock.accuracy.stability.table import all_cases
+from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import page as beyond_page
 from springblock.claims import CLAIMS
 from springblock.claims.page import page as claims_page

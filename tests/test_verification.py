@@ -9,8 +9,8 @@ from click.testing import CliRunner
 from benchmarks.verification.__main__ import main
 from benchmarks.verification.entries import solved_by
 from benchmarks.verification.metrics import Metrics, errors, static_friction, t_max, uncertainties
-from benchmarks.verification.problems import PROBLEMS
-from benchmarks.verification.tables import (
+from benchmarks.verification.problems import (
+    PROBLEMS,
     SCALARS,
     Answer,
     read_reference,

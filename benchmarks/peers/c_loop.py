@@ -16,6 +16,7 @@ from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import Springs
 
 LEAPFROG = INTEGRATORS["leapfrog"]
+_INT, _DOUBLE, _ARRAY = ctypes.c_int, ctypes.c_double, np.ctypeslib.ndpointer(float)
 #: Largest difference from the solver after CHECK_STEPS, relative to the largest value.
 TOLERANCE = 1e-9
 CHECK_STEPS = 500
@@ -39,19 +40,11 @@ def compiled(name: str) -> ctypes.CDLL:
         return ctypes.CDLL(str(library))
 
 
-def _address(array: np.ndarray) -> ctypes.c_void_p:
-    return array.ctypes.data_as(ctypes.c_void_p)
-
-
 class CLoop:
     """One run of the leapfrog in C, pulled along x; units l and steps."""
 
     def __init__(
-        self,
-        contact: np.ndarray,
-        mu_static: np.ndarray,
-        mu_dynamic: np.ndarray,
-        step: float,
+        self, contact: np.ndarray, mu_static: np.ndarray, mu_dynamic: np.ndarray, step: float
     ) -> None:
         m = Material()
         self.n = len(contact)
@@ -66,24 +59,17 @@ class CLoop:
         self.displacement, self.velocity = self._fields[0:2, :, :-1], self._fields[2:4, :, :-1]
         self.t_det = self._fields[4, :, :-1]  #: (N, N) steps, infinite before
         series = np.array(Springs.of(m.k_int * compliance, 0.0).series)
-        number = ctypes.c_double
-        self._constants = (
-            _address(self._fields),
-            self.n,
-            _address(series),
-            number(math.exp(-m.gamma * step)),
-            number(m.k_s * compliance),
-            number(m.slider_velocity * step / m.spacing),
-            number(0.0),
-        )
-        self._kept = series  # the address above is its
+        slide = m.slider_velocity * step / m.spacing
+        numbers = (math.exp(-m.gamma * step), m.k_s * compliance, slide, 0.0)
+        self._constants = (self._fields, self.n, series, *numbers)
         self._advance = compiled("loop").advance
+        self._advance.argtypes = [_ARRAY, _INT, _ARRAY, *4 * [_DOUBLE], _INT, _INT, _ARRAY]
         self._advance.restype = None
 
     def advance(self, steps: int) -> np.ndarray:
         """Take so many steps; returns the slider's force after each, (steps, 2)."""
         force = np.empty((steps, 2))
-        self._advance(*self._constants, self.taken, steps, _address(force))
+        self._advance(*self._constants, self.taken, steps, force)
         self.taken += steps
         return force
 
@@ -136,11 +122,10 @@ class Peak:
     def __init__(self, rounds: int) -> None:
         self._rounds = rounds
         self._run = compiled("peak").multiply_add
-        self._run.restype = ctypes.c_double
-        self._run.argtypes = [ctypes.c_long, ctypes.c_double, ctypes.c_double, ctypes.c_void_p]
+        self._run.restype = _DOUBLE
+        self._run.argtypes = [ctypes.c_long, _DOUBLE, _DOUBLE, _ARRAY]
         self.operations = self.run()
 
     def run(self) -> float:
         """Compute them; returns the number of floating-point operations."""
-        values = np.arange(12.0)
-        return self._run(self._rounds, 0.999, 1e-3, _address(values))
+        return self._run(self._rounds, 0.999, 1e-3, np.arange(12.0))

@@ -21,11 +21,12 @@ from typing import Any
 import numpy as np
 
 from benchmarks.timing import Missing
-from springblock import Material
-from springblock.accuracy.kernels import swing
+from springblock.accuracy.kernels import UNDAMPED, swing
 
 _ROOT = Path(__file__).parents[2]
-MATERIAL = Material(gamma=0.0)
+#: N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half.
+STIFFNESS = {"axial": 0.5 * UNDAMPED.k_int, "diagonal": 0.25 * UNDAMPED.k_int}
+STIFFNESS["slider"] = UNDAMPED.k_s
 #: Largest difference from the solver, relative to the largest displacement, after CHECK_STEPS. The
 #: springs there are written with the cancellation r - L, which a strain of 1e-4 shows.
 TOLERANCE = 1e-8
@@ -63,30 +64,22 @@ class LammpsLattice:
         with tempfile.TemporaryDirectory() as folder:
             data = Path(folder) / "lattice"
             data.write_text("\n".join(_data(self.n)) + "\n")
-            self._lammps.commands_string(_SETUP.format(data=data, step=step, k=_stiffness()))
-        self._rest = self._gathered("x")
-        self._scatter("x", self._rest + displacement)
+            self._lammps.commands_string(_SETUP.format(data=data, step=step, **STIFFNESS))
+        self.rest = self.gathered("x")
+        self.scatter("x", self.rest + displacement)
         self._lammps.command("run 0")
-
-    def start_half_a_step_ahead(self, step: float) -> None:
-        """Give the blocks half a step's velocity, as the solver's leapfrog starts from rest."""
-        self._scatter("v", 0.5 * step * self._gathered("f") / MATERIAL.mass)
 
     def advance(self, steps: int) -> None:
         """Take so many steps."""
         self._lammps.command(f"run {steps} pre no post no")
 
-    @property
-    def displacement(self) -> np.ndarray:
-        """(2, N, N), l."""
-        return self._gathered("x") - self._rest
-
-    def _gathered(self, name: str) -> np.ndarray:
-        """Components x and y of a property of all blocks, (2, N, N)."""
+    def gathered(self, name: str) -> np.ndarray:
+        """Return components x and y of a property of all blocks, (2, N, N)."""
         values = np.array(self._lammps.gather_atoms(name, 1, 3))
         return np.moveaxis(values.reshape(self.n, self.n, 3)[..., :2], -1, 0)
 
-    def _scatter(self, name: str, values: np.ndarray) -> None:
+    def scatter(self, name: str, values: np.ndarray) -> None:
+        """Set such a property."""
         flat = np.zeros((self.n, self.n, 3))
         flat[..., :2] = np.moveaxis(values, 0, -1)
         numbers = (ctypes.c_double * flat.size)(*flat.ravel())
@@ -107,24 +100,15 @@ pair_style none
 bond_style harmonic
 comm_modify cutoff 3.0
 read_data {data}
-bond_coeff 1 {k[axial]} 1.0
-bond_coeff 2 {k[diagonal]} 1.4142135623730951
+bond_coeff 1 {axial} 1.0
+bond_coeff 2 {diagonal} 1.4142135623730951
 neigh_modify once yes
 fix motion all nve
-fix slider all spring/self {k[slider]}
+fix slider all spring/self {slider}
 fix plane all enforce2d
 timestep {step}
 thermo 1000000000
 """
-
-
-def _stiffness() -> dict[str, float]:
-    """In N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half."""
-    return {
-        "axial": 0.5 * MATERIAL.k_int,
-        "diagonal": 0.25 * MATERIAL.k_int,
-        "slider": MATERIAL.k_s,
-    }
 
 
 def _data(n: int) -> Iterator[str]:
@@ -138,7 +122,7 @@ def _data(n: int) -> Iterator[str]:
     yield from ("springs and blocks", "", f"{n * n} atoms", f"{len(bonds)} bonds")
     yield from ("1 atom types", "2 bond types", "4 extra bond per atom")
     yield from (f"-1 {n} xlo xhi", f"-1 {n} ylo yhi", "-0.5 0.5 zlo zhi")
-    yield from ("", "Masses", "", f"1 {MATERIAL.mass!r}", "", "Atoms", "")
+    yield from ("", "Masses", "", f"1 {UNDAMPED.mass!r}", "", "Atoms", "")
     for y, x in itertools.product(range(n), repeat=2):
         yield f"{y * n + x + 1} 1 1 {x} {y} 0"
     yield from ("", "Bonds", "")
@@ -150,10 +134,11 @@ def difference(n: int = 12, step: float = 1e-8) -> float:
     """Distance from the solver after CHECK_STEPS, over the largest displacement."""
     start = 1e-4 * np.random.default_rng(1).standard_normal((2, n, n))
     lattice = LammpsLattice(start, step)
-    lattice.start_half_a_step_ahead(step)
+    # half a step's velocity: the solver's leapfrog starts from rest half a step before
+    lattice.scatter("v", 0.5 * step * lattice.gathered("f") / UNDAMPED.mass)
     lattice.advance(CHECK_STEPS)
-    expected = swing(start, CHECK_STEPS, step, material=MATERIAL)
-    return float(np.abs(lattice.displacement - expected).max() / np.abs(expected).max())
+    found, expected = lattice.gathered("x") - lattice.rest, swing(start, CHECK_STEPS, step)
+    return float(np.abs(found - expected).max() / np.abs(expected).max())
 
 
 if __name__ == "__main__":

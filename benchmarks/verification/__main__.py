@@ -8,8 +8,7 @@ import click
 from benchmarks.verification import entries as own
 from benchmarks.verification import references
 from benchmarks.verification.metrics import NAMES, errors, uncertainties
-from benchmarks.verification.problems import PROBLEMS
-from benchmarks.verification.tables import read_answer, read_reference
+from benchmarks.verification.problems import PROBLEMS, read_answer, read_reference
 from springblock.cli.options import INPUT, one_sentence
 from springblock.files import whole_file
 

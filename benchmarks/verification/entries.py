@@ -3,15 +3,18 @@
 from collections.abc import Iterator
 
 from benchmarks.verification.metrics import cells, errors, uncertainties
-from benchmarks.verification.problems import PROBLEMS, Problem
-from benchmarks.verification.tables import Answer, read_reference, read_surface
-from springblock import simulate
-from springblock.accuracy import plain_rk4
+from benchmarks.verification.problems import (
+    PROBLEMS,
+    Answer,
+    Problem,
+    read_reference,
+    read_surface,
+)
 from springblock.accuracy.conventions import PLAIN
 from springblock.accuracy.specimens import Surface
+from springblock.accuracy.work_precision import FORCE_EVALUATIONS, solve_with
 from springblock.io.rows import markdown_table
 from springblock.model.defaults import SAMPLE_INTERVAL
-from springblock.solver.integrators import INTEGRATORS
 
 #: Of each integrator, s.
 STEPS = {
@@ -34,12 +37,8 @@ def solved_by(
     integrator: str, step: float, problem: Problem, surface: Surface
 ) -> tuple[Answer, int]:
     """Return what one of our integrators says, and the force evaluations that it took."""
-    if integrator == PLAIN:
-        plain = plain_rk4.solve(*surface, problem.duration, step, SAMPLE_INTERVAL)
-        return Answer(plain.t_det, plain.force), 4 * plain.steps
-    run = simulate(*surface, integrator=integrator, step=step, duration=problem.duration)
-    evaluations = INTEGRATORS[integrator].FORCE_EVALUATIONS * run.steps
-    return Answer(run.t_det, run.force), evaluations
+    run = solve_with(integrator, step, surface, problem.duration, SAMPLE_INTERVAL)
+    return Answer(run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
 
 
 def page() -> str:

@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.verification.problems import Problem
-from benchmarks.verification.tables import Answer, Reference
+from benchmarks.verification.problems import Answer, Problem, Reference
 from springblock.accuracy.specimens import Array
 from springblock.accuracy.work_precision import root_mean_square
 

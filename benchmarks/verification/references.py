@@ -4,26 +4,27 @@ import numpy as np
 
 from benchmarks.verification.entries import solved_by
 from benchmarks.verification.metrics import Metrics, cells, errors, static_friction, t_max
-from benchmarks.verification.problems import Problem
-from benchmarks.verification.tables import (
+from benchmarks.verification.problems import (
     FORCE,
     SCALARS,
     SURFACE,
     T_DET,
     Answer,
+    Problem,
     read_reference,
     read_surface,
     write_table,
 )
+from springblock import simulate
 from springblock.accuracy import reference
 from springblock.accuracy.conventions import HORIZON_NUDGE
 from springblock.accuracy.specimens import Surface, drawn
+from springblock.accuracy.work_precision import horizon
 from springblock.model.defaults import SAMPLE_INTERVAL
 
 PUBLISHED, COARSE = 1e-11, 1e-10  #: relative tolerances of the event-located solution
 STEPS = (1e-9, 5e-10)  #: of the leapfrog that checks it, s
 TWINS = 5  #: runs with nudged thresholds
-PARTED = 1e-3  #: share of t_max; detachments further apart are those of parted runs
 
 
 def write_surface(problem: Problem) -> None:
@@ -84,11 +85,8 @@ def _horizon(problem: Problem, surface: Surface) -> float:
     """Time in s at which runs with thresholds nudged by a little part; the end where none does."""
     contact, mu_static, mu_dynamic = surface
     rng = np.random.default_rng(problem.seed)
-    runs = [
-        solved_by("leapfrog", STEPS[0], problem, (contact, mu_static * change, mu_dynamic))[0]
+    one, *others = (
+        simulate(contact, mu_static * change, mu_dynamic, step=STEPS[0], duration=problem.duration)
         for change in (1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape))))
-    ]
-    one, *others = (np.nan_to_num(run.t_det, nan=problem.duration) for run in runs)
-    limit = PARTED * t_max(problem, runs[0].force)
-    ends = [np.minimum(one, other)[np.abs(other - one) > limit] for other in others]
-    return float(np.concatenate([*ends, [problem.duration]]).min())
+    )
+    return min(horizon(one, other) for other in others)

@@ -5,7 +5,7 @@ import pytest
 
 from analysis.test_correlation import times
 from springblock import Pattern, draw_friction, simulate
-from springblock.accuracy import production
+from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import SCHEMA, STEPS, of_length, of_mean, production_rows
 from springblock.io.parquet import rows_to_table
@@ -76,6 +76,17 @@ def test_rows_hold_what_simulate_yields(rows):
     assert found[DELAY]["value"] == pytest.approx(np.mean(delays))
     assert found[DELAY]["scale"] == pytest.approx(found["t_max"]["scale"])
     assert (found[LENGTH]["unit"], found[DELAY]["unit"]) == ("blocks", "s")
+
+
+def test_an_ensemble_has_no_bias_from_itself(monkeypatch):
+    """Nor the mean of its scatter, but for rounding."""
+    few = work_precision._SURFACES["flat"]._replace(ensemble=Pattern.flat(4), seeds=3)
+    monkeypatch.setitem(work_precision._SURFACES, "flat", few)
+    monkeypatch.setattr(work_precision, "PAIRED_STEPS", {"leapfrog": [work_precision.FINE_STEP]})
+    *paired, scatter, _, _ = work_precision.paired_rows("flat")
+    assert [row["error"] for row in paired] == 3 * [0.0]
+    assert scatter["error"] == pytest.approx(0.0, abs=1e-15)
+    assert scatter["ci_low"] < 0.0 < scatter["ci_high"]
 
 
 def test_scenes_are_those_of_the_study_and_steps_divide_the_sample_interval():

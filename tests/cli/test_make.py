@@ -1,12 +1,13 @@
 """springblock make."""
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
 from precision import precision_rows, production_rows
-from springblock.accuracy.stability import table as stability
-from springblock.accuracy.stability.cases import Family, Outcome
+from springblock.accuracy import stability
+from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.accuracy.work_precision import SCHEMA, rows_of
 from springblock.io.parquet import rows_to_table, write
 
@@ -25,7 +26,7 @@ def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
 
 @pytest.mark.parametrize("word", ["agrees", "drifts"])
 def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_path, monkeypatch):
-    case = Family("rest", "rk4").case("nothing", 0.0, "none", lambda _: Outcome(word))
+    case = Case("rest", "rk4", "nothing", 0.0, "none", lambda _: Outcome(word))
     monkeypatch.setattr(stability, "all_cases", lambda: [case])
     output, refused = tmp_path / "table.parquet", word == "drifts"
     said = springblock("make", "stability", "--output", output, refused=refused)
@@ -40,7 +41,7 @@ def collect(springblock, tmp_path):
     def collected(*versions, refused=False):
         parts, output = [], tmp_path / "table.parquet"
         for number, version in enumerate(versions):
-            errors = [{"t_max": 3.0}, {"t_max": 4.0}]
+            errors = {"t_max": np.array([3.0, 4.0])}
             rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
             parts.append(tmp_path / f"{number}.parquet")
             write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})
@@ -92,6 +93,7 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     assert "this page was written without" not in text
     # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16
     assert "| l_c |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
+    assert "| t_max | 80000000 ± " in text  # 80 s in µs
     assert "| static friction | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 |" in text
     assert "| +0.250 [+0.150, +0.350] (4.47) |" in text  # of a scale of 50; 20 % over 20 seeds
     # 20 seeds of half a second each, or twice as many at twice the step and four times the bias

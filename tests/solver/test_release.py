@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from springblock import Material, simulate
 from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
-from springblock.accuracy.specimens import uniform
 from springblock.solver.release import force_in, room, share_of_step
 from springblock.solver.springs import Springs
 
-INTEGRATORS = ["leapfrog", "rk4"]
 #: A block that hangs on the slider alone, by a spring of stiffness one.
 ALONE = Springs.of(0.0, 1.0)
 SLIDE = (0.1, 0.0)
@@ -48,14 +45,3 @@ def test_the_share_is_where_an_even_rise_meets_the_threshold(share):
 
 def test_a_block_that_felt_more_before_was_moving_then():
     assert np.isnan(share_of_step(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
-
-
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_no_release_depends_on_where_steps_begin(integrator):
-    """A surface without scatter lets go at mu_s F_n/(K_s v), whatever the step."""
-    material = Material(slider_velocity=5e-3)
-    exact = material.block_load / (material.k_s * material.slider_velocity)
-    for step in (2.0e-8, 1.9e-8, 1.7e-8):
-        how = {"material": material, "integrator": integrator, "step": step}
-        run = simulate(*uniform(3, 1.0, 0.6), **how, sample_interval=10 * step, duration=1.5e-5)
-        np.testing.assert_allclose(run.t_det, exact, rtol=1e-13)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from springblock.accuracy.stability.table import all_cases
+from springblock.accuracy.stability import all_cases
 
 CASES = list(all_cases())
 

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from springblock import Material
-from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing
-from springblock.accuracy.stability.schemes import swing_factor
+from springblock.accuracy.kernels import UNDAMPED, spring_forces, swing, swing_factor
 from springblock.simulation.energy import elastic_energy
 from springblock.simulation.simulate import SimulationError
 
@@ -192,13 +191,6 @@ def test_the_lattice_is_an_isotropic_sheet_in_plane_stress(angle, principal):
     np.testing.assert_allclose(traction(strain), exact, rtol=0, atol=1e-8 * modulus * TINY)
 
 
-def test_shear_modulus_is_three_eighths_of_youngs():
-    """Simple shear u_x = gamma y: half of it strain, half of it rotation without effect."""
-    sheared = TINY * np.array([[0.0, 1.0], [0.0, 0.0]])
-    stress = 3.0 / 8.0 * PAPER.youngs_modulus * TINY
-    np.testing.assert_allclose(traction(sheared), [0.0, stress], rtol=0, atol=1e-8 * stress)
-
-
 @pytest.mark.parametrize("shape", [(3, 3), (5, 8), (7, 13), (16, 3)])
 @pytest.mark.parametrize("amplitude", [1e-9, 1e-2, 0.2])
 def test_a_periodic_lattice_feels_what_its_endless_repetition_feels(shape, amplitude, rng):
@@ -211,21 +203,13 @@ def test_a_periodic_lattice_feels_what_its_endless_repetition_feels(shape, ampli
     np.testing.assert_allclose(spring_forces(u, periodic=True), endless, rtol=0, atol=rounding)
 
 
-@pytest.mark.parametrize("band", [1, 2, 3, 4])
-def test_no_bit_of_a_periodic_lattice_depends_on_the_rows_of_a_band(band, rng):
-    u = 0.01 * rng.uniform(-1.0, 1.0, (2, 7, 13))
-    np.testing.assert_array_equal(
-        spring_forces(u, band, periodic=True), spring_forces(u, periodic=True)
-    )
-
-
 @pytest.mark.parametrize("axis", [0, 1])
 def test_a_spring_across_the_edge_may_burst_alone(axis):
     """A stretch by a fifth everywhere, which the springs that close the lattice make up for."""
     u = np.zeros((2, 8, 8))
     u[axis] = 0.2 * np.mgrid[:8, :8][1 - axis]
     assert np.isfinite(spring_forces(u)).all()
-    with pytest.raises(SimulationError, match="a spring in rows 0 to 8 has collapsed or burst"):
+    with pytest.raises(SimulationError, match="has collapsed or burst"):
         spring_forces(u, periodic=True)
 
 

@@ -157,20 +157,6 @@ def test_friction_is_the_same_in_all_directions(direction, integrator, law, afte
     assert np.sin(angle) * ux - np.cos(angle) * uy == pytest.approx(0.0, abs=rounding * path)
 
 
-@pytest.mark.parametrize(
-    "limit",
-    [
-        {"law": "slip_weakening", "slip_distance": 1e-300},
-        {"law": "slip_weakening", "slip_distance": 1e-11},
-        {"law": "velocity_weakening", "speed_scale": 1e-300},
-    ],
-)
-def test_friction_that_weakens_at_once_is_coulombs_to_the_bit(limit):
-    runs = [simulate(*SURFACE, material) for material in (FAST, replace(FAST, **limit))]
-    np.testing.assert_array_equal(runs[0].force, runs[1].force)
-    np.testing.assert_array_equal(runs[0].t_det, runs[1].t_det)
-
-
 def test_friction_that_never_weakens_is_one_coefficient(integrator):
     """Both laws then have mu = mu_s for good."""
     laws = replace(SLIP, slip_distance=1e300), replace(VELOCITY, speed_scale=1e300)

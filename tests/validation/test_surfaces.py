@@ -152,15 +152,6 @@ def test_a_block_that_is_held_does_not_move_by_one_bit(law, integrator):
     assert not run.displacement[:, 1, 1].any()
 
 
-def test_until_the_first_detachment_the_seed_does_not_matter():
-    """Not by one bit: while nothing slides, no coefficient enters the motion."""
-    first, second = (simulate(*drawn(SQUARE, seed), duration=1.8e-4) for seed in (1, 2))
-    same = first.time <= min(first.t_first, second.t_first)
-    assert same.sum() > 200
-    np.testing.assert_array_equal(first.force[same], second.force[same])
-    assert not np.array_equal(first.force, second.force)
-
-
 @pytest.mark.parametrize("law", ["coulomb", *LAWS])
 @pytest.mark.parametrize("periodic", [False, True])
 def test_a_run_from_a_prelude_is_the_run_from_zero(law, periodic, integrator):

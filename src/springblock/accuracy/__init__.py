@@ -7,7 +7,7 @@ plain_rk4         Runge-Kutta as one would first write it
 work_precision    error against run time, in three comparisons
 production        bias, scatter and cost of the study's own ensembles
 budget            what an ensemble misses for so much CPU time
-kernels           the compiled loops, driven by hand
+kernels           springs and a lattice without friction: compiled, and exactly
 stability         stiff and extreme cases
-page              what to trust, in words; full_size, its section on the study's own ensembles
+page              what to trust, in words
 """

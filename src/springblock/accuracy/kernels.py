@@ -1,4 +1,7 @@
-"""The compiled kernels, driven by hand: springs by themselves, and a lattice without friction."""
+"""Springs and a lattice without friction: by the compiled kernels, driven by hand, and exactly."""
+
+import math
+from typing import Any
 
 import numpy as np
 
@@ -16,23 +19,15 @@ from springblock.solver.springs import (
     forces_on_band,
     scratch,
 )
+from springblock.solver.stability import IS_STABLE
 
 UNDAMPED = Material(gamma=0.0)
 #: Not 1, so that it would be missed; a power of 2, so that it rounds nothing.
 STIFFNESS = 0.25
 #: Springs and slider of a lattice by itself.
 SPRINGS = Springs.of(STIFFNESS, 0.0), (0.0, 0.0)
-
-
-def with_border(displacement: Array, periodic: bool = False) -> list[Array]:
-    """Lay a displacement (2, N_y, N_x) out as the kernels want it, its edges free of strain."""
-    grid = Grid.of(displacement.shape[1:], periodic)
-    fields = [np.zeros((int(grid.n_y) + periodic) * int(grid.pitch)) for _ in displacement]
-    for field, u in zip(fields, displacement, strict=True):
-        unpadded(field, grid)[:] = u
-    close_edges(*fields, grid)
-    close_rows(*fields, grid)
-    return fields
+#: Greatest stable omega h of a mode without damping.
+STABLE = {"leapfrog": 2.0, "rk4": math.sqrt(8.0)}
 
 
 def spring_forces(displacement: Array, band: int | None = None, periodic: bool = False) -> Array:
@@ -41,25 +36,24 @@ def spring_forces(displacement: Array, band: int | None = None, periodic: bool =
     Bands are of as many rows as the solver chooses, or of `band`.
     """
     grid = Grid.of(displacement.shape[1:], periodic)
-    n_y, n_x = grid.shape
-    ux, uy = with_border(displacement, periodic)
+    (n_y, n_x), pitch = grid.shape, int(grid.pitch)
+    ux, uy = (np.zeros((n_y + periodic) * pitch) for _ in displacement)
+    for field, u in zip((ux, uy), displacement, strict=True):
+        unpadded(field, grid)[:] = u
+    close_edges(ux, uy, grid)
+    close_rows(ux, uy, grid)
     s, every_row = scratch(), np.ones(n_y + 1, bool)
-    band = band or grid.band_rows
+    band = band or int(grid.band_rows)
     forces = []
     for start in range(0, n_y, band):
         stop = min(start + band, n_y)
-        _, broken = forces_on_band(ux, uy, rows(grid, start, stop), every_row, s, *SPRINGS)
-        if broken:
-            raise SimulationError(f"a spring in rows {start} to {stop} has collapsed or burst")
-        pitch = int(grid.pitch)
+        rows = Band(np.uint64(start), np.uint64(stop), grid)
+        y, x = map(int, forces_on_band(ux, uy, rows, every_row, s, *SPRINGS))
+        if x:  # counted from one
+            raise SimulationError(f"a spring of block ({y}, {x - 1}) has collapsed or burst")
         found = [s[int(field) :][: (stop - start) * pitch] for field in (FORCE_X, FORCE_Y)]
         forces.append(np.reshape(found, (2, -1, pitch))[:, :, 1 : n_x + 1])
     return np.concatenate(forces, axis=1) / STIFFNESS
-
-
-def rows(grid: Grid, start: int, stop: int) -> Band:
-    """Rows [start, stop) of a lattice, as the kernels want them."""
-    return Band(np.uint64(start), np.uint64(stop), grid)
 
 
 def swing(
@@ -86,3 +80,60 @@ def swing(
     if done < steps:
         raise SimulationError(f"a spring has collapsed or burst in step {done}")
     return np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
+
+
+def limit(integrator: str, material: Material) -> float:
+    """Return the largest stable step, s, by bisection of the integrator's own criterion."""
+    omega = np.linspace(material.omega_min, material.omega_max, 33)
+    is_stable = IS_STABLE[integrator]
+    stable, unstable = 0.0, 4.0 * (1.0 + material.gamma / material.omega_max) / material.omega_max
+    for _ in range(50):
+        middle = 0.5 * (stable + unstable)
+        if is_stable(middle, omega, material.gamma):
+            stable = middle
+        else:
+            unstable = middle
+    return stable
+
+
+def limit_of_damping(integrator: str, material: Material) -> float:
+    """Return the largest stable step far overdamped, s.
+
+    Leapfrog's omega² h/gamma stays below 2. In Runge-Kutta, the fastest decay of all, that of the
+    lowest mode, stays within the real interval where |1 + z + z²/2 + z³/6 + z⁴/24| < 1.
+    """
+    gamma = material.gamma
+    if integrator == "leapfrog":
+        return 2.0 * gamma / material.omega_max**2
+    decay = gamma / 2.0 + math.sqrt(gamma**2 / 4.0 - material.omega_min**2)
+    return 2.785293563405282 / decay
+
+
+def turn(phase: Array | float) -> Any:
+    """Return a mode's factor per Runge-Kutta step: the Taylor polynomial of exp(i omega h)."""
+    z = 1j * np.asarray(phase)
+    return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))
+
+
+def swing_factor(integrator: str, phase: float, taken: int) -> float:
+    """Return a mode's amplitude after so many steps of phase omega h, from 1 at rest.
+
+    Leapfrog is at rest half a step before: cos((k + 1/2) theta)/cos(theta/2), where
+    sin(theta/2) = omega h/2; beyond its limit, theta is complex.
+    """
+    if integrator == "leapfrog":
+        half = np.arcsin(complex(phase / 2.0))
+        return float((np.cos((2 * taken + 1) * half) / np.cos(half)).real)
+    return float((turn(phase) ** taken).real)
+
+
+def path(integrator: str, phase: Array, taken: int) -> Array:
+    """Return the displacement of modes (k,) of phase omega h, in steps of the slider.
+
+    Exact solution of the schemes for u" = omega² (t - u), from u = u' = 0 at t = 0, time in steps:
+    the straight line t, and the scheme's own oscillation about it.
+    """
+    if integrator == "leapfrog":  # sin(theta/2) = omega h/2; u = 0 also one step before
+        theta = 2.0 * np.arcsin(phase / 2.0)
+        return taken - 1.0 / np.sin(theta) * np.sin(taken * theta)
+    return taken - (turn(phase) ** taken).imag / phase

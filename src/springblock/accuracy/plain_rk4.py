@@ -30,7 +30,7 @@ class Solution:
 
 
 @cached_njit
-def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
+def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, motive):
     n_y, n_x = contact.shape
     k_int, k_s, mass, length, gamma, speed = c
     for y in range(n_y):
@@ -50,7 +50,7 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
                     pull = k * (distance - rest) / distance
                     fx += pull * ex
                     fy += pull * ey
-            driving[y, x] = np.sqrt(fx * fx + fy * fy)
+            motive[y, x] = np.sqrt(fx * fx + fy * fy)
             s = np.sqrt(v[y, x, 0] ** 2 + v[y, x, 1] ** 2)
             if contact[y, x] and s > 0.0:
                 fx -= mu_d_load[y, x] * v[y, x, 0] / s
@@ -61,38 +61,28 @@ def _accelerations(r, v, sliding, contact, mu_d_load, t, c, a, driving):
 
 
 @cached_njit
-def _integrate(contact, mu_s_load, mu_d_load, c, h, every, samples, force, t_det):
+def _integrate(contact, mu_s_load, mu_d_load, c, h, every, force, t_det):
     n_y, n_x = contact.shape
-    r, v = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2))
-    sliding = np.zeros((n_y, n_x), np.bool_)
-    driving, unused = np.zeros((n_y, n_x)), np.zeros((n_y, n_x))
-    a1, a2, a3, a4 = (np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)),
-                      np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)))  # fmt: skip
-    for k in range(every * samples):
+    r, v, motive = np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x, 2)), np.zeros((n_y, n_x))
+    sliding = np.zeros_like(contact)
+    a1, a2, a3, a4 = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
+    for k in range(every * (len(force) - 1)):
         t = k * h
-        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, driving)
-        for y in range(n_y):
-            for x in range(n_x):
-                if contact[y, x] and not sliding[y, x] and driving[y, x] > mu_s_load[y, x]:
-                    sliding[y, x] = True
-                    if np.isnan(t_det[y, x]):
-                        t_det[y, x] = t
-        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, unused)
+        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, motive)
+        sliding |= contact & (motive > mu_s_load)
+        t_det[:] = np.where(sliding & np.isnan(t_det), t, t_det)
+        _accelerations(r, v, sliding, contact, mu_d_load, t, c, a1, motive)
         v2 = v + 0.5 * h * a1
-        _accelerations(r + 0.5 * h * v, v2, sliding, contact, mu_d_load, t + h / 2, c, a2, unused)
+        _accelerations(r + 0.5 * h * v, v2, sliding, contact, mu_d_load, t + h / 2, c, a2, motive)
         v3 = v + 0.5 * h * a2
-        _accelerations(r + 0.5 * h * v2, v3, sliding, contact, mu_d_load, t + h / 2, c, a3, unused)
+        _accelerations(r + 0.5 * h * v2, v3, sliding, contact, mu_d_load, t + h / 2, c, a3, motive)
         v4 = v + h * a3
-        _accelerations(r + h * v3, v4, sliding, contact, mu_d_load, t + h, c, a4, unused)
+        _accelerations(r + h * v3, v4, sliding, contact, mu_d_load, t + h, c, a4, motive)
         r += h / 6 * (v + 2 * v2 + 2 * v3 + v4)
         new = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
-        for y in range(n_y):
-            for x in range(n_x):
-                back = v[y, x, 0] * new[y, x, 0] + v[y, x, 1] * new[y, x, 1] < 0.0
-                if contact[y, x] and sliding[y, x] and back:
-                    sliding[y, x] = False
-                    new[y, x, :] = 0.0
-        v = new
+        stops = sliding & (v[:, :, 0] * new[:, :, 0] + v[:, :, 1] * new[:, :, 1] < 0.0)
+        sliding &= ~stops
+        v = new * (1.0 - stops.reshape(n_y, n_x, 1))
         if (k + 1) % every == 0:
             fx = c[1] * (n_y * n_x * c[5] * (t + h) - r[:, :, 0].sum())
             force[(k + 1) // every] = np.sqrt(fx**2 + (c[1] * r[:, :, 1].sum()) ** 2)
@@ -112,9 +102,7 @@ def solve(
     every, samples = round(sample_interval / step), round(duration / sample_interval)
     force, t_det = np.zeros(samples + 1), np.full(contact.shape, np.nan)
     constants = (m.k_int, m.k_s, m.mass, m.spacing, m.gamma, m.slider_velocity)
-    _integrate(
-        contact, mu_static * load, mu_dynamic * load, constants, step, every, samples, force, t_det
-    )
+    _integrate(contact, mu_static * load, mu_dynamic * load, constants, step, every, force, t_det)
     peak = int(force.argmax())
     return Solution(
         time=np.arange(samples + 1.0) * sample_interval,

@@ -14,64 +14,55 @@ import pyarrow as pa
 from scipy.stats import t
 from tqdm import tqdm
 
-from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, SCENES
+from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
 from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.io.rows import Row
-from springblock.io.schemas import column
+from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
-from springblock.simulation.prelude import Prelude, compute_prelude
+from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import simulate
 
 SCHEMA = pa.schema(
     [
-        column("scene", pa.string(), "1", "flat, pillared or grooved; pulled along x"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
-        column("quantity", pa.string(), "1", "what value and errors are of"),
-        column("unit", pa.string(), "1", "of value, scale, deviation and bias: 1, s or blocks"),
-        column("step", pa.float64(), "s", "integration step h of the leapfrog"),
-        column(
-            "value",
-            pa.float64(),
-            "see unit",
-            "mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+        *texts(scene="flat, pillared or grooved; pulled along x"),
+        N_BLOCKS,
+        *texts(
+            quantity="what value and errors are of",
+            unit="of value, scale, deviation and bias: 1, s or blocks",
         ),
-        column(
-            "scale",
-            pa.float64(),
+        *numbers("s", step="integration step h of the leapfrog"),
+        *numbers(
             "see unit",
-            "what errors are shares of: the value at the finest step, t_max for t_max - t_avg",
+            value="mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+            scale="what errors are shares of: the value at the finest step, t_max for "
+            "t_max - t_avg",
+            deviation="standard deviation of one realisation; of l_c: that of the bootstrap times "
+            "the root of the number of realisations",
+            bias="value less that of the same seeds, finest step",
+            bias_error="standard error of the bias; paired",
+            ci_low="lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
+            ci_high="upper end",
         ),
-        column(
-            "deviation",
-            pa.float64(),
-            "see unit",
-            "standard deviation of one realisation; of l_c: that of the bootstrap times the root "
-            "of the number of realisations",
-        ),
-        column("bias", pa.float64(), "see unit", "value less that of the same seeds, finest step"),
-        column("bias_error", pa.float64(), "see unit", "standard error of the bias; paired"),
-        column(
-            "ci_low",
-            pa.float64(),
-            "see unit",
-            "lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
-        ),
-        column("ci_high", pa.float64(), "see unit", "upper end"),
         column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
-        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
-        column("prelude_seconds", pa.float64(), "s", "CPU time of the prelude, shared by all"),
+        *numbers(
+            "s",
+            cpu_seconds="median CPU time of one realisation",
+            prelude_seconds="CPU time of the prelude, shared by all",
+        ),
     ]
 )
 
-_FLAT, _PILLARED = Pattern.flat(120), Pattern.pillars(120, 20, 20)
-_GROOVED = Pattern.pillars(120, 58, 62).grooved(8, 2)
-PATTERNS = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+PATTERNS = {
+    "flat": Pattern.flat(120),
+    "pillared": Pattern.pillars(120, 20, 20),
+    "grooved": Pattern.pillars(120, 58, 62).grooved(8, 2),
+}
 #: As many as a quarter of an hour allows, more where a realisation costs less.
-SEEDS = dict(zip(SCENES, (100, 60, 40), strict=True))
+SEEDS = {"flat": 100, "pillared": 60, "grooved": 40}
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
 #: A multiple of all steps, near the study's 2e-7 s.
 SAMPLE_INTERVAL = 1.6e-7
@@ -134,35 +125,28 @@ def simulate_ensembles(
 
     Steps take turns at every seed, so that what slows one of them slows all.
     """
-    _load(Pattern.flat(4), STEP)  # compiled first
-    preludes = {step: timed(partial(_load, pattern, step)) for step in STEPS}
-    kept: dict[float, list[Kept]] = {step: [] for step in STEPS}
+    how: dict[float, Row] = {h: {"step": h, "sample_interval": SAMPLE_INTERVAL} for h in STEPS}
+    compute_prelude(Pattern.flat(4).contact, **how[STEP])  # compiled first
+    preludes = {h: timed(partial(compute_prelude, pattern.contact, **how[h])) for h in STEPS}
+    kept: dict[float, list[Kept]] = {h: [] for h in STEPS}
     for seed in tqdm(range(seeds), desc="seeds"):
-        for step, (prelude, _) in preludes.items():
-            pull = partial(simulate, *drawn(pattern, seed), prelude=prelude, **_how(step))
-            kept[step].append(keep(pattern, *timed(pull)))
-    seconds = {step: spent for step, (_, spent) in preludes.items()}
-    return seconds, {step: Kept(*map(np.stack, zip(*kept[step], strict=True))) for step in STEPS}
-
-
-def _how(step: float) -> Row:
-    return {"step": step, "sample_interval": SAMPLE_INTERVAL}
-
-
-def _load(pattern: Pattern, step: float) -> Prelude:
-    return compute_prelude(pattern.contact, **_how(step))
+        for h, (prelude, _) in preludes.items():
+            pull = partial(simulate, *drawn(pattern, seed), prelude=prelude, **how[h])
+            kept[h].append(keep(pattern, *timed(pull)))
+    seconds = {h: spent for h, (_, spent) in preludes.items()}
+    return seconds, {h: Kept(*map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
 
 
 def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
     """Keep of a run what ensembles are used for: means, and sides where pillars are whole."""
-    means = {name: getattr(run, name) for name in MEANS} | {DELAY: run.t_max - run.t_avg}
+    means = [*(getattr(run, name) for name in MEANS), run.t_max - run.t_avg]
     whole = len(pattern.levels) == 1
     sides = side_times([run], pattern, "x")[0] if whole else np.empty(0)
-    return Kept(np.array([means[name] for name in QUANTITIES]), sides, np.array(seconds))
+    return Kept(np.array(means), sides, np.array(seconds))
 
 
 def of_mean(values: Array, exact: Array) -> PairedBias:
-    """Bias of a mean over k seeds, (k,), from that of the same seeds, with Student's interval."""
+    """Return the bias of a mean over k seeds, (k,), from that of the same seeds."""
     differences, k = values - exact, len(values)
     bias, error = differences.mean(), differences.std(ddof=1) / np.sqrt(k)
     half = t.ppf(0.975, k - 1) * error
@@ -180,16 +164,18 @@ def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
     curves = {step: Correlation(times) for step, times in sides.items()}
     span = slice(1, curves[STEP].last + 1)
     errors = curves[STEP].resampled[:, span].std(axis=0)
-    values, resampled = {}, {}
-    for step, curve in curves.items():
-        (values[step],) = fit_tail(curve.mean[None, span], errors)
-        resampled[step] = fit_tail(curve.resampled[:, span], errors)
-    finest, root = min(sides), np.sqrt(len(sides[STEP]))
-    estimates = {}
-    for step, value in values.items():
-        differences = resampled[step] - resampled[finest]
-        deviation, bias = root * resampled[step].std(), value - values[finest]
+    fits = {
+        step: (
+            *fit_tail(curve.mean[None, span], errors),
+            fit_tail(curve.resampled[:, span], errors),
+        )
+        for step, curve in curves.items()
+    }
+    exact, exact_resampled = fits[min(sides)]
+    root, estimates = np.sqrt(len(sides[STEP])), {}
+    for step, (value, resampled) in fits.items():
+        differences = resampled - exact_resampled
         limits = np.percentile(differences, (2.5, 97.5))
-        numbers = (value, deviation, bias, differences.std(), *limits)
+        numbers = (value, root * resampled.std(), value - exact, differences.std(), *limits)
         estimates[step] = PairedBias(*map(float, numbers))
     return estimates

@@ -88,24 +88,21 @@ class _Lattice:
 
     def __init__(self, contact: Flags, periodic: bool, spacing: float, stiffness: float) -> None:
         n_y, n_x = contact.shape
-        first, second, axes, stiffnesses = [], [], [], []
-        for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5)):
-            for y, x in np.ndindex(n_y, n_x):
-                if periodic or (y + dy < n_y and 0 <= x + dx < n_x):
-                    first.append(y * n_x + x)
-                    second.append((y + dy) % n_y * n_x + (x + dx) % n_x)
-                    axes.append((dx * spacing, dy * spacing))
-                    stiffnesses.append(k * stiffness)
-        bonds = np.arange(len(first))
+        block = np.arange(n_y * n_x).reshape(n_y, n_x)
+        bonds = [
+            (block[y, x], block[(y + dy) % n_y, (x + dx) % n_x], dx * spacing, dy * spacing, k)
+            for dx, dy, k in ((1, 0, 1.0), (0, 1, 1.0), (1, 1, 0.5), (-1, 1, 0.5))
+            for y, x in np.ndindex(n_y, n_x)
+            if periodic or (y + dy < n_y and 0 <= x + dx < n_x)
+        ]
+        first, second, *axis, k = np.array(bonds, float).reshape(-1, 5).T
+        bond, signs = np.tile(np.arange(len(bonds)), 2), np.repeat([-1.0, 1.0], len(bonds))
         ends = np.concatenate([first, second]).astype(int)
-        signs = np.repeat([-1.0, 1.0], len(bonds))
-        shape = (len(bonds), n_y * n_x)
-        difference = sparse.csr_array((signs, (np.tile(bonds, 2), ends)), shape=shape)
-        self._difference = sparse.block_diag([difference, difference], format="csr")
+        self._difference = sparse.csr_array((signs, (bond, ends)), shape=(len(bonds), block.size))
         self._net = sparse.csr_array(-self._difference.T)
-        self._axis = np.array(axes, dtype=float).reshape(-1, 2).T[:, :, None]  # L e
+        self._axis = np.array(axis)[:, :, None]  # L e
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
-        self._stiffness = np.array(stiffnesses, dtype=float)[:, None]
+        self._stiffness = stiffness * k[:, None]
 
     def _stretch(self, u: Array) -> tuple[Array, Array]:
         """Bond vectors r, and q = r²/L² - 1 without the cancellation this form has."""
@@ -129,8 +126,8 @@ class _Lattice:
 
 
 def _times(matrix: sparse.csr_array, u: Array) -> Array:
-    """Both components (2, n, k) of u, multiplied at once."""
-    return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
+    """Multiply both components of u (2, n, k)."""
+    return np.stack([matrix @ component for component in u])
 
 
 class _System:
@@ -140,7 +137,7 @@ class _System:
     friction, and against damping.
     """
 
-    def __init__(self, surface: Surface, material: Material, periodic: bool) -> None:
+    def __init__(self, surface: Surface, material: Material, periodic: bool, times: Array) -> None:
         contact, mu_static, mu_dynamic = surface
         _, length, time = _units(material)
         self.n = contact.size
@@ -155,13 +152,15 @@ class _System:
         self.threshold = np.where(touching, threshold, 0.0)
         self.state = np.where(touching, STUCK, FREE)
         self.offset = 0.0  # time of the last event; all other times count from there
+        self.force: list[float] = []  # |sum of F_s| at `times`, so far
+        self._times = times
 
     def split(self, y: Array) -> tuple[Array, Array]:
         """u and v, (2, n, k) each, from states (4 n + 3, k)."""
         half = 2 * self.n
         return y[:half].reshape(2, self.n, -1), y[half : 2 * half].reshape(2, self.n, -1)
 
-    def slider_force(self, t: Array, u: Array) -> Array:
+    def _slider_force(self, t: Array, u: Array) -> Array:
         """F_s (2, n, k) at times t (k,) after the last event."""
         return self._drift[:, :, None] * (self.offset + t) - u
 
@@ -175,7 +174,7 @@ class _System:
     def __call__(self, t: float, y: Array) -> Array:
         """Time derivative of the state vector."""
         u, v = self.split(y[:, None])
-        pull = self.slider_force(np.array([t]), u)
+        pull = self._slider_force(np.array([t]), u)
         motive = self._lattice.force(u) + pull
         creeping = self.state == CREEPING
         direction = _unit(np.where(creeping[:, None], motive, v))
@@ -193,10 +192,10 @@ class _System:
         works = work_in, np.vdot(friction, v), self._gamma * np.vdot(v, v)
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
-    def alarm(self, t: Array, y: Array) -> Array:
+    def _alarm(self, t: Array, y: Array) -> Array:
         """Event functions (n, k), one per block: negative as long as its state lasts."""
         u, v = self.split(y)
-        motive = self._lattice.force(u) + self.slider_force(t, u)
+        motive = self._lattice.force(u) + self._slider_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
         stopped = 1.0 - speed / STOP_SPEED
@@ -210,9 +209,9 @@ class _System:
         states = [state == STUCK, state == CREEPING, state == SLIDING]
         return np.select(states, [released, left_creeping, left_sliding], -1.0)
 
-    def alarm_at(self, dense: DenseOutput, time: float) -> Array:
+    def _alarm_at(self, dense: DenseOutput, time: float) -> Array:
         """Event functions (n,) at one time of a step."""
-        return self.alarm(np.array([time]), dense(np.array([time])))[:, 0]
+        return self._alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
     def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
@@ -233,7 +232,7 @@ class _System:
         Returns those that detach, (n,) bool. Writes to `y` where a block stops.
         """
         u, v = self.split(y[:, None])  # views: what is written to v reaches y
-        motive = self._lattice.force(u) + self.slider_force(np.zeros(1), u)
+        motive = self._lattice.force(u) + self._slider_force(np.zeros(1), u)
         speed = np.hypot(*v)
         # a stop is located to the rounding of t, which the acceleration turns into speed
         slow = speed[:, 0] <= STOP_SPEED * 1.001
@@ -253,11 +252,81 @@ class _System:
     def residual(self, y: Array) -> float:
         """What the energy balance misses at the time of the last event, over the slider's work."""
         u, v = self.split(y[:, None])
-        pull = self.slider_force(np.zeros(1), u)
+        pull = self._slider_force(np.zeros(1), u)
         work_in, friction, viscous = (float(work) for work in y[-3:])
         elastic = self._lattice.energy(u) + 0.5 * float(np.sum(pull**2))
         spent = elastic + 0.5 * float(np.sum(v**2)) + friction + viscous
         return (work_in - spent) / work_in
+
+    def advance(self, y: Array, left: float, accuracy: float) -> tuple[float, Array, Flags]:
+        """Integrate to the next event, or for the time left, and sample the force on the way.
+
+        Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,).
+        """
+        tolerances = {"rtol": accuracy, "atol": 0.1 * accuracy}
+        steps = {"first_step": min(_RESTART_STEP, left), "max_step": _MAX_STEP}
+        solver = DOP853(self, 0.0, y, left, **tolerances, **steps)
+        while solver.status == "running":
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(f"at scaled time {self.offset + solver.t}: {message}")
+            dense = solver.dense_output()
+            event = self._first_event(dense, solver.t_old, solver.t)
+            self._sample(dense, solver.t if event is None else event[0])
+            if event is not None:
+                time, due = event
+                return time, dense(time), due
+        return left, solver.y, np.zeros(self.n, dtype=bool)
+
+    def _sample(self, dense: DenseOutput, end: float) -> None:
+        """Add samples of |sum of F_s| at the next of `times` up to `end`, since the last event."""
+        # the last sample must not be lost to the rounding of offset + end
+        reach = (self.offset + end) * (1.0 + 1e-14)
+        due = self._times[len(self.force) : np.searchsorted(self._times, reach, side="right")]
+        if due.size:
+            # nor may a sample come to lie a hair before the last event
+            t = np.maximum(due - self.offset, 0.0)
+            u, _ = self.split(dense(t))
+            self.force.extend(np.hypot(*self._slider_force(t, u).sum(axis=1)))
+
+    def _first_event(
+        self, dense: DenseOutput, start: float, end: float
+    ) -> tuple[float, Flags] | None:
+        """Earliest time in a step at which an event function reaches zero, and whose it is."""
+        bracket = self._bracket(dense, np.linspace(start, end, _SAMPLES + 1))
+        if bracket is None:
+            return None
+        time, after = bracket
+        if time < after:
+            accuracy = {"xtol": 1e-300, "rtol": 1e-15}
+            time = brentq(lambda t: self._alarm_at(dense, t).max(), time, after, **accuracy)
+        alarm = self._alarm_at(dense, time)
+        # the root may fall a rounding error short of zero: the worst block is due in any case
+        return time, alarm >= min(-_TIE, alarm.max())
+
+    def _bracket(self, dense: DenseOutput, t: Array) -> tuple[float, float] | None:
+        """Two times with no block due at the first and one at the second; equal if due at once."""
+        alarm = self._alarm(t, dense(t))
+        reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
+        last = reached[0] if reached.size else len(t) - 1
+        if reached.size and last == 0:
+            return t[0], t[0]
+        # F_mot of a stuck block may pass its threshold and fall back between two samples. It cannot
+        # exceed them by more than an eighth of their second difference; eight times that is safe.
+        excess = np.abs(np.diff(alarm, 2, axis=1)).max(axis=1)
+        grazing = (self.state == STUCK) & (alarm[:, : last + 1].max(axis=1) + excess > 0.0)
+        found = [(t[last - 1], t[last])] if reached.size else []
+        for block in np.flatnonzero(grazing):
+            peak = int(alarm[block, : last + 1].argmax())
+            low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
+            best = minimize_scalar(
+                lambda time, block=block: -self._alarm_at(dense, time)[block],
+                bounds=(low, high),
+                options={"xatol": 1e-9 * (high - low)},
+            )
+            if best.fun <= 0.0 and best.x > low:
+                found.append((low, float(best.x)))
+        return min(found, key=lambda pair: pair[1], default=None)
 
 
 def _unit(vectors: Array) -> Array:
@@ -268,90 +337,6 @@ def _unit(vectors: Array) -> Array:
 def _positive(lengths: Array) -> Array:
     """The same with ones in place of zeros, to divide by."""
     return np.where(lengths > 0.0, lengths, 1.0)
-
-
-def _first_event(
-    system: _System, dense: DenseOutput, start: float, end: float
-) -> tuple[float, Flags] | None:
-    """Earliest time in a step at which an event function reaches zero, and whose it is."""
-    t = np.linspace(start, end, _SAMPLES + 1)
-    alarm = system.alarm(t, dense(t))
-    bracket = _bracket(system, dense, t, alarm)
-    if bracket is None:
-        return None
-    time, after = bracket
-    if time < after:
-        accuracy = {"xtol": 1e-300, "rtol": 1e-15}
-        time = brentq(lambda t: system.alarm_at(dense, t).max(), time, after, **accuracy)
-    alarm_then = system.alarm_at(dense, time)
-    # the root may fall a rounding error short of zero: the worst block is due in any case
-    due = alarm_then >= min(-_TIE, alarm_then.max())
-    return time, due
-
-
-def _bracket(
-    system: _System, dense: DenseOutput, t: Array, alarm: Array
-) -> tuple[float, float] | None:
-    """Two times with no block due at the first and one at the second; equal if due at once."""
-    reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
-    last = reached[0] if reached.size else len(t) - 1
-    if reached.size and last == 0:
-        return t[0], t[0]
-    # F_mot of a stuck block may pass its threshold and fall back between two samples. It cannot
-    # exceed them by more than an eighth of their second difference; eight times that is safe.
-    excess = np.abs(np.diff(alarm, 2, axis=1)).max(axis=1)
-    grazing = (system.state == STUCK) & (alarm[:, : last + 1].max(axis=1) + excess > 0.0)
-    found = [(t[last - 1], t[last])] if reached.size else []
-    for block in np.flatnonzero(grazing):
-        peak = int(alarm[block, : last + 1].argmax())
-        low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
-        best = minimize_scalar(
-            lambda time, block=block: -system.alarm_at(dense, time)[block],
-            bounds=(low, high),
-            method="bounded",
-            options={"xatol": 1e-9 * (high - low)},
-        )
-        if best.fun <= 0.0 and best.x > low:
-            found.append((low, float(best.x)))
-    return min(found, key=lambda pair: pair[1], default=None)
-
-
-def _record(
-    system: _System, dense: DenseOutput, end: float, times: Array, force: list[float]
-) -> None:
-    """Add samples of |sum of F_s| at the next of `times` up to `end`, since the last event."""
-    # the last sample must not be lost to the rounding of offset + end
-    reach = (system.offset + end) * (1.0 + 1e-14)
-    due = times[len(force) : np.searchsorted(times, reach, side="right")]
-    if due.size:
-        # nor may a sample come to lie a hair before the last event
-        t = np.maximum(due - system.offset, 0.0)
-        u, _ = system.split(dense(t))
-        force.extend(np.hypot(*system.slider_force(t, u).sum(axis=1)))
-
-
-def _advance(
-    system: _System, y: Array, left: float, accuracy: float, times: Array, force: list[float]
-) -> tuple[float, Array, Flags]:
-    """Integrate to the next event, or for the time left.
-
-    Returns the time taken, the state then (4 n + 3,), and the blocks due to switch (n,). Adds to
-    `force` what it is at those of `times` that lie between.
-    """
-    tolerances = {"rtol": accuracy, "atol": 0.1 * accuracy}
-    steps = {"first_step": min(_RESTART_STEP, left), "max_step": _MAX_STEP}
-    solver = DOP853(system, 0.0, y, left, **tolerances, **steps)
-    while solver.status == "running":
-        message = solver.step()
-        if solver.status == "failed":
-            raise RuntimeError(f"at scaled time {system.offset + solver.t}: {message}")
-        dense = solver.dense_output()
-        event = _first_event(system, dense, solver.t_old, solver.t)
-        _record(system, dense, solver.t if event is None else event[0], times, force)
-        if event is not None:
-            time, due = event
-            return time, dense(time), due
-    return left, solver.y, np.zeros(system.n, dtype=bool)
 
 
 def solve(
@@ -374,18 +359,18 @@ def solve(
     if material.law != "coulomb":
         raise ValueError(f"law must be coulomb for the reference solution, not {material.law}")
     force_unit, _, time_unit = _units(material)
-    system = _System((contact, mu_static, mu_dynamic), material, periodic)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
-    times, sampled = np.minimum(samples, duration) / time_unit, list[float]()
+    times = np.minimum(samples, duration) / time_unit
+    system = _System((contact, mu_static, mu_dynamic), material, periodic, times)
     t_det = np.full(system.n, np.nan)
     y = np.zeros(4 * system.n + 3)  # at rest, unstrained
     while (left := duration / time_unit - system.offset) > 0.0:
-        elapsed, y, due = _advance(system, y, left, accuracy, times, sampled)
+        elapsed, y, due = system.advance(y, left, accuracy)
         system.offset = system.offset + elapsed if due.any() else duration / time_unit
         detaching = system.switch(y, due)
         t_det[detaching & np.isnan(t_det)] = system.offset * time_unit
-    force = np.array(sampled)
+    force = np.array(system.force)
     peak = int(force.argmax())
     return Reference(
         time=samples,

@@ -11,9 +11,8 @@ twin       single runs against themselves with thresholds nudged by a little: th
 
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from functools import partial
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -21,17 +20,10 @@ from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import (
-    COMPARISONS,
-    HORIZON_NUDGE,
-    MEANS,
-    PLAIN,
-    SCENES,
-    half_width,
-)
+from springblock.accuracy.conventions import HORIZON_NUDGE, MEANS, PLAIN, half_width
 from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
-from springblock.io.schemas import column
+from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
@@ -40,32 +32,29 @@ from springblock.solver.integrators import INTEGRATORS
 
 SCHEMA = pa.schema(
     [
-        column("comparison", pa.string(), "1", "reference, paired, scatter or twin"),
-        column("scene", pa.string(), "1", "flat, pillared or grooved"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface"),
-        column("integrator", pa.string(), "1", "leapfrog, rk4 or plain rk4"),
-        column("step", pa.float64(), "s", "integration step h"),
-        column("nudge", pa.float64(), "1", "relative change of the thresholds of a twin; else 0"),
-        column("quantity", pa.string(), "1", "what the error is of"),
-        column(
-            "error",
-            pa.float64(),
+        *texts(comparison="reference, paired, scatter or twin", scene="flat, pillared or grooved"),
+        N_BLOCKS,
+        *texts(integrator="leapfrog, rk4 or plain rk4"),
+        *numbers("s", step="integration step h"),
+        *numbers("1", nudge="relative change of the thresholds of a twin; else 0"),
+        *texts(quantity="what the error is of"),
+        *numbers(
             "1",
-            "reference and twin: root mean square over the realisations of the relative error; "
-            "t_det and t_avg relative to t_max; order: 1 - rank correlation. paired: relative bias",
+            error="reference and twin: root mean square over the realisations of the relative "
+            "error; t_det and t_avg relative to t_max; order: 1 - rank correlation. "
+            "paired: relative bias",
+            ci_low="paired: lower end of the 95 % t interval; else error",
+            ci_high="paired: upper end; else error",
+            worst="largest modulus among the realisations",
         ),
-        column("ci_low", pa.float64(), "1", "paired: lower end of the 95 % t interval; else error"),
-        column("ci_high", pa.float64(), "1", "paired: upper end; else error"),
-        column("worst", pa.float64(), "1", "largest modulus among the realisations"),
         column("realisations", pa.int32(), "1", "number of seeds"),
-        column("cpu_seconds", pa.float64(), "s", "median CPU time of one realisation"),
-        column("force_evaluations", pa.float64(), "1", "mean number per realisation"),
+        *numbers("s", cpu_seconds="median CPU time of one realisation"),
+        *numbers("1", force_evaluations="mean number per realisation"),
     ]
 )
 
 
-@dataclass(frozen=True)
-class _Surfaces:
+class _Surfaces(NamedTuple):
     """Surfaces that stand for a scene."""
 
     single: Pattern  #: small enough for the reference solution
@@ -74,15 +63,18 @@ class _Surfaces:
     seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
 
 
-_FLAT = _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100)
-_PILLARED = _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100)
-_GROOVED = _Surfaces(
-    Pattern.pillars(6, 5, 1).grooved(2, 1), 2.0e-4, Pattern.pillars(16, 8, 8).grooved(2, 1), 200
-)
-_SURFACES = dict(zip(SCENES, (_FLAT, _PILLARED, _GROOVED), strict=True))
+_GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
+_SURFACES = {
+    "flat": _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100),
+    "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100),
+    "grooved": _Surfaces(_GROOVES[0], 2.0e-4, _GROOVES[1], 200),
+}
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
+#: By one step of each method.
+FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
+FORCE_EVALUATIONS[PLAIN] = 4
 SAMPLE_INTERVAL = 8e-8
 SEEDS = range(2)
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8))
@@ -91,15 +83,15 @@ FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
 NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
 TWIN_STEP = 5e-9
 TWIN_SEEDS = range(3)
-Errors = dict[str, float]
+Errors = dict[str, Array]  #: by what they are of, one for each realisation
 Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
 Result = TypeVar("Result")
 
 
-def run_errors(run: Solved, exact: Solved, until: float) -> Errors:
-    """Relative errors of one run; times relative to the exact t_max.
+def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
+    """Return the relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
     """
@@ -120,19 +112,15 @@ def run_errors(run: Solved, exact: Solved, until: float) -> Errors:
     }
 
 
+def stacked(errors: Iterable[dict[str, float]]) -> Errors:
+    """Collect the errors of several runs by their names."""
+    rows = list(errors)
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
 def root_mean_square(values: Array) -> float:
-    """Zero for no values at all."""
+    """Return the root of the mean square, zero for no values at all."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
-
-
-def means(run: Realisation) -> Errors:
-    """What ensembles are used for."""
-    return {name: getattr(run, name) for name in MEANS}
-
-
-def relative(values: Errors, exact: Errors) -> Errors:
-    """Relative errors."""
-    return {name: float(values[name] / exact[name] - 1.0) for name in exact}
 
 
 def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
@@ -141,25 +129,25 @@ def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
     return solve(), time.process_time() - start
 
 
-def solve_with(integrator: str, step: float, surface: Surface, duration: float) -> Computed:
-    """One realisation by any of the three methods."""
+def solve_with(
+    integrator: str,
+    step: float,
+    surface: Surface,
+    duration: float,
+    sample_interval: float = SAMPLE_INTERVAL,
+) -> Computed:
+    """Compute one realisation by any of the three methods."""
+    how: Row = {"step": step, "duration": duration, "sample_interval": sample_interval}
     if integrator == PLAIN:
-        return plain_rk4.solve(*surface, duration, step, SAMPLE_INTERVAL)
-    return simulate(
-        *surface,
-        integrator=integrator,
-        step=step,
-        duration=duration,
-        sample_interval=SAMPLE_INTERVAL,
-    )
+        return plain_rk4.solve(*surface, **how)
+    return simulate(*surface, integrator=integrator, **how)
 
 
 def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
-    """What one of these timed runs costs."""
+    """Return what one of these timed runs costs."""
     solutions, seconds = zip(*runs, strict=True)
-    evaluations = 4 if integrator == PLAIN else INTEGRATORS[integrator].FORCE_EVALUATIONS
     steps = float(np.mean([run.steps for run in solutions]))
-    return float(np.median(seconds)), steps * evaluations
+    return float(np.median(seconds)), steps * FORCE_EVALUATIONS[integrator]
 
 
 def single_rows(scene: str) -> Iterator[Row]:
@@ -169,14 +157,12 @@ def single_rows(scene: str) -> Iterator[Row]:
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in SEEDS]
-    for integrator in (*INTEGRATORS, PLAIN):
+    for integrator in FORCE_EVALUATIONS:
         solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
-            errors = [
-                run_errors(run, solution, until)
-                for (run, _), solution, until in zip(runs, exact, horizons, strict=True)
-            ]
+            computed = [run for run, _ in runs]
+            errors = stacked(map(run_errors, computed, exact, horizons))
             cost = cost_of(integrator, runs)
             yield from rows_of("reference", scene, integrator, step, errors, cost)
 
@@ -184,25 +170,26 @@ def single_rows(scene: str) -> Iterator[Row]:
 def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
-    exact = [means(run) for run, _ in ensemble(scene, "leapfrog", FINE_STEP, seeds)]
+    exact = means(ensemble(scene, "leapfrog", FINE_STEP, seeds))
     for integrator, steps in PAIRED_STEPS.items():
         few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
         for step in steps:
             runs = ensemble(scene, integrator, step, few)
-            errors = [
-                relative(means(run), fine) for (run, _), fine in zip(runs, exact, strict=False)
-            ]
-            cost = cost_of(integrator, runs)
-            yield from rows_of("paired", scene, integrator, step, errors, cost)
-    middle = {name: float(np.mean([each[name] for each in exact])) for name in MEANS}
-    spread = [relative(each, middle) for each in exact]
+            errors = {name: found / exact[name][:few] - 1.0 for name, found in means(runs).items()}
+            yield from rows_of("paired", scene, integrator, step, errors, cost_of(integrator, runs))
+    spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread, (0.0, 0.0))
+
+
+def means(runs: Iterable[tuple[Realisation, float]]) -> Errors:
+    """Return what ensembles are used for, of each of these timed runs."""
+    return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
 
 
 def ensemble(
     scene: str, integrator: str, step: float, seeds: int
 ) -> list[tuple[Realisation, float]]:
-    """Runs of so many seeds, each with its CPU seconds."""
+    """Compute realisations of so many seeds, each with its CPU seconds."""
     pattern = _SURFACES[scene].ensemble
     how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
     pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
@@ -217,7 +204,7 @@ def twin_rows(scene: str) -> Iterator[Row]:
     steps = _SURFACES[scene].duration / TWIN_STEP
     for nudge in tqdm(NUDGES, desc=f"{scene}, twins"):
         pairs = [timed(partial(twins, scene, seed, nudge)) for seed in TWIN_SEEDS]
-        errors = [run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs]
+        errors = stacked(run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs)
         cost = (float(np.median([seconds for _, seconds in pairs])) / 2.0, steps)
         yield from rows_of("twin", scene, "leapfrog", TWIN_STEP, errors, cost, nudge)
 
@@ -246,15 +233,14 @@ def rows_of(
     scene: str,
     integrator: str,
     step: float,
-    errors: list[Errors],
+    errors: Errors,
     cost: Cost,
     nudge: float = 0.0,
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity."""
     of_means = comparison in ("paired", "scatter")
     pattern = _SURFACES[scene].ensemble if of_means else _SURFACES[scene].single
-    for quantity in errors[0]:
-        values = np.array([error[quantity] for error in errors])
+    for quantity, values in errors.items():
         count, error, half = len(values), root_mean_square(values), 0.0
         if of_means:
             error = float(values.mean())
@@ -278,4 +264,4 @@ def rows_of(
 
 
 #: Rows of each comparison, by its name, from the name of a scene.
-ROWS = dict(zip(COMPARISONS, (single_rows, paired_rows, twin_rows), strict=True))
+ROWS = {"reference": single_rows, "paired": paired_rows, "twin": twin_rows}

@@ -54,8 +54,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 
 def _measure(name: str, output: Path) -> None:
     """Write a table of the error study, in which there is nothing to configure."""
-    from springblock.accuracy import production, work_precision
-    from springblock.accuracy.stability import table as stability
+    from springblock.accuracy import production, stability, work_precision
 
     kind, _, scene = name.partition("-")
     module: ModuleType = work_precision

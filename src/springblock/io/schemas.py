@@ -8,6 +8,18 @@ def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
     return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
 
 
+def numbers(unit: str, **meanings: str) -> list[pa.Field]:
+    """Return columns of numbers that have a unit in common."""
+    return [column(name, pa.float64(), unit, meaning) for name, meaning in meanings.items()]
+
+
+def texts(**meanings: str) -> list[pa.Field]:
+    """Return columns of words."""
+    return [column(name, pa.string(), "1", meaning) for name, meaning in meanings.items()]
+
+
+N_BLOCKS = column("n_blocks", pa.int32(), "blocks", "side N of the surface")
+
 #: What tells one scene from another, as `Scene` names it.
 SCENE = pa.schema(
     [

@@ -36,8 +36,7 @@ class Described(NamedTuple):
 
 def tables() -> list[Described]:
     """Every kind of table that a study writes."""
-    from springblock.accuracy import production, work_precision
-    from springblock.accuracy.stability import table as stability
+    from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
 
     kinds = [

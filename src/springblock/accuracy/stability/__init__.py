@@ -1,4 +1,4 @@
-"""Stiff and extreme cases, which feed both the table `stability` and the tests.
+"""Stiff and extreme cases, and the rows of results/tables/stability.parquet.
 
 Every case says what it expects, in a word, and measures what comes out. Most compare a number with
 its closed form; how far it may be off follows from the order of the scheme, or from rounding:
@@ -7,10 +7,92 @@ its closed form; how far it may be off follows from the order of the scheme, or 
   first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
   damping that is stiff within a step, may be wrong by what changes in one step.
 - While a block slides one way, or has no friction, both schemes are linear at small strains, and
-  their own solution is known exactly (`schemes`). What is left is the strain, and rounding.
+  their own solution is known exactly (`kernels`). What is left is the strain, and rounding.
 
-Each of these also bounds what may be missing from the energy balance (`Pull.may_miss`).
+Each of these also bounds what may be missing from the energy balance (`Pull.keeps_energy`).
 
 Units in the code: forces in F_n, lengths in F_n/K_s, times in 1/omega with omega² = K_s/m, and so
 speeds in F_n omega/K_s, unless they are said to be SI.
 """
+
+import sys
+from collections.abc import Iterator
+
+import pyarrow as pa
+from tqdm import tqdm
+
+from springblock.accuracy.stability import one_block, surfaces
+from springblock.accuracy.stability.cases import Case
+from springblock.io.rows import Row
+from springblock.io.schemas import numbers, texts
+from springblock.solver.integrators import INTEGRATORS
+
+SCHEMA = pa.schema(
+    [
+        *texts(
+            case="name of the case",
+            family="what is taken to its extremes",
+            integrator="leapfrog or rk4; both where no step is taken",
+        ),
+        *numbers(
+            "1",
+            parameter="what varies within the family. step: h over the stability limit; stiffness: "
+            "K_s/K_int; strain: F_n/(K_s l), how far a block slips over l; damping: gamma/omega, "
+            "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
+            "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
+            "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
+            "size: N; rest: number of steps; overflow: the value that is too much",
+        ),
+        *texts(expected="outcome that the case must have", outcome="outcome that it has"),
+        *numbers("1", energy_error="energy missing over work; NaN without a run"),
+        *texts(quantity="what value is"),
+        *numbers(
+            "1",
+            value="the quantity that is judged; NaN where there is none",
+            closed_form="what it should be; NaN where that is unknown",
+            relative_error="value/closed_form - 1; NaN without either",
+            tolerance="largest relative_error that is accepted, or NaN",
+        ),
+    ]
+)
+
+#: In the order of the table.
+FAMILIES = (
+    surfaces.steps,
+    one_block.frictions,
+    surfaces.stiffnesses,
+    one_block.weakenings,
+    surfaces.loads,
+    surfaces.sizes,
+    one_block.rests,
+    surfaces.overflows,
+)
+
+
+def all_cases() -> Iterator[Case]:
+    """Return every case, by both integrators."""
+    yield surfaces.HIGHEST_MODE
+    for cases in FAMILIES:
+        for integrator in INTEGRATORS:
+            yield from cases(integrator)
+
+
+def stability_rows() -> list[Row]:
+    """Try every case; return a row for each.
+
+    Raises
+    ------
+    ValueError
+        Where a case came out otherwise than expected; names each of them.
+    """
+    rows, wrong = [], []
+    for case in tqdm(list(all_cases()), unit="case"):
+        found = case.outcome()
+        tqdm.write(f"{case.name}: {found.outcome}", file=sys.stderr)
+        judged = {"case": case.name, "relative_error": found.relative_error}
+        rows.append({**vars(case), **vars(found), **judged})
+        if found.outcome != case.expected:
+            wrong.append(f"{case.name}: expected {case.expected!r}, not {found.outcome!r}")
+    if wrong:
+        raise ValueError("\n".join(wrong))
+    return rows
