@@ -13,9 +13,10 @@ from springblock import Pattern
 from springblock.analysis.statistics import whole_curve
 from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.plotting.curves import SINGLE, draw_single_forces
+from springblock.plotting.curves import draw_single_forces
+from springblock.plotting.figures import SINGLE
 from springblock.plotting.looks import pillar_look
-from springblock.plotting.paper import figure_5, figure_6, figure_9
+from springblock.plotting.paper_results import figure_5, figure_6, figure_9
 
 SIZE = 6
 PILLARS = Pattern.pillars(24, SIZE, SIZE)
@@ -69,12 +70,12 @@ def sizes(runs: int = 4):
 
 
 DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "figure_5": lambda: figure_5.draw(ensemble(110e-6)),
-    "figure_6": lambda: figure_6.draw(sizes()),
-    "figure_9": lambda: figure_9.draw(along_and_across()),
-    "figure_5 of one run": lambda: figure_5.draw([replace(record(0), scene=ASKEW)]),
-    "figure_6 of one run": lambda: figure_6.draw(sizes(runs=1)),
-    "figure_9 of one run": lambda: figure_9.draw(along_and_across(runs=1)),
+    "figure_5": lambda: figure_5(ensemble(110e-6)),
+    "figure_6": lambda: figure_6(sizes()),
+    "figure_9": lambda: figure_9(along_and_across()),
+    "figure_5 of one run": lambda: figure_5([replace(record(0), scene=ASKEW)]),
+    "figure_6 of one run": lambda: figure_6(sizes(runs=1)),
+    "figure_9 of one run": lambda: figure_9(along_and_across(runs=1)),
 }
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from springblock.plotting.paper import figure_7
+from springblock.plotting.paper_results import figure_7
 
 SIZES = [6, 20, 60]
 LENGTH = {"x": 3.0, "y": 0.5}
@@ -46,8 +46,8 @@ def lengths() -> pd.DataFrame:
 
 
 DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "figure_7": lambda: figure_7.draw(correlation(), lengths()),
-    "figure_7 of the smallest pillars": lambda: figure_7.draw(correlation(6), lengths()[:2]),
+    "figure_7": lambda: figure_7(correlation(), lengths()),
+    "figure_7 of the smallest pillars": lambda: figure_7(correlation(6), lengths()[:2]),
 }
 
 
@@ -120,6 +120,6 @@ def test_the_inset_shows_the_lengths_along_x_with_their_intervals():
 
 def test_scenes_that_the_inset_cannot_tell_apart_are_refused():
     with pytest.raises(ValueError, match="same n_p"):
-        figure_7.draw(correlation(), pd.concat([lengths(), lengths()[-1:]]))
+        figure_7(correlation(), pd.concat([lengths(), lengths()[-1:]]))
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):
-        figure_7.draw(correlation(), lengths()[:4])
+        figure_7(correlation(), lengths()[:4])

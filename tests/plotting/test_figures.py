@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from springblock import Material, Pattern
 from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.plotting.paper import figure_1, figure_2, figure_3, figure_4, figure_8
+from springblock.plotting.paper_results import figure_2, figure_3
+from springblock.plotting.paper_surfaces import figure_1, figure_4, figure_8, mesh
 from springblock.simulation.energy import elastic_energy
 from springblock.simulation.run import percent
 
@@ -43,11 +44,11 @@ def made(seed: int, samples: int = 700, contact: NDArray[np.bool_] | None = None
 
 
 DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "figure_1": figure_1.draw,
-    "figure_2": lambda: figure_2.draw([made(seed) for seed in range(4)]),
-    "figure_3": lambda: figure_3.draw([made(0)]),
-    "figure_4": lambda: figure_4.draw(PILLARS),
-    "figure_8": lambda: figure_8.draw(GROOVED),
+    "figure_1": figure_1,
+    "figure_2": lambda: figure_2([made(seed) for seed in range(4)]),
+    "figure_3": lambda: figure_3([made(0)]),
+    "figure_4": lambda: figure_4(PILLARS),
+    "figure_8": lambda: figure_8(GROOVED),
 }
 
 
@@ -62,7 +63,7 @@ def test_figure_1_draws_the_springs_of_the_energy():
             displacement[:, y, x] = nudge * along_x, nudge * along_y
         return elastic_energy(displacement, np.zeros(2), material)
 
-    drawn = {(s.start, s.end): s.stiffness for s in figure_1.mesh(n)}
+    drawn = {(s.start, s.end): s.stiffness for s in mesh(n)}
     blocks = [(x, y) for y in range(n) for x in range(n)]
     for i, a in enumerate(blocks):
         for b in blocks[i + 1 :]:
@@ -76,7 +77,7 @@ def test_figure_1_draws_the_springs_of_the_energy():
 
 def test_figure_2_shows_the_run_in_front_of_the_others():
     runs = [made(0), made(1, samples=690), made(2)]
-    force, blocks = (figure_2.draw(runs).axes[i] for i in (0, 2))
+    force, blocks = (figure_2(runs).axes[i] for i in (0, 2))
     lines = {line.get_label(): line for line in force.get_lines()}
     np.testing.assert_allclose(lines["one run"].get_ydata(), runs[0].force / 1.3e-3)
     others = (runs[1].force + runs[2].force[:690]) / 2.6e-3
@@ -89,7 +90,7 @@ def test_figure_2_shows_the_run_in_front_of_the_others():
 
 def test_figure_2_marks_both_times():
     run = made(0)
-    for ax in figure_2.draw([run]).axes:
+    for ax in figure_2([run]).axes:
         upright = {
             line.get_linestyle(): line.get_xdata()[0]
             for line in ax.get_lines()
@@ -101,13 +102,13 @@ def test_figure_2_marks_both_times():
 def test_figure_2_refuses_runs_sampled_differently():
     odd = replace(made(1), time=2.0 * made(1).time)
     with pytest.raises(ValueError, match="sample interval"):
-        figure_2.draw([made(0), made(2), odd])
+        figure_2([made(0), made(2), odd])
 
 
 @pytest.mark.parametrize("pattern", [None, PILLARS])
 def test_figure_3_maps_t_det_over_t_max(pattern):
     run = made(0, contact=None if pattern is None else pattern.contact)
-    ax = figure_3.draw([run]).axes[0]
+    ax = figure_3([run]).axes[0]
     image = ax.images[0]
     shown = np.ma.filled(image.get_array(), np.nan)
     np.testing.assert_array_equal(shown, run.t_det / run.t_max)
@@ -119,7 +120,7 @@ def test_figure_3_maps_t_det_over_t_max(pattern):
 
 
 @pytest.mark.parametrize(
-    ("figure", "pattern", "portion"),
+    ("draw", "pattern", "portion"),
     [
         (figure_4, PILLARS, 24),
         (figure_4, Pattern.pillars(48, 12, 4), 48),
@@ -127,8 +128,8 @@ def test_figure_3_maps_t_det_over_t_max(pattern):
         (figure_8, SPLIT, 48),
     ],
 )
-def test_pillars_are_those_of_the_mask(figure, pattern, portion):
-    surface, pillar = figure.draw(pattern).axes
+def test_pillars_are_those_of_the_mask(draw, pattern, portion):
+    surface, pillar = draw(pattern).axes
     np.testing.assert_array_equal(
         surface.images[0].get_array(), pattern.contact[:portion, :portion]
     )
@@ -142,6 +143,6 @@ def test_pillars_are_those_of_the_mask(figure, pattern, portion):
 
 def test_patterns_without_what_is_shown_are_refused():
     with pytest.raises(ValueError, match="no pillar"):
-        figure_4.draw(Pattern.flat(8))
+        figure_4(Pattern.flat(8))
     with pytest.raises(ValueError, match="no second level"):
-        figure_8.draw(PILLARS)
+        figure_8(PILLARS)

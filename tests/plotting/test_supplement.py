@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from plotting.test_ensembles import record
 from springblock.io.records import Record
 from springblock.plotting.supplement import (
+    let_go_again,
     supplement_angle,
     supplement_levels,
     supplement_repetitions,
@@ -45,12 +46,12 @@ def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
     }
     scenes = {(0, 0, "x"): some(0.8), (6, 0, "x"): some(0.6), (58, 8, "y"): some(0.7)}
     return {
-        "spacing": lambda: supplement_spacing.draw(lengths),
-        "size": lambda: supplement_size.draw(sizes),
-        "angle": lambda: supplement_angle.draw({"x": some(0.7), "45": some(0.6), "y": some(0.8)}),
-        "levels": lambda: supplement_levels.draw(levels),
-        "repetitions": lambda: supplement_repetitions.draw(scenes),
-        "restick": lambda: supplement_restick.draw(scenes),
+        "spacing": lambda: supplement_spacing(lengths),
+        "size": lambda: supplement_size(sizes),
+        "angle": lambda: supplement_angle({"x": some(0.7), "45": some(0.6), "y": some(0.8)}),
+        "levels": lambda: supplement_levels(levels),
+        "repetitions": lambda: supplement_repetitions(scenes),
+        "restick": lambda: supplement_restick(scenes),
     }
 
 
@@ -101,7 +102,7 @@ def test_the_lesser_peak_is_shown_run_by_run():
     dots = [line.get_xydata() for line in lesser.get_lines() if line.get_marker() == "."]
     assert [len(runs) for runs in dots] == [6, 6, 6]
     assert not np.concatenate(dots)[:, 1].any()
-    twin = supplement_angle.draw({"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)})
+    twin = supplement_angle({"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)})
     along, across = lines(twin.axes[2])[0]
     assert along[1] > 80.0  # both hills rise from almost nothing
     assert across[1] == 0.0
@@ -117,10 +118,10 @@ def test_intervals_narrow_with_the_root_of_the_number():
 
 def test_only_blocks_that_let_go_again_are_counted():
     run = ensemble(0.8, 110e-6)[0]
-    assert not supplement_restick.let_go_again(replace(run, switches=run.detachments)).any()
+    assert not let_go_again(replace(run, switches=run.detachments)).any()
     once_more = run.detachments.copy()
     once_more[10] += 3
-    again = supplement_restick.let_go_again(replace(run, switches=once_more))
+    again = let_go_again(replace(run, switches=once_more))
     blocks = np.count_nonzero(np.isfinite(run.t_det))
     assert again[0] == 0.0
     assert again[-1] == pytest.approx(300.0 / blocks)

@@ -11,6 +11,7 @@ from springblock import Material
 from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
+from springblock.plotting.figures import FIGURES
 from springblock.plotting.supplement import surfaces
 from springblock.study.configuration import Ensemble
 
@@ -28,7 +29,7 @@ def runs(number: int) -> list[Record]:
 
 
 def drawing(number: int) -> Figure:
-    return surfaces.draw({"first": runs(number), "second": runs(number)})
+    return surfaces({"first": runs(number), "second": runs(number)})
 
 
 DRAWINGS = {"surfaces": lambda: drawing(3), "surfaces of one run": lambda: drawing(1)}
@@ -47,7 +48,7 @@ def test_a_row_shows_the_mask_the_mean_times_and_the_force():
 def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
     one, other = runs(2)
     short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
-    (image,) = surfaces.draw({"short": [one, short]}).axes[1].images
+    (image,) = surfaces({"short": [one, short]}).axes[1].images
     known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
     np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
 
@@ -63,7 +64,7 @@ def test_its_caption_names_what_is_ones_own():
     scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
     scenes += [Scene(4, mu_static_field=mu)]
     ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
-    said = surfaces.FIGURE.source.in_words(ensembles, {}, Material(distribution="uniform"))
+    said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
     assert said == (
         "Sliding direction x. "
         "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 (seeds 0 to 2). "

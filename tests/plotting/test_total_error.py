@@ -12,7 +12,7 @@ from springblock.accuracy.budget import Bias, choices, excess, study_budget
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import STEPS
 from springblock.model.defaults import STEP
-from springblock.plotting.accuracy import total_error
+from springblock.plotting.accuracy_errors import total_error
 
 #: Panels of total errors, and what they are of.
 CASES = [*(("static_friction", scene) for scene in SCENES), *((DELAY, scene) for scene in SCENES)]
@@ -27,10 +27,10 @@ def table():
 
 @cache
 def drawn() -> Figure:
-    return total_error.draw(table())
+    return total_error(table())
 
 
-DRAWINGS = {"total_error": lambda: total_error.draw(table())}
+DRAWINGS = {"total_error": lambda: total_error(table())}
 
 
 def panel(letter):

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from springblock import simulate
 from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES
-from springblock.plotting.accuracy import work_precision
+from springblock.plotting.accuracy_errors import work_precision
 
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
 NUDGES = (1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3)
@@ -63,10 +63,10 @@ def table():
 
 @cache
 def drawn() -> Figure:
-    return work_precision.draw(table())
+    return work_precision(table())
 
 
-DRAWINGS = {"work_precision": lambda: work_precision.draw(table())}
+DRAWINGS = {"work_precision": lambda: work_precision(table())}
 
 
 def chosen(**conditions):

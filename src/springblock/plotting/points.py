@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
-from springblock.analysis.statistics import Interval, mean_interval
+from springblock.analysis.statistics import mean_interval
 from springblock.plotting import style
 from springblock.plotting.style import GREY, MICRO, Look
 from springblock.simulation.run import Array, Run
@@ -30,9 +30,10 @@ def draw_points(ax: Axes, places: ArrayLike, intervals: ArrayLike, color: Any, *
     ax.errorbar(places, mean, bars, color=color, **(BAR | look))
 
 
-def draw_point(ax: Axes, place: float, interval: Interval, color: Any, **look: Any) -> None:
-    """Draw a mean with a bar over its interval."""
-    draw_points(ax, [place], [interval], color, linestyle="none", **look)
+def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: Any) -> None:
+    """Draw the mean of each sample at its place with a bar over its 95 % interval."""
+    intervals = [mean_interval(sample) for sample in samples.values()]
+    draw_points(ax, list(samples), intervals, color, **look)
 
 
 def name_places(ax: Axes, places: ArrayLike) -> None:
@@ -45,7 +46,7 @@ def name_places(ax: Axes, places: ArrayLike) -> None:
 
 
 def highest_and_lag(runs: Sequence[Run]) -> tuple[Array, Array]:
-    """Static friction, 1, and t_max - t_avg, µs, of each of k realisations, (k,)."""
+    """Return static friction, 1, and t_max - t_avg, µs, of k realisations, (k,) each."""
     highest = np.array([run.static_friction for run in runs])
     return highest, np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
 
@@ -63,7 +64,7 @@ def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
 
 
 def draw_no_lag(ax: Axes) -> None:
-    """A line where t_max = t_avg."""
+    """Draw a line where t_max = t_avg."""
     ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
 
 
@@ -74,4 +75,4 @@ def draw_series(
     places = sorted(ensembles)
     samples = zip(*(highest_and_lag(ensembles[place]) for place in places), strict=True)
     for ax, values in zip(panels, samples, strict=True):
-        draw_points(ax, places, [mean_interval(sample) for sample in values], color, **look)
+        draw_means(ax, dict(zip(places, values, strict=True)), color, **look)

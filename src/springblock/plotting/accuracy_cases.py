@@ -13,19 +13,10 @@ from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
 from springblock.plotting import style
-from springblock.plotting.declaration import Declaration, TableSource
 from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, journal
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
-
-FIGURE = Declaration(
-    title="Stiff and extreme cases",
-    category="Accuracy",
-    caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond the
-    stability limit; failing ones end in an exception.""",
-    source=TableSource("stability"),
-)
 
 _INTEGRATORS: dict[str, tuple[str, Look]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),
@@ -65,7 +56,7 @@ _LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is draw
 
 
 @journal
-def draw(cases: DataFrame) -> Figure:
+def stability(cases: DataFrame) -> Figure:
     """Draw results/tables/stability.parquet.
 
     a) Energy residual over step, up to the stability limit and beyond; b) error of all cases

@@ -1,21 +1,29 @@
-"""The picture of one run: its force, its detachments, where they are, and its snapshots."""
+"""Pictures of one run and of one surface."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
 
-from springblock.plotting import maps
-from springblock.plotting.one_run import draw_blocks, draw_force, mark_times, name_times
+from springblock.plotting import maps, style
+from springblock.plotting.curves import draw_blocks, draw_force, mark_times, name_times
+from springblock.plotting.dimensions import draw_sliding
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
 
-CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
+RUN_CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
 maximum (dotted), and t_avg, the mean first detachment time (solid); share of blocks that detach in
 each sample interval; first detachment times t_det over t_max, block by block; displacements, where
 the run has kept snapshots."""
 
+SURFACE_CAPTION = """A surface: blocks in contact with the substrate, dark, and others, light, as
+the solver takes them; a) all of it, b) single blocks from the first corner of the contact on. The
+arrow shows where the slider goes."""
+
 _SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
+_ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 
 @journal
@@ -31,7 +39,9 @@ def plot(run: Run) -> Figure:
     parts = picture.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
     detached = bool(np.isfinite(run.t_det).any())
     panels = parts[0].subplot_mosaic("FM;BM" if detached else "FM", width_ratios=(79, 65))
-    _draw_force(panels["F"], run)
+    span = (0.0, MICRO * float(run.time[-1]))
+    draw_force(panels["F"], run, (), span)
+    panels["F"].set(xlabel="time (µs)", xlim=span)
     if detached:
         _draw_detachments(panels["F"], panels["B"], run)
     _draw_times(panels["M"], run)
@@ -40,14 +50,8 @@ def plot(run: Run) -> Figure:
     return picture
 
 
-def _draw_force(ax: Axes, run: Run) -> None:
-    span = (0.0, MICRO * float(run.time[-1]))
-    draw_force(ax, run, (), span)
-    ax.set(xlabel="time (µs)", xlim=span)
-
-
 def _draw_detachments(force: Axes, blocks: Axes, run: Run) -> None:
-    """Shares of detaching blocks below the force, with t_max and t_avg in both panels."""
+    """Draw shares of detaching blocks below the force, with t_max and t_avg in both panels."""
     draw_blocks(blocks, run, ())
     early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
     blocks.legend(loc="upper right" if early else "upper left")
@@ -61,7 +65,7 @@ def _draw_detachments(force: Axes, blocks: Axes, run: Run) -> None:
 
 
 def _draw_times(ax: Axes, run: Run) -> None:
-    """Where blocks have detached, and when."""
+    """Map where blocks have detached, and when."""
     maps.draw_map(ax, maps.painted(run))
     names = {
         "not detached": (run.contact & np.isnan(run.t_det)).any(),
@@ -73,7 +77,7 @@ def _draw_times(ax: Axes, run: Run) -> None:
 
 
 def _draw_snapshots(part: SubFigure, run: Run) -> None:
-    """Displacements at up to four times, in the same colours."""
+    """Map displacements at up to four times, in the same colours."""
     count = len(run.snapshots)
     chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
     fields, colors = maps.displacements(run.snapshots[chosen])
@@ -87,3 +91,35 @@ def _draw_snapshots(part: SubFigure, run: Run) -> None:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
     color_bar(panels[len(chosen) - 1], colors, maps.DISPLACEMENT)
+
+
+@journal
+def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> Figure:
+    """Draw a) a whole surface, (N, N) [y, x], and b) single blocks of it."""
+    picture, (whole, detail) = style.panels(DOUBLE, 105.0, "ab")
+    share = f"{np.count_nonzero(contact)} of {contact.size} blocks in contact, {contact.mean():.1%}"
+    title = "\n".join(filter(None, [name, share.replace("%", " %")]))
+    picture.suptitle(title, fontsize="medium", linespacing=1.4)
+    maps.draw_contact(whole, contact)
+    draw_sliding(whole, direction)
+    y, x = _corner(contact)
+    window = contact[y : y + _ENLARGED, x : x + _ENLARGED]
+    rows, columns = window.shape
+    extent = (x - 0.5, x + columns - 0.5, y - 0.5, y + rows - 0.5)
+    maps.draw_contact(detail, window).set_extent(extent)
+    detail.set(xlim=extent[:2], ylim=extent[2:])
+    maps.draw_borders(detail, window.shape, (y, x))
+    maps.draw_key(detail, "in contact", "not in contact")
+    whole.add_patch(Rectangle((x - 0.5, y - 0.5), columns, rows, fill=False))
+    return picture
+
+
+def _corner(contact: NDArray[np.bool_]) -> tuple[int, int]:
+    """Return y and x of a window that shows the first contact with a margin, and lies inside."""
+    first = (int(np.argmax(contact.any(axis=1))), int(np.argmax(contact.any(axis=0))))
+    margin = _ENLARGED // 6
+    y, x = (
+        max(0, min(start - margin, size - _ENLARGED))
+        for start, size in zip(first, contact.shape, strict=True)
+    )
+    return y, x
