@@ -11,7 +11,7 @@ import yaml
 from click.testing import CliRunner
 from snakemake.utils import update_config
 
-from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
+from plotting.test_paper_results import NORMAL_FORCE, SIZE, record
 from springblock import Material
 from springblock import plotting as figures
 from springblock.cli import main

@@ -9,17 +9,17 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from plotting.test_ensembles import record
+from plotting.test_paper_results import record
+from springblock import Material
 from springblock.io.records import Record
-from springblock.plotting.supplement import (
-    let_go_again,
-    supplement_angle,
-    supplement_levels,
-    supplement_repetitions,
-    supplement_restick,
-    supplement_size,
-    supplement_spacing,
-)
+from springblock.model.blockmap import BlockMap
+from springblock.model.scene import Scene
+from springblock.plotting import drawing
+from springblock.plotting.figures import FIGURES
+from springblock.plotting.supplement import let_go_again
+from springblock.study.configuration import Ensemble
+
+ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 
 
 @cache
@@ -31,9 +31,9 @@ def ensemble(friction: float, *peaks: float, runs: int = 4) -> list[Record]:
     ]
 
 
-def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
+def drawings(number: int) -> dict[str, Callable[[], Figure]]:
     def some(friction: float, *peaks: float) -> list[Record]:
-        return ensemble(friction, *(peaks or (110e-6,)), runs=runs)
+        return ensemble(friction, *(peaks or (110e-6,)), runs=number)
 
     lengths = {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)}
     sizes = {(0, 0, "x", 60): some(0.8), (0, 0, "x", 120): some(0.79)}
@@ -44,19 +44,36 @@ def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
         ("y", 2): some(0.7, 100e-6),
         ("y", 3): some(0.7, 105e-6),
     }
+    angles = {"x": some(0.7), "45": some(0.6), "y": some(0.8)}
     scenes = {(0, 0, "x"): some(0.8), (6, 0, "x"): some(0.6), (58, 8, "y"): some(0.7)}
     return {
-        "spacing": lambda: supplement_spacing(lengths),
-        "size": lambda: supplement_size(sizes),
-        "angle": lambda: supplement_angle({"x": some(0.7), "45": some(0.6), "y": some(0.8)}),
-        "levels": lambda: supplement_levels(levels),
-        "repetitions": lambda: supplement_repetitions(scenes),
-        "restick": lambda: supplement_restick(scenes),
+        "spacing": lambda: drawing("supplement_spacing")(lengths),
+        "size": lambda: drawing("supplement_size")(sizes),
+        "angle": lambda: drawing("supplement_angle")(angles),
+        "levels": lambda: drawing("supplement_levels")(levels),
+        "repetitions": lambda: drawing("supplement_repetitions")(scenes),
+        "restick": lambda: drawing("supplement_restick")(scenes),
     }
+
+
+@cache
+def on_islands(number: int) -> list[Record]:
+    """Runs on islands that let go from left to right, about t_max."""
+    scene = Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS))
+    made = [record(seed, (110e-6,)) for seed in range(number)]
+    columns = np.linspace(0.8, 1.2, 9)
+    times = [np.where(ISLANDS, run.t_max * (columns + 0.01 * run.seed), np.nan) for run in made]
+    return [replace(run, scene=scene, t_det=t) for run, t in zip(made, times, strict=True)]
 
 
 DRAWINGS = {f"supplement_{name}": draw for name, draw in drawings(6).items()}
 DRAWINGS |= {f"supplement_{name} of one run": draw for name, draw in drawings(1).items()}
+DRAWINGS |= {
+    f"surfaces of {k} runs": lambda k=k: drawing("surfaces")(
+        {"first": on_islands(k), "second": on_islands(k)}
+    )
+    for k in (1, 3)
+}
 
 
 @cache
@@ -102,7 +119,8 @@ def test_the_lesser_peak_is_shown_run_by_run():
     dots = [line.get_xydata() for line in lesser.get_lines() if line.get_marker() == "."]
     assert [len(runs) for runs in dots] == [6, 6, 6]
     assert not np.concatenate(dots)[:, 1].any()
-    twin = supplement_angle({"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)})
+    hills = {"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)}
+    twin = drawing("supplement_angle")(hills)
     along, across = lines(twin.axes[2])[0]
     assert along[1] > 80.0  # both hills rise from almost nothing
     assert across[1] == 0.0
@@ -125,3 +143,42 @@ def test_only_blocks_that_let_go_again_are_counted():
     blocks = np.count_nonzero(np.isfinite(run.t_det))
     assert again[0] == 0.0
     assert again[-1] == pytest.approx(300.0 / blocks)
+
+
+def test_a_row_shows_the_mask_the_mean_times_and_the_force():
+    mask, times, force = DRAWINGS["surfaces of 3 runs"]().axes[:3]
+    np.testing.assert_array_equal(mask.images[0].get_array(), ISLANDS)
+    expected = np.where(ISLANDS, np.linspace(0.8, 1.2, 9) + 0.01, np.nan)
+    shown = np.ma.filled(times.images[0].get_array(), np.nan)
+    np.testing.assert_allclose(shown, expected)
+    assert force.get_ylim()[0] == 0.0
+    assert len(DRAWINGS["surfaces of 3 runs"]().axes) == 6
+
+
+def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
+    one, other = on_islands(2)
+    short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
+    (image,) = drawing("surfaces")({"short": [one, short]}).axes[1].images
+    known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
+    np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
+
+
+def test_each_row_is_named_after_its_scene():
+    names = [ax.get_title("left") for ax in DRAWINGS["surfaces of 1 runs"]().axes]
+    assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
+
+
+def test_its_caption_names_what_is_ones_own():
+    mu = BlockMap("strong-00000000", np.ones((4, 4)))
+    weibull = Scene(4, n_rows=2, varied={"distribution": "weibull"})
+    scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
+    scenes += [Scene(4, mu_static_field=mu)]
+    ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
+    said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
+    assert said == (
+        "Sliding direction x. "
+        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 (seeds 0 to 2). "
+        "Flat distribution=weibull, n_rows = 2, N = 4 (seeds 0 to 2); "
+        "mu_static from strong-00000000, N = 4 (seeds 0 to 2). "
+        "Material of the paper, but distribution = uniform."
+    )

@@ -14,5 +14,7 @@ def declarations() -> dict[str, Declaration]:
 
 
 def drawing(name: str) -> Callable[..., Any]:
-    """Return the function that draws a figure as a `matplotlib.figure.Figure`."""
-    return resolve_name(f"{__name__}.{FIGURES[name].module}:{name}")
+    """Return the function that draws a figure in the journal's style, as matplotlib's `Figure`."""
+    from springblock.plotting.style import journal  # slow to load: it brings matplotlib along
+
+    return journal(resolve_name(f"{__name__}.{FIGURES[name].module}:{name}"))

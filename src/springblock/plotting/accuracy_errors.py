@@ -1,9 +1,8 @@
 """Errors of single runs and of ensembles against what they cost."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from itertools import product
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -13,60 +12,31 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, SymmetricalLogLocator
 from numpy.typing import ArrayLike
+from pandas import DataFrame
 
-from springblock.accuracy.budget import (
-    Bias,
-    Choice,
-    best,
-    choices,
-    excess,
-    halving,
-    study_budget,
-)
-from springblock.accuracy.conventions import (
-    DELAY,
-    ENSEMBLE,
-    LENGTH,
-    PAPER_STEP,
-    PLAIN,
-    SCENES,
-    order,
-)
+from springblock.accuracy import budget, conventions
+from springblock.accuracy.budget import Bias, Choice
+from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, PAPER_STEP, PLAIN, SCENES
 from springblock.io.rows import Row
 from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.plotting import style
 from springblock.plotting.looks import shades
 from springblock.plotting.points import draw_points, name_places
-from springblock.plotting.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    NANO,
-    PERCENT,
-    PURPLE,
-    VERMILION,
-    Look,
-    journal,
-)
+from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, Look
 from springblock.simulation.run import Array
 
-if TYPE_CHECKING:
-    from pandas import DataFrame
+Cases = dict[tuple[str, str], list[Row]]  #: by quantity and scene, finest step first
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
 _METHODS: dict[str, tuple[str, Look]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o", "markersize": 4.2}),
     "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
-    PLAIN: (
-        "Runge–Kutta, stage-wise friction",
-        {"color": GREY, "marker": "^", "markersize": 3.4},
-    ),
+    PLAIN: ("Runge–Kutta, stage-wise friction", {"color": GREY, "marker": "^", "markersize": 3.4}),
 }
 _TWINS: dict[str, Look] = {
     "flat": {"color": BLACK, "marker": "D", "markersize": 2.8},
-    "pillared": {"color": GREEN, "marker": "v", "markersize": 3.6},
-    "grooved": {"color": PURPLE, "marker": "P", "markersize": 3.8},
+    "pillared": {"color": style.GREEN, "marker": "v", "markersize": 3.6},
+    "grooved": {"color": style.PURPLE, "marker": "P", "markersize": 3.8},
 }
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _FLOOR: Look = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
@@ -103,7 +73,6 @@ _STUDY: Look = {**_RING, "marker": "o", "markersize": 8.0}  #: ring of the study
 _ENVELOPE: Look = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
 
 
-@journal
 def work_precision(table: DataFrame) -> Figure:
     """Draw the table of work and precision, a column per scene.
 
@@ -172,7 +141,8 @@ def _write_orders(panels: Sequence[Axes], rows: DataFrame) -> None:
     for ax, part in _by_scene(panels, rows):
         for height, method in ((0.16, "leapfrog"), (0.05, "rk4")):
             line = part[part.integrator == method]
-            text, color = f"order {order(line.step, line.error):.1f}", _METHODS[method][1]["color"]
+            text = f"order {conventions.order(line.step, line.error):.1f}"
+            color = _METHODS[method][1]["color"]
             ax.text(0.03, height, text, color=color, transform=ax.transAxes)
 
 
@@ -246,57 +216,56 @@ def _name_methods(picture: Figure, finest: float) -> None:
     picture.legend(handles=handles, loc="outside upper center", ncols=4)
 
 
-@journal
 def total_error(table: DataFrame) -> Figure:
-    """Draw the table `production`, a column per scene.
-
-    a-c) Biases over the CPU time of a realisation; d-f) total error of static friction over that
-    of an ensemble, g-i) of t_max - t_avg, j) of l_c of pillars; k) all steps at the study's
-    budgets.
-    """
+    """Draw the table `production`: biases, total errors, and all steps at the study's budgets."""
     picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|Ljk", height_ratios=(3, 1))
     *panels, excesses, legend = panels
-    _draw_biases(panels[:3], table)
-    colors = shades(table.step)
-    cases = [(q, scene) for q in _QUANTITIES for scene in SCENES if _rows(table, scene, q)]
-    for ax, (quantity, scene) in zip(panels[3:], cases, strict=True):
-        _draw_errors(ax, _rows(table, scene, quantity), colors)
+    cases, colors = _cases(table), shades(table.step)
+    _draw_biases(panels[:3], cases)
+    for ax, rows in zip(panels[3:], cases.values(), strict=True):
+        _draw_errors(ax, rows, colors)
         ax.set(xscale="log", yscale="log", xlabel="CPU time of an ensemble (s)", xlim=_SPENT)
-    for row, (name, _) in zip(
-        (panels[3:6], panels[6:9], panels[9:]), _QUANTITIES.values(), strict=True
-    ):
+    for first, (name, _) in zip((3, 6, 9), _QUANTITIES.values(), strict=True):
+        row = panels[first : first + 3]
         row[0].set_ylabel(f"error of {name} (%)")
         ends = np.array([ax.get_ylim() for ax in row])
         style.share_axes(row)
         row[0].set_ylim(0.25 * ends.min(), ends.max())  # room for words
-    _draw_excess(excesses, table)
+    _draw_excess(excesses, cases)
     _name_steps(legend, colors)
     return picture
 
 
-def _rows(table: DataFrame, scene: str, quantity: str) -> list[Row]:
-    """Return the rows of one case, finest step first; none where it was not measured."""
-    found = table[(table.scene == scene) & (table.quantity == quantity)].sort_values("step")
-    return cast(list[Row], found.to_dict("records"))
+def _cases(table: DataFrame) -> Cases:
+    """Return the rows of each quantity and scene that were measured together."""
+    ordered = table.sort_values("step")
+    cases = {}
+    for quantity, scene in product(_QUANTITIES, SCENES):
+        rows = ordered[(ordered.quantity == quantity) & (ordered.scene == scene)]
+        if len(rows):
+            cases[quantity, scene] = cast(list[Row], rows.to_dict("records"))
+    return cases
 
 
-def _draw_biases(panels: Sequence[Axes], table: DataFrame) -> None:
+def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:
     """Draw biases of all quantities, side by side at each step but the finest, which has none."""
-    n = table.n_blocks.iloc[0]
     for ax, scene in zip(panels, SCENES, strict=True):
         for aside, (quantity, (_, look)) in zip(
             (0.95, 1.0, 1.05), _QUANTITIES.items(), strict=True
         ):
-            if rows := _rows(table, scene, quantity)[1:]:
-                _draw_bias(ax, rows, aside, look)
-        _mark_steps(ax, _rows(table, scene, "static_friction"))
+            if rows := cases.get((quantity, scene), [])[1:]:
+                keys = ("bias", "ci_low", "ci_high")
+                percent = [[PERCENT * row[key] / row["scale"] for key in keys] for row in rows]
+                draw_points(ax, [aside * row["cpu_seconds"] for row in rows], percent, **look)
+        _mark_steps(ax, cases["static_friction", scene])
+        n = cases["static_friction", scene][0]["n_blocks"]
+        ax.set_title(f"{scene}, {n} × {n} blocks", pad=13.0)
         ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
         ax.set(xscale="log", xlabel="CPU time of a realisation (s)")
         ax.margins(x=0.08)
         ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.xaxis.set_major_formatter("{x:g}")
         ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.set_title(f"{scene}, {n} × {n} blocks", pad=13.0)
         ax.sharey(panels[0])
         ax.tick_params(labelleft=ax is panels[0])
     _fit_percent(panels, 0.1, (-1.0, -0.1, 0.0, 0.1, 1.0))
@@ -306,25 +275,14 @@ def _draw_biases(panels: Sequence[Axes], table: DataFrame) -> None:
     panels[0].legend(handles=handles, loc="lower right", **frame)
 
 
-def _draw_bias(ax: Axes, rows: list[Row], aside: float, look: Look) -> None:
-    keys = ("bias", "ci_low", "ci_high")
-    intervals = [[PERCENT * row[key] / row["scale"] for key in keys] for row in rows]
-    draw_points(ax, [aside * row["cpu_seconds"] for row in rows], intervals, **look)
-
-
 def _mark_steps(ax: Axes, rows: list[Row]) -> None:
     """Draw a line at the CPU time of each step, and write the step in ns above it."""
     for row in rows:
         ax.axvline(row["cpu_seconds"], color=GREY, linewidth=0.3, zorder=0.3)
-        ax.annotate(
-            f"{NANO * row['step']:g}{' ns' if row is rows[0] else ''}",
-            (row["cpu_seconds"], 1.0),
-            (0.0, 2.5),
-            xycoords=("data", "axes fraction"),
-            textcoords="offset points",
-            ha="center",
-            fontweight="bold" if row["step"] == STEP else "normal",
-        )
+        name = f"{NANO * row['step']:g}{' ns' if row is rows[0] else ''}"
+        look: Look = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+        look |= {"ha": "center", "fontweight": "bold" if row["step"] == STEP else "normal"}
+        ax.annotate(name, (row["cpu_seconds"], 1.0), (0.0, 2.5), **look)
 
 
 def _draw_errors(ax: Axes, rows: list[Row], colors: dict[float, Any]) -> None:
@@ -332,7 +290,7 @@ def _draw_errors(ax: Axes, rows: list[Row], colors: dict[float, Any]) -> None:
 
     Words name the best step and number of seeds at the ring, and what half its error costs.
     """
-    by_bias = [choices(rows, bias) for bias in Bias._fields]
+    by_bias = [budget.choices(rows, bias) for bias in Bias._fields]
     spent = np.geomspace(*_SPENT, 400)
     for choice, low, high in zip(*by_bias, strict=True):
         look: Look = {"color": colors[choice.step], "zorder": 2.0 + (choice.step == STEP)}
@@ -341,13 +299,13 @@ def _draw_errors(ax: Axes, rows: list[Row], colors: dict[float, Any]) -> None:
         ax.plot(dots, _errors(choice, dots), linestyle="none", marker=".", **look)
         ends = _errors(low, spent), _errors(high, spent)
         ax.fill_between(spent, *ends, color=look["color"], alpha=0.15, linewidth=0.0)
-    budget, steps = study_budget(rows), by_bias[0]
+    seconds, steps = budget.study_budget(rows), by_bias[0]
     (default,) = (choice for choice in steps if choice.step == STEP)
-    ax.plot([budget], _errors(default, np.array([budget])), **_STUDY)
-    ax.plot(spent, [PERCENT * best(steps, s).error(s) for s in spent], **_ENVELOPE)
-    chosen, costs = best(steps, budget), [halving(each, budget) for each in by_bias]
+    ax.plot([seconds], _errors(default, np.array([seconds])), **_STUDY)
+    ax.plot(spent, [PERCENT * budget.best(steps, s).error(s) for s in spent], **_ENVELOPE)
+    chosen, costs = budget.best(steps, seconds), [budget.halving(each, seconds) for each in by_bias]
     words = (
-        f"best at {budget:.2g} s: {NANO * chosen.step:g} ns, {chosen.seeds(budget):.0f} seeds;\n"
+        f"best at {seconds:.2g} s: {NANO * chosen.step:g} ns, {chosen.seeds(seconds):.0f} seeds;\n"
         f"half its error: {costs[0]:.1f} × CPU time\n({min(costs):.1f} to {max(costs):.1f})"
     )
     ax.text(0.03, 0.05, words, transform=ax.transAxes)
@@ -367,22 +325,23 @@ def _wide(step: float) -> float:
     return 1.6 if step == STEP else 0.8
 
 
-def _draw_excess(ax: Axes, table: DataFrame) -> None:
+def _draw_excess(ax: Axes, cases: Cases) -> None:
     """Draw the total error of each step over that of the best, at the study's budgets."""
     for scene, dashes in _DASHES.items():
         for quantity, (_, look) in _QUANTITIES.items():
-            if rows := _rows(table, scene, quantity):
-                found = [excess(choices(rows, bias), study_budget(rows)) for bias in Bias._fields]
+            if rows := cases.get((quantity, scene)):
+                seconds = budget.study_budget(rows)
+                found = [budget.excess(budget.choices(rows, b), seconds) for b in Bias._fields]
                 steps = [NANO * step for step in found[0]]
                 ratios = _finite([list(each.values()) for each in found])
                 ax.plot(steps, ratios[0], linestyle=dashes, **look)
                 ends = ratios.min(axis=0), ratios.max(axis=0)
                 ax.vlines(steps, *ends, color=look["color"], linewidth=2.5, alpha=0.25)
-    name_places(ax, NANO * table.step)
-    ax.set(yscale="log", xlabel="integration step (ns)", ylim=(0.9, 10.0))
+    name_places(ax, [NANO * row["step"] for rows in cases.values() for row in rows])
+    ax.set(yscale="log", ylim=(0.9, 10.0))
     ax.set_yticks([1.0, 2.0, 5.0, 10.0], ["1", "2", "5", "10"])
     ax.yaxis.set_minor_formatter(NullFormatter())
-    ax.set_ylabel("error over the least")
+    ax.set(xlabel="integration step (ns)", ylabel="error over the least")
     handles = [Line2D([], [], label=s, color=BLACK, linestyle=d) for s, d in _DASHES.items()]
     ax.legend(handles=handles, loc="upper left")
 

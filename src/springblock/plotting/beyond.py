@@ -20,13 +20,13 @@ from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.curves import draw_band
 from springblock.plotting.looks import pillar_look, pillar_name, shades
-from springblock.plotting.points import FRICTION, draw_means, draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, color_bar, journal
+from springblock.plotting.points import FRICTION, ZERO, draw_means, draw_points, name_places
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, color_bar
 from springblock.simulation.run import Array
 
 Folders = Mapping[str, Sequence[Record]]  #: realisations by the folder of their scene
 
-_SYMBOLS = {"spacing": "l", "thickness": "l_z"}
+_LABELS = {"spacing": "$l$ = {:g} µm", "thickness": "$l_z$ = {:g} µm"}
 _DOTS: Look = {"marker": "o", "markersize": 2.0}
 _TICKS = (1, 2, 5, 10, 20, 40, 80)  #: blocks, of the map of friction
 _LETTERS = ("ab", "cd")  #: of the maps of load peaks
@@ -40,7 +40,6 @@ def _by_scene(ensembles: Folders) -> Ensembles:
     return by_scene(list(chain.from_iterable(ensembles.values())))
 
 
-@journal
 def beyond_lattice(ensembles: Folders) -> Figure:
     """Draw c(r), l_c and static friction over the lattice spacing and the layer's thickness."""
     surfaces = lattice.layers(_by_scene(ensembles))
@@ -63,9 +62,10 @@ def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
         if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
             continue
         found = Correlation(side_times(runs, runs[0].scene.pattern, "x")).interval
-        look = {"color": colors[at.spacing], "label": _named(at, "spacing")} | _DOTS
+        label = _LABELS["spacing"].format(at.spacing)
+        look = {"color": colors[at.spacing], "label": label} | _DOTS
         draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
-    ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
+    ax.axhline(0.0, **ZERO)
     ax.set(xlabel="distance along the side $r$ (µm)", ylabel="time correlation $c_x(r)$")
     ax.legend(loc="upper right")
 
@@ -99,31 +99,27 @@ def _draw_lengths(
     ax.legend(loc="upper left")
 
 
-def _named(at: lattice.Layer, varied: str) -> str:
-    return f"${_SYMBOLS[varied]}$ = {getattr(at, varied):g} µm"
-
-
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     """Draw static friction over the size of pillars, and mark where it is lowest."""
-    colors = shades(getattr(at, varied) for at in part)
-    for at, sizes in part.items():
+    lines = {getattr(at, varied): sizes for at, sizes in part.items()}
+    colors = shades(lines)
+    for value, sizes in lines.items():
         samples = {size: friction.static_friction(runs) for size, runs in sizes.items()}
-        color = colors[getattr(at, varied)]
-        draw_means(ax, samples, color, marker="o", label=_named(at, varied))
+        label = _LABELS[varied].format(value)
+        draw_means(ax, samples, colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
-    for i, (at, sizes) in enumerate(part.items(), 1):
+    for i, (value, sizes) in enumerate(lines.items(), 1):
         place, left, right = (float(limit) for limit in lattice.minimum(sizes))
         bars = np.nan_to_num([[place - left], [right - place]])
-        look: Look = {"marker": "x", "linewidth": 0.8}
-        ax.errorbar([place], [low - i * line], xerr=bars, color=colors[getattr(at, varied)], **look)
+        look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
+        ax.errorbar([place], [low - i * line], xerr=bars, **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
     name_places(ax, [size for sizes in part.values() for size in sizes])
     ax.set(xlabel="size of pillars (µm)", ylabel=FRICTION)
     ax.legend(loc="upper center", ncols=2)
 
 
-@journal
 def beyond_disorder(ensembles: Folders) -> Figure:
     """Draw a) l_c and b) static friction over scatter, and c) its variance over N²."""
     found = _by_scene(ensembles)
@@ -171,7 +167,6 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
     ax.legend(loc="best")
 
 
-@journal
 def beyond_friction(ensembles: Folders) -> Figure:
     """Draw the map of friction, and the lines of the same contact fraction."""
     found = friction.friction_map(_by_scene(ensembles))
@@ -213,7 +208,6 @@ def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
     ax.legend(loc="best")
 
 
-@journal
 def beyond_peaks(ensembles: Folders) -> Figure:
     """Draw a map of the lesser peak for each width of grooves, with pillars and without."""
     found = peaks.by_grooves(_by_scene(ensembles))
@@ -253,7 +247,6 @@ def _draw_peaks(
     ax.tick_params(length=0.0)
 
 
-@journal
 def beyond_precursors(ensembles: Folders) -> Figure:
     """Draw a) clusters of precursors beside those of chance and b) c(r) by angle."""
     found = _by_scene(ensembles)
@@ -295,6 +288,6 @@ def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
         shown = Interval(*(part[: _LAST + 1] for part in curve))
         look = {"color": colors[angle], "opacity": 0.12, "label": f"{angle:g}°"} | _DOTS
         draw_band(ax, range(len(shown.mean)), shown, **look)
-    ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
+    ax.axhline(0.0, **ZERO)
     ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.legend(loc="upper right", title="sliding at", ncols=2)

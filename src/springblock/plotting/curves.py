@@ -8,15 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
-from springblock.analysis.statistics import (
-    Curve,
-    Interval,
-    cut,
-    load_peaks,
-    mean_interval,
-    mean_of_rest,
-    standard_error,
-)
+from springblock.analysis import statistics
+from springblock.analysis.statistics import Curve, Interval
 from springblock.plotting.figures import SINGLE
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
 from springblock.simulation.run import Array, Run, friction, percent
@@ -40,7 +33,7 @@ def draw_band(
 
 def draw_mean_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any) -> Array:
     """Draw the mean force with its interval, dotted where runs are missing; return it, (n,)."""
-    force = mean_of_rest(curve.friction)
+    force = statistics.mean_of_rest(curve.friction)
     time, whole = MICRO * curve.time, _length_of_all(curve)
     ax.plot(time[:whole], force.mean[:whole], color=color, label=label, markevery=[], **look)
     ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **REST)
@@ -65,7 +58,7 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
     A marker stands on the largest.
     """
     edges, shares = curve.binned(_BIN)
-    share, *limits = mean_interval(shares)
+    share, *limits = statistics.mean_interval(shares)
     ax.stairs(share, MICRO * edges, baseline=None, color=color, linewidth=0.8)
     low, high = (np.append(limit, limit[-1]) for limit in limits)
     look: Look = {"step": "post", "alpha": BAND, "linewidth": 0.0}
@@ -78,7 +71,7 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
 def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
     """Draw the mean force, and triangles above its load peaks as long as all runs go on."""
     forces = curve.friction[:, : _length_of_all(curve)]
-    peaks = load_peaks(forces.mean(axis=0), standard_error(forces))
+    peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))
     plural = "" if len(peaks) == 1 else "s"
     draw_mean_force(ax, curve, color, f"{name}: {len(peaks)} load peak{plural}")
     heights = forces[:, peaks].mean(axis=0)
@@ -92,17 +85,15 @@ def enlarged_span(curves: Sequence[Curve], share: float) -> Span:
 
     Close is a `share` of the maximum.
     """
-    starts, ends = [], []
-    for curve in curves:
-        mean = mean_of_rest(curve.friction).mean
-        starts.append(curve.time[np.argmax(mean >= share * np.nanmax(mean))])
-        ends.append(curve.time[np.isfinite(mean)][-1])
-    return MICRO * float(min(starts)), MICRO * float(max(ends))
+    means = [(curve.time, statistics.mean_of_rest(curve.friction).mean) for curve in curves]
+    start = min(time[np.argmax(mean >= share * np.nanmax(mean))] for time, mean in means)
+    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
+    return MICRO * float(start), MICRO * float(end)
 
 
 def fit_forces(ax: Axes, curves: Sequence[Curve], span: Span) -> None:
     """Fit axes to the mean forces within `span`, with room for triangles."""
-    means = [_within(span, c.time, mean_of_rest(c.friction).mean) for c in curves]
+    means = [_within(span, c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
     low, high = np.nanmin(np.concatenate(means)), np.nanmax(np.concatenate(means))
     ax.set(xlim=span, ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
 
@@ -112,10 +103,27 @@ def _within(span: Span, time: Array, values: Array) -> Array:
     return values[(MICRO * time >= span[0]) & (MICRO * time <= span[1])]
 
 
+def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
+    """Draw force above and detaching blocks below in a span, and mark t_max and t_avg in both."""
+    draw_force(force, run, others, span)
+    _draw_blocks(blocks, run, others)
+    for ax in (force, blocks):
+        ax.set_xlim(span)
+        for time, dashes, width in ((run.t_max, ":", 1.1), (run.t_avg, "-", 0.6)):
+            look: Look = {"linestyle": dashes, "linewidth": width, "zorder": 0.5}
+            ax.axvline(MICRO * time, color=BLACK, **look)
+    times = sorted(((run.t_max, r"$t_\mathrm{max}$"), (run.t_avg, r"$t_\mathrm{avg}$")))
+    for (time, name), side in zip(times, ("right", "left"), strict=True):  # away from each other
+        look = {"ha": side, "va": "bottom", "transform": force.get_xaxis_transform()}
+        force.text(MICRO * time, 1.03, name, **look)
+    force.tick_params(labelbottom=False)
+    blocks.set_xlabel("time (µs)")
+
+
 def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
     """Draw the friction force of a run; its axis fits what it and the others show in `span`."""
     if others:
-        time, forces = cut(others, [friction(other) for other in others])
+        time, forces = statistics.cut(others, [friction(other) for other in others])
         low, high = np.percentile(forces, _PERCENTILES, axis=0)
         name = f"{_PERCENTILES[0]:g}–{_PERCENTILES[1]:g} % of {len(others)} other runs"
         ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
@@ -127,7 +135,7 @@ def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
     ax.set_ylabel(FORCE)
 
 
-def draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
+def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     """Draw shares of detaching blocks, on a logarithmic axis that begins below one block."""
     floor = 0.6 * float(percent(run, np.array([1]))[0])
     for counts, color, name in (
@@ -138,7 +146,7 @@ def draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
         edges = MICRO * run.time
         ax.stairs(share, edges, baseline=floor, fill=True, color=color, label=name)
     if others:
-        time, shares = cut(others, [percent(other, other.switches) for other in others])
+        time, shares = statistics.cut(others, [percent(other, other.switches) for other in others])
         middle = MICRO * (time - 0.5 * (time[1] - time[0]))
         casing = [withStroke(linewidth=1.6, foreground="white")]  # visible on any ground
         name = "rest to sliding, mean of others"
@@ -147,17 +155,3 @@ def draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     ax.yaxis.set_major_formatter("{x:g}")
     interval = MICRO * (run.time[1] - run.time[0])
     ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")
-
-
-def mark_times(ax: Axes, run: Run) -> None:
-    """Mark t_max with a dotted and t_avg with a thin solid line."""
-    for time, dashes, width in ((run.t_max, ":", 1.1), (run.t_avg, "-", 0.6)):
-        ax.axvline(MICRO * time, color=BLACK, linestyle=dashes, linewidth=width, zorder=0.5)
-
-
-def name_times(ax: Axes, run: Run) -> None:
-    """Write the names of both times above the panel, away from each other."""
-    times = sorted(((run.t_max, r"$t_\mathrm{max}$"), (run.t_avg, r"$t_\mathrm{avg}$")))
-    for (time, name), side in zip(times, ("right", "left"), strict=True):
-        look: Look = {"ha": side, "va": "bottom", "transform": ax.get_xaxis_transform()}
-        ax.text(MICRO * time, 1.03, name, **look)

@@ -18,6 +18,15 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
+#: Category of the figures in each module of `plotting`.
+_CATEGORIES: dict[str, Category] = {
+    "paper_surfaces": "Figures",
+    "paper_results": "Figures",
+    "supplement": "Supplement",
+    "accuracy_errors": "Accuracy",
+    "accuracy_cases": "Accuracy",
+    "beyond": "Beyond",
+}
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
@@ -117,7 +126,6 @@ class Declaration:
     """What a figure shows, and what it is drawn from."""
 
     title: str
-    category: Category
     module: str  #: of `plotting`, whose function of the figure's name draws it
     caption: str  #: in whole sentences; lines may break anywhere
     source: Source
@@ -125,6 +133,11 @@ class Declaration:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "caption", " ".join(self.caption.split()))
+
+    @property
+    def category(self) -> Category:
+        """Return the heading under which the report has the figure."""
+        return _CATEGORIES[self.module]
 
     def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         """Return the caption, and after it what the figure is drawn from in a study."""

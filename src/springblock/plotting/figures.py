@@ -75,7 +75,6 @@ _MAIN_SURFACES = RealisationsSource(
 FIGURES: dict[str, Declaration] = {
     "figure_1": Declaration(
         title="The model",
-        category="Figures",
         module="paper_surfaces",
         caption="""The model: a) the mesh of internal springs, drawn from a list of bonds that is
         tested against the energy of all springs; b) side view of the slider, moving at constant
@@ -84,7 +83,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_2": Declaration(
         title="Force and detachments, flat surface",
-        category="Figures",
         module="paper_results",
         caption="""Friction force on a flat surface over the normal force, and share of blocks that
         detach in each sample interval. Dotted: t_max, the time of the force maximum; solid: t_avg,
@@ -94,7 +92,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_3": Declaration(
         title="First detachment times, flat surface",
-        category="Figures",
         module="paper_results",
         caption="""First detachment times t_det over t_max of the realisation shown in figure 2:
         blue blocks detach before the force peak, red ones after it. One realisation; a map of
@@ -103,7 +100,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_4": Declaration(
         title="Square pillars",
-        category="Figures",
         module="paper_surfaces",
         caption="""Square pillars, drawn from the mask that the solver uses, with the coordinates
         (x_p, y_p) of one pillar. Figure 4 of the paper.""",
@@ -111,7 +107,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_5": Declaration(
         title="First detachment times on one pillar",
-        category="Figures",
         module="paper_results",
         caption=f"""First detachment times t_det over t_max on one pillar, means over all pillars
         and realisations: a) by place on the pillar, blue before the force maximum and red after it,
@@ -121,7 +116,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_6": Declaration(
         title="Force and detachments, pillars",
-        category="Figures",
         module="paper_results",
         caption=f"""a) Friction force over the normal force and b) share of first detachments in
         each bin, on a flat surface and on pillars of several sizes; markers: a) t_max, or t_avg
@@ -132,7 +126,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_7": Declaration(
         title="Correlation of detachments on pillars",
-        category="Figures",
         module="paper_results",
         caption=f"""Correlation of first detachment times along the sides of a pillar, from the
         middle of the side, sliding along x: c_x on sides along x, c_y on sides along y. Solid:
@@ -145,7 +138,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_8": Declaration(
         title="Grooved pillars",
-        category="Figures",
         module="paper_surfaces",
         caption="""Pillars with grooves along x, drawn from the mask that the solver uses, with the
         coordinates of one pillar. Two pillars each way show the distance between them; the surfaces
@@ -154,7 +146,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "figure_9": Declaration(
         title="Force and detachments, grooved pillars",
-        category="Figures",
         module="paper_results",
         caption=f"""Friction force over the normal force, at the left, and share of first
         detachments in each bin, at the right, on pillars with grooves, for each sliding direction;
@@ -168,7 +159,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_spacing": Declaration(
         title="Distance between pillars",
-        category="Supplement",
         module="supplement",
         caption=f"""a) Static friction and b) t_max - t_avg over the distance between pillars, n_s,
         which the paper leaves open; a line for each size of the pillars. Means with
@@ -179,7 +169,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_size": Declaration(
         title="Size of the surface",
-        category="Supplement",
         module="supplement",
         caption=f"""a) Static friction and b) t_max - t_avg over the side N of the surface: a flat
         one, a pillared one, and a grooved one where the study varies its size. Means with
@@ -193,7 +182,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_angle": Declaration(
         title="Sliding at an angle to grooves",
-        category="Supplement",
         module="supplement",
         caption=f"""a) Static friction, b) t_max - t_avg and c) prominence of the lesser load peak
         over the angle between the sliding direction and the grooves, 0 and 90 degrees in the paper.
@@ -206,7 +194,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_levels": Declaration(
         title="A third level",
-        category="Supplement",
         module="supplement",
         caption=f"""Friction force over the normal force towards the end of a run, on patterns of
         two and of three levels, sliding a) along and b) across the grooves. Means with {INTERVALS};
@@ -218,7 +205,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_repetitions": Declaration(
         title="Number of realisations",
-        category="Supplement",
         module="supplement",
         caption="""Half the 95 % interval of a) static friction and b) t_max - t_avg over the number
         k of realisations, which the paper does not give. Markers: t intervals, mean over random
@@ -228,7 +214,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "supplement_restick": Declaration(
         title="Blocks that let go again",
-        category="Supplement",
         module="supplement",
         caption=f"""Blocks that have come to rest and let go again, over time, as a share of all
         blocks in contact; the re-stick rule can matter for no more. Means with {INTERVALS}. The
@@ -238,7 +223,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "surfaces": Declaration(
         title="Surfaces of one's own",
-        category="Supplement",
         module="supplement",
         caption=f"""Each surface of the group `surfaces`: at the left which blocks are in contact;
         in the middle their first detachment times t_det over t_max, means over realisations, blue
@@ -252,7 +236,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "work_precision": Declaration(
         title="Error against run time",
-        category="Accuracy",
         module="accuracy_errors",
         caption="""Error against cost of both integrators, and of Runge-Kutta with the friction of
         each stage, which does not converge. Single runs are compared with an event-located
@@ -264,7 +247,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "total_error": Declaration(
         title="Error against CPU time at full size",
-        category="Accuracy",
         module="accuracy_errors",
         caption="""Errors of ensembles with 120 × 120 blocks over CPU time. a-c) Bias of the mean
         against the finest step with the same seeds, with its 95 % interval, over the CPU time of a
@@ -279,7 +261,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "stability": Declaration(
         title="Stiff and extreme cases",
-        category="Accuracy",
         module="accuracy_cases",
         caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond
         the stability limit; failing ones end in an exception.""",
@@ -287,7 +268,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
-        category="Beyond",
         module="beyond",
         caption="""a) Correlation of detachment times along the sides of the largest pillars,
         sliding along x, on lattices of different spacing l, with the layer's thickness l_z and all
@@ -300,7 +280,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds, and of friction",
-        category="Beyond",
         module="beyond",
         caption="""a) Correlation length of A exp(-r/l_c) over the standard deviation of the static
         coefficients, for pillars of n_p blocks. b) Static friction over n_p for each standard
@@ -312,7 +291,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "beyond_friction": Declaration(
         title="Size of pillars and contact fraction",
-        category="Beyond",
         module="beyond",
         caption="""Static friction at one total load. a) Over size n_p and distance n_s of pillars;
         on grey lines the contact fraction is the same. b) Over n_p for each contact fraction, with
@@ -322,7 +300,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "beyond_peaks": Declaration(
         title="Load peaks over groove widths and direction",
-        category="Beyond",
         module="beyond",
         caption="""Prominence of the second most prominent load peak in percent of the largest
         force, mean over realisations, over the angle between sliding direction and grooves and the
@@ -333,7 +310,6 @@ FIGURES: dict[str, Declaration] = {
     ),
     "beyond_precursors": Declaration(
         title="Clusters of precursors, and correlation by direction",
-        category="Beyond",
         module="beyond",
         caption="""a) Share of the blocks that detach before the force maximum in clusters of a size
         or more, 4 neighbours together: solid, observed; dashed, as many blocks anywhere in contact;

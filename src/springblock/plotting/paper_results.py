@@ -10,29 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from springblock.analysis.statistics import (
-    Curve,
-    Interval,
-    mean_interval,
-    pillar_map,
-    pillar_ring,
-    whole_curve,
-)
+from springblock.analysis import statistics
+from springblock.analysis.statistics import Interval
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, points, style
 from springblock.plotting.dimensions import arrow, draw_sliding
 from springblock.plotting.looks import direction_color, direction_name, pillar_look, pillar_name
-from springblock.plotting.style import (
-    BEFORE_AFTER,
-    BLACK,
-    BLUE,
-    FORCE,
-    GREY,
-    MICRO,
-    VERMILION,
-    Look,
-    journal,
-)
+from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
 from springblock.simulation.run import Array, Run
 
 if TYPE_CHECKING:  # read by the command, and only then
@@ -59,7 +43,6 @@ _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 _SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
 
 
-@journal
 def figure_2(runs: Sequence[Run]) -> Figure:
     """Draw runs[0] before the spread of the other runs: a), b) force and c), d) blocks.
 
@@ -71,52 +54,38 @@ def figure_2(runs: Sequence[Run]) -> Figure:
     whole = (0.0, MICRO * float(run.time[-1]))
     picture, panels = style.panels(style.DOUBLE, 95.0, "ab;cd", width_ratios=(82, 71))
     for upper, lower, span in zip(panels[:2], panels[2:], (whole, zoom), strict=True):
-        curves.draw_force(upper, run, others, span)
-        curves.draw_blocks(lower, run, others)
-        for ax in (upper, lower):
-            curves.mark_times(ax, run)
-            ax.set_xlim(span)
-        curves.name_times(upper, run)
-        upper.tick_params(labelbottom=False)
-        lower.set_xlabel("time (µs)")
+        curves.draw_run(upper, lower, run, others, span)
     force, _, blocks, enlarged = panels
     for ax, name in ((force, "enlarged at the right"), (blocks, None)):
         ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
     early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
     force.legend(loc="lower right" if early else "upper left")
     blocks.legend(loc="upper right" if early else "upper left")
-    _name_precursors(enlarged, run, zoom[0])
+    end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
+    arrow(enlarged, (end, height), (end - 0.8 * before, height))
+    enlarged.text(end - 0.4 * before, 1.3 * height, "precursors", ha="center", va="bottom")
     return picture
 
 
-def _name_precursors(ax: Axes, run: Run, start: float) -> None:
-    """Point from t_max back to the detachments that come before it."""
-    end, height = MICRO * run.t_max, 6.0
-    arrow(ax, (end, height), (end - 0.8 * (end - start), height))
-    ax.text(end - 0.4 * (end - start), 1.3 * height, "precursors", ha="center", va="bottom")
-
-
-@journal
 def figure_3(runs: Sequence[Run]) -> Figure:
     """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
     run = runs[0]
     picture, (ax,) = style.panels(style.COLUMN, 97.0)
     image = maps.draw_map(ax, run.t_det / run.t_max)
-    image.set(cmap=BEFORE_AFTER, norm=maps.scale(run))
+    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run))
     maps.draw_times_bar(ax, run)
     if not run.contact.all():
         maps.draw_key(ax, "not in contact")
     return picture
 
 
-@journal
 def figure_5(runs: Sequence[Record]) -> Figure:
     """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
 
     Means over all pillars and `runs`, which share one scene; bars are 95 % intervals.
     """
     scene = runs[0].scene
-    times = pillar_map(runs, scene.pattern)
+    times = statistics.pillar_map(runs, scene.pattern)
     picture, (pillar, rings) = style.panels(style.DOUBLE, 75.0, "ab")
     maps.draw_mean_times(pillar, times.mean(axis=0), _TIME, axes="_p/l")
     draw_sliding(pillar, scene.direction)
@@ -129,7 +98,7 @@ def _draw_rings(ax: Axes, times: Array) -> None:
     size = times.shape[-1]
     depths = range((size + 1) // 2)
     for part, (color, marker, name, aside) in _PARTS.items():
-        masks = {depth: pillar_ring(size, depth)[part] for depth in depths}
+        masks = {depth: statistics.pillar_ring(size, depth)[part] for depth in depths}
         samples = {d + aside: times[:, m].mean(axis=1) for d, m in masks.items() if m.any()}
         if samples:
             points.draw_means(ax, samples, color, marker=marker, label=name)
@@ -142,7 +111,6 @@ def _draw_rings(ax: Axes, times: Array) -> None:
     ax.legend(loc="lower right")
 
 
-@journal
 def figure_6(ensembles: BySize) -> Figure:
     """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
     ensembles = dict(sorted(ensembles.items()))
@@ -153,7 +121,7 @@ def figure_6(ensembles: BySize) -> Figure:
     samples = zip(*(points.highest_and_lag(runs) for runs in ensembles.values()), strict=True)
     for ax, values in zip((friction, lag), samples, strict=True):
         _draw_sizes(ax, dict(zip(ensembles, values, strict=True)))
-    points.draw_no_lag(lag)
+    lag.axhline(0.0, **points.ZERO)
     friction.set_ylabel(points.FRICTION)
     friction.tick_params(labelbottom=False)
     lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
@@ -164,7 +132,7 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
     highest = 0.0
     for n_p, runs in ensembles.items():
-        curve, look = whole_curve(runs), pillar_look(n_p)
+        curve, look = statistics.whole_curve(runs), pillar_look(n_p)
         mean = curves.draw_mean_force(force, curve, label=pillar_name(n_p), **look)
         curves.draw_detachments(blocks, curve, **look)
         highest = max(highest, float(np.nanmax(mean)))
@@ -194,7 +162,7 @@ def _draw_sizes(ax: Axes, samples: Mapping[int, Array]) -> None:
         if n_p:
             points.draw_means(ax, {n_p: sample}, linestyle="none", **pillar_look(n_p))
             continue
-        mean, low, high = map(float, mean_interval(sample))
+        mean, low, high = map(float, statistics.mean_interval(sample))
         ax.axhline(mean, color=BLACK, linewidth=0.8, linestyle="--")
         ax.axhspan(low, high, color="0.8", linewidth=0.0, zorder=0)
         below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
@@ -202,7 +170,6 @@ def _draw_sizes(ax: Axes, samples: Mapping[int, Array]) -> None:
     points.name_places(ax, [n_p for n_p in samples if n_p])
 
 
-@journal
 def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
     """Draw c_x(r) and c_y(r) of one scene with their fits, and l_c over n_p in an inset.
 
@@ -220,7 +187,7 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
         _draw_side(ax, str(side), curve, shown.loc[side])
     ax.plot([], [], color=GREY, label=_EXPONENTIAL)
     ax.plot([], [], color=GREY, label=_FREE, **_DASHED)
-    ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
+    ax.axhline(0.0, **points.ZERO)
     ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.set_ylim(None, 1.04)
     ax.margins(x=0.02)
@@ -268,13 +235,12 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     ax.legend(loc="upper left", borderaxespad=0.2, handletextpad=0.2, labelspacing=0.3)
 
 
-@journal
 def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
-    """Draw force and detachments, a row for each configuration of grooves, on the same axes.
+    """Draw force and detachments by (n_p2, n_s2, direction), a row for each pair of widths.
 
-    `ensembles` holds runs by (n_p2, n_s2, direction).
+    All rows have the same axes; triangles stand above load peaks.
     """
-    found = {key: whole_curve(runs) for key, runs in sorted(ensembles.items())}
+    found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
     every = list(found.values())
     rows = sorted({key[:2] for key in found})
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
@@ -282,24 +248,18 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     height = 17.0 + 37.5 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
-        shown = {key[2]: curve for key, curve in found.items() if key[:2] == row}
-        _draw_row(force, blocks, row, shown)
+        for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
+            color = direction_color(direction)
+            curves.draw_single_forces(force, curve, color)
+            curves.draw_load_peaks(force, curve, color, direction_name(direction))
+            curves.draw_detachments(blocks, curve, color)
+        force.set_ylabel(FORCE)
+        force.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+        name = f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}"
+        force.text(0.02, 0.94, name, transform=force.transAxes, va="top")
         curves.fit_forces(force, every, curves.enlarged_span(every, _SHOWN))
         blocks.sharey(panels[1])
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
     return picture
-
-
-def _draw_row(force: Axes, blocks: Axes, row: tuple[int, int], shown: Mapping[str, Curve]) -> None:
-    """Draw one configuration, with triangles above its load peaks."""
-    for direction, curve in shown.items():
-        color = direction_color(direction)
-        curves.draw_single_forces(force, curve, color)
-        curves.draw_load_peaks(force, curve, color, direction_name(direction))
-        curves.draw_detachments(blocks, curve, color)
-    force.set_ylabel(FORCE)
-    force.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-    name = f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}"
-    force.text(0.02, 0.94, name, transform=force.transAxes, va="top")

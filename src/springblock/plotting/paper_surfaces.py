@@ -1,7 +1,8 @@
 """Figures 1, 4 and 8 of the paper: the model, pillars, and grooves on pillars."""
 
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from itertools import product
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,25 +12,16 @@ from matplotlib.patches import ConnectionPatch, Polygon, Rectangle
 
 from springblock.model.pattern import Pattern
 from springblock.plotting import style
-from springblock.plotting.dimensions import Axis, Point, arrow, dimension, draw_sliding
+from springblock.plotting.dimensions import Axis, Point, arrow, dimension, draw_sliding, point
 from springblock.plotting.maps import draw_borders, draw_contact
-from springblock.plotting.style import (
-    BLACK,
-    BLUE,
-    CONTACT,
-    GREY,
-    NO_CONTACT,
-    VERMILION,
-    Look,
-    journal,
-)
+from springblock.plotting.style import BLACK, CONTACT, GREY, NO_CONTACT, Look
 from springblock.simulation.run import Array
 
-#: One bond of each kind that leaves a block, as (dx, dy) in units of l: every spring once.
-BONDS = ((1, 0), (0, 1), (1, 1), (-1, 1))
+#: Stiffness over K_int of the bonds that leave a block by (dx, dy), units of l: every spring once.
+BONDS = {(1, 0): 1.0, (0, 1): 1.0, (1, 1): 0.5, (-1, 1): 0.5}
 
 # Lengths in figure 1 are in units of l. Blocks are points in the model; here they have a size.
-_MESH_WIDTH, _SIDE_WIDTH = 4.6, 9.0  #: of panels a and b
+_WIDTHS = (4.6, 9.0)  #: of panels a and b
 _MESH = 4  #: blocks along a side of panel a
 _SIDE_VIEW = Pattern.pillars(8, n_p=2, n_s=2).contact[2]
 _BLOCK = 0.3
@@ -52,29 +44,18 @@ _POINT |= {"markersize": 4.0, "clip_on": False, "zorder": 5}
 _BEHIND = {"facecolor": CONTACT, "edgecolor": "none", "pad": 0.8}  #: hides borders of blocks
 
 
-class Spring(NamedTuple):
-    """An internal spring at rest; lengths in units of l, stiffness in units of K_int."""
-
-    start: Point
-    end: Point
-    stiffness: float
-
-
-def mesh(n: int) -> Iterator[Spring]:
-    """Yield every internal spring of n x n blocks."""
-    for y, x in np.ndindex(n, n):
-        for dx, dy in BONDS:
-            if 0 <= x + dx < n and y + dy < n:
-                stiffness = 1.0 if 0 in (dx, dy) else 0.5
-                yield Spring((x, y), (x + dx, y + dy), stiffness)
+def mesh(n: int, stiffness: float) -> Iterator[tuple[Point, Point]]:
+    """Yield the ends of the internal springs of a stiffness over K_int, of n x n blocks at rest."""
+    bonds = [bond for bond, k in BONDS.items() if k == stiffness]
+    for (y, x), (dx, dy) in product(np.ndindex(n, n), bonds):
+        if 0 <= x + dx < n and y + dy < n:
+            yield (x, y), (x + dx, y + dy)
 
 
-@journal
 def figure_1() -> Figure:
     """Draw a) the mesh of internal springs and b) the side view with slider and shear springs."""
-    ratios = (_MESH_WIDTH, _SIDE_WIDTH)
-    picture, panels = style.panels(style.ONE_AND_A_HALF, 51.0, "ab", width_ratios=ratios)
-    for ax, left, width in zip(panels, (-1.0, -0.85), ratios, strict=True):
+    picture, panels = style.panels(style.ONE_AND_A_HALF, 51.0, "ab", width_ratios=_WIDTHS)
+    for ax, left, width in zip(panels, (-1.0, -0.85), _WIDTHS, strict=True):
         ax.set(xlim=(left, left + width), ylim=(-1.35, 3.4), aspect="equal")
         ax.set_axis_off()
     _draw_mesh(panels[0])
@@ -85,7 +66,7 @@ def figure_1() -> Figure:
 def _draw_mesh(ax: Axes) -> None:
     kinds = ((0.5, _DIAGONAL, 1.7, r"$K_\mathrm{int}/2$"), (1.0, _AXIAL, 0.1, r"$K_\mathrm{int}$"))
     for stiffness, look, key, name in kinds:
-        _draw_springs(ax, [s[:2] for s in mesh(_MESH) if s.stiffness == stiffness], look)
+        _draw_springs(ax, mesh(_MESH, stiffness), look)
         _draw_springs(ax, [((key, _KEYS), (key + 0.75, _KEYS))], look)
         ax.text(key + 0.82, _KEYS, name, va="center")
     for y, x in np.ndindex(_MESH, _MESH):
@@ -105,16 +86,6 @@ def _draw_side_view(ax: Axes) -> None:
         _draw_block(ax, x, _GROOVE - foot, CONTACT if touches else NO_CONTACT, _BLOCK + foot)
     _draw_slab(ax, -0.3, -_SLAB, "substrate", edgecolor=GREY, hatch="/////")  # it does not move
     _draw_slab(ax, _DRAG - 0.3, underside, "slider", edgecolor=BLACK)
-    _draw_labels(ax, middle, underside)
-    for key, color, name in ((1.0, CONTACT, "in contact"), (3.2, NO_CONTACT, "not in contact")):
-        _draw_block(ax, key, _KEYS - _BLOCK / 2, color)
-        ax.text(key + 0.27, _KEYS, name, va="center")
-    _draw_axes(ax, -0.7, "z")
-
-
-def _draw_labels(ax: Axes, middle: float, underside: float) -> None:
-    """Name what the side view shows: the first groove and what is above it."""
-    n = len(_SIDE_VIEW)
     left = int(np.flatnonzero(~_SIDE_VIEW[1:])[0]) + 1  # first block above a groove inside
     ax.text(left - 0.5, middle + 0.13, r"$K_\mathrm{int}$", ha="center", va="bottom")
     ax.text(left + 1.3 * _DRAG, 0.5 * (middle + underside), "$K_s$", ha="left", va="center")
@@ -123,6 +94,10 @@ def _draw_labels(ax: Axes, middle: float, underside: float) -> None:
     above = underside + _SLAB + 0.25
     arrow(ax, (n - 2.0, above), (n - 1.0, above), width=1.0)
     ax.text(n - 0.9, above, "$v$", va="center")
+    for key, color, name in ((1.0, CONTACT, "in contact"), (3.2, NO_CONTACT, "not in contact")):
+        _draw_block(ax, key, _KEYS - _BLOCK / 2, color)
+        ax.text(key + 0.27, _KEYS, name, va="center")
+    _draw_axes(ax, -0.7, "z")
 
 
 def _draw_springs(ax: Axes, ends: Iterable[tuple[Point, Point]], look: Look) -> None:
@@ -170,7 +145,6 @@ def _draw_axes(ax: Axes, x: float, up: str) -> None:
     ax.text(x, y + 0.54, f"${up}$", ha="center", va="bottom")
 
 
-@journal
 def figure_4(pattern: Pattern) -> Figure:
     """Draw a) the first three pillars each way and b) one pillar with its sides.
 
@@ -185,34 +159,27 @@ def figure_4(pattern: Pattern) -> Figure:
     for axis in (pillar.xaxis, pillar.yaxis):
         axis.set_ticks(list(names), labels=list(names.values()))
     draw_sliding(pillar, "x")
-    _draw_side(pillar, "x", size, BLUE)
-    _draw_side(pillar, "y", size, VERMILION)
+    _draw_side(pillar, "x", size, style.BLUE)
+    _draw_side(pillar, "y", size, style.VERMILION)
     return picture
 
 
 def _draw_side(ax: Axes, along: Axis, size: int, color: str) -> None:
     """Mark the blocks of one side, its centre, and a distance r of its correlation function."""
-
-    def point(along_side: float, inwards: float) -> Point:
-        return (along_side, inwards) if along == "x" else (inwards, along_side)
-
-    def write(label: str, along_side: float, inwards: float) -> None:
-        where = point(along_side, inwards)
-        ax.text(*where, label, ha="center", va="center", rotation=rotation, bbox=_BEHIND)
-
-    rotation = 0.0 if along == "x" else 90.0
     centre, other = size // 2, size // 2 + max(1, size // 5)
     corners = ((-0.5, -0.5), (size - 0.5, -0.5), (size - 0.5, 0.5), (0.5, 0.5))
-    ax.add_patch(Polygon([point(*corner) for corner in corners], color=color, linewidth=0.0))
+    ax.add_patch(Polygon([point(along, *corner) for corner in corners], color=color, linewidth=0.0))
     for place, marker in ((centre, "o"), (other, "s")):
-        ax.plot(*point(place, 0.0), marker, **_POINT)
+        ax.plot(*point(along, place, 0.0), marker, **_POINT)
     first, second = (0.5 + line * size for line in _LINES)
     dimension(ax, along, centre, other, first, "$r$")
-    write("$(n_p/2, 0)$" if along == "x" else "$(0, n_p/2)$", centre - 0.12 * size, first)
-    write(f"side along ${along}$: $c_{along}(r)$", centre, second)
+    name = "$(n_p/2, 0)$" if along == "x" else "$(0, n_p/2)$"
+    look: Look = {"ha": "center", "va": "center", "rotation": 0.0 if along == "x" else 90.0}
+    ax.text(*point(along, centre - 0.12 * size, first), name, bbox=_BEHIND, **look)
+    side = f"side along ${along}$: $c_{along}(r)$"
+    ax.text(*point(along, centre, second), side, bbox=_BEHIND, **look)
 
 
-@journal
 def figure_8(pattern: Pattern) -> Figure:
     """Draw a) the whole surface and b) one first-level pillar with its pawls and grooves.
 

@@ -16,6 +16,7 @@ from springblock.simulation.run import Array, Run
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
+ZERO: Look = {"color": GREY, "linewidth": 0.5, "zorder": 0}  #: of a line at zero
 FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
@@ -59,13 +60,8 @@ def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
     for ax, label in zip(panels, labels, strict=True):
         ax.set_ylabel(label)
     panels[-1].set_xlabel(xlabel)
-    draw_no_lag(panels[1])
+    panels[1].axhline(0.0, **ZERO)
     return picture, panels
-
-
-def draw_no_lag(ax: Axes) -> None:
-    """Draw a line where t_max = t_avg."""
-    ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
 
 
 def draw_series(

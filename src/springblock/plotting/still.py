@@ -1,13 +1,12 @@
 """Pictures of one run and of one surface."""
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from springblock.plotting import maps, style
-from springblock.plotting.curves import draw_blocks, draw_force, mark_times, name_times
+from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.dimensions import draw_sliding
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
@@ -40,40 +39,18 @@ def plot(run: Run) -> Figure:
     detached = bool(np.isfinite(run.t_det).any())
     panels = parts[0].subplot_mosaic("FM;BM" if detached else "FM", width_ratios=(79, 65))
     span = (0.0, MICRO * float(run.time[-1]))
-    draw_force(panels["F"], run, (), span)
-    panels["F"].set(xlabel="time (µs)", xlim=span)
     if detached:
-        _draw_detachments(panels["F"], panels["B"], run)
-    _draw_times(panels["M"], run)
+        draw_run(panels["F"], panels["B"], run, (), span)
+        early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
+        panels["B"].legend(loc="upper right" if early else "upper left")
+    else:
+        draw_force(panels["F"], run, (), span)
+        panels["F"].set(xlabel="time (µs)", xlim=span)
+    stuck = (run.contact & np.isnan(run.t_det)).any()
+    maps.draw_times(panels["M"], run, *(["not detached"] if stuck else []))
     if len(run.snapshots):
         _draw_snapshots(parts[1], run)
     return picture
-
-
-def _draw_detachments(force: Axes, blocks: Axes, run: Run) -> None:
-    """Draw shares of detaching blocks below the force, with t_max and t_avg in both panels."""
-    draw_blocks(blocks, run, ())
-    early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
-    blocks.legend(loc="upper right" if early else "upper left")
-    blocks.sharex(force)
-    blocks.set_xlabel("time (µs)")
-    for ax in (force, blocks):
-        mark_times(ax, run)
-    name_times(force, run)
-    force.set_xlabel("")
-    force.tick_params(labelbottom=False)
-
-
-def _draw_times(ax: Axes, run: Run) -> None:
-    """Map where blocks have detached, and when."""
-    maps.draw_map(ax, maps.painted(run))
-    names = {
-        "not detached": (run.contact & np.isnan(run.t_det)).any(),
-        "not in contact": not run.contact.all(),
-    }
-    maps.draw_key(ax, *(name for name, occurs in names.items() if occurs))
-    if np.isfinite(run.t_det).any():
-        maps.draw_times_bar(ax, run)
 
 
 def _draw_snapshots(part: SubFigure, run: Run) -> None:
@@ -102,7 +79,11 @@ def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> 
     picture.suptitle(title, fontsize="medium", linespacing=1.4)
     maps.draw_contact(whole, contact)
     draw_sliding(whole, direction)
-    y, x = _corner(contact)
+    corner = []  # of a window that shows the first contact with a margin, and lies inside
+    for axis, size in enumerate(contact.shape):
+        first = int(np.argmax(contact.any(axis=1 - axis)))
+        corner.append(max(0, min(first - _ENLARGED // 6, size - _ENLARGED)))
+    y, x = corner
     window = contact[y : y + _ENLARGED, x : x + _ENLARGED]
     rows, columns = window.shape
     extent = (x - 0.5, x + columns - 0.5, y - 0.5, y + rows - 0.5)
@@ -112,14 +93,3 @@ def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> 
     maps.draw_key(detail, "in contact", "not in contact")
     whole.add_patch(Rectangle((x - 0.5, y - 0.5), columns, rows, fill=False))
     return picture
-
-
-def _corner(contact: NDArray[np.bool_]) -> tuple[int, int]:
-    """Return y and x of a window that shows the first contact with a margin, and lies inside."""
-    first = (int(np.argmax(contact.any(axis=1))), int(np.argmax(contact.any(axis=0))))
-    margin = _ENLARGED // 6
-    y, x = (
-        max(0, min(start - margin, size - _ENLARGED))
-        for start, size in zip(first, contact.shape, strict=True)
-    )
-    return y, x

@@ -11,42 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from springblock.analysis.statistics import (
-    half_widths,
-    lesser_prominence,
-    mean_interval,
-    whole_curve,
-)
+from springblock.analysis import statistics
 from springblock.io.records import Record
-from springblock.plotting import curves, maps, style
-from springblock.plotting.looks import (
-    Key,
-    direction_color,
-    direction_name,
-    in_order,
-    pillar_look,
-    pillar_name,
-    surface_look,
-)
-from springblock.plotting.points import (
-    draw_means,
-    draw_series,
-    friction_and_lag,
-    highest_and_lag,
-    name_places,
-)
-from springblock.plotting.style import (
-    BLACK,
-    FORCE,
-    GREEN,
-    GREY,
-    MICRO,
-    MM,
-    PERCENT,
-    PURPLE,
-    Look,
-    journal,
-)
+from springblock.plotting import curves, looks, maps, points, style
+from springblock.plotting.looks import Key
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
 _ANGLES = {"x": 0.0, "y": 90.0}  #: degrees from the grooves, which run along x
@@ -62,88 +31,80 @@ _ROW = 62.0  #: mm, height of the panels of a surface and of its name
 _LINE = 120  #: letters that fit above a row
 
 
-@journal
 def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p."""
-    picture, panels = friction_and_lag("distance between the pillars $n_s$ (blocks)")
+    picture, panels = points.friction_and_lag("distance between the pillars $n_s$ (blocks)")
     for n_p in sorted({n_p for n_p, _ in ensembles}):
         by_gap = {n_s: runs for (size, n_s), runs in ensembles.items() if size == n_p}
-        draw_series(panels, by_gap, **pillar_look(n_p), label=pillar_name(n_p))
-    name_places(panels[0], [n_s for _, n_s in ensembles])
+        points.draw_series(panels, by_gap, **looks.pillar_look(n_p), label=looks.pillar_name(n_p))
+    points.name_places(panels[0], [n_s for _, n_s in ensembles])
     panels[0].legend(loc="best", ncols=2)
     return picture
 
 
-@journal
 def supplement_size(ensembles: Mapping[tuple[int, int, str, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over N, a line for each surface."""
-    picture, panels = friction_and_lag("side of the surface $N$ (blocks)")
-    for surface in in_order({key[:3] for key in ensembles}):
-        name, look = surface_look(surface)
+    picture, panels = points.friction_and_lag("side of the surface $N$ (blocks)")
+    for surface in looks.in_order({key[:3] for key in ensembles}):
+        name, look = looks.surface_look(surface)
         by_size = {key[3]: runs for key, runs in ensembles.items() if key[:3] == surface}
-        draw_series(panels, by_size, **look, label=name)
-    name_places(panels[0], [n for *_, n in ensembles])
+        points.draw_series(panels, by_size, **look, label=name)
+    points.name_places(panels[0], [n for *_, n in ensembles])
     panels[0].legend(loc="best")
     return picture
 
 
-@journal
 def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     """Draw what changes with the angle between sliding and grooves.
 
     That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     """
     label = "angle between sliding and grooves (°)"
-    picture, panels = friction_and_lag(label, "lesser peak (% of force)")
+    picture, panels = points.friction_and_lag(label, "lesser peak (% of force)")
     angles = {name: float(_ANGLES.get(name, name)) for name in ensembles}
     names = sorted(angles, key=lambda name: angles[name])
     places = [angles[name] for name in names]
-    samples = zip(*(_quantities(ensembles[name]) for name in names), strict=True)
-    for ax, values in zip(panels, samples, strict=True):
+    quantities = []
+    for name in names:
+        lesser = [PERCENT * statistics.lesser_prominence(friction(r)) for r in ensembles[name]]
+        quantities.append((*points.highest_and_lag(ensembles[name]), np.array(lesser)))
+    for ax, *values in zip(panels, *quantities, strict=True):
         ax.plot(places, [sample.mean() for sample in values], color=GREY, linewidth=0.6)
         for name, angle, sample in zip(names, places, values, strict=True):
-            color = direction_color(name)
+            color = looks.direction_color(name)
             aside = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
             ax.plot(angle + aside, sample, color=color, markeredgewidth=0.0, **_DOT)
-            draw_means(ax, {angle: sample}, color, linestyle="none", marker="o", zorder=3)
+            points.draw_means(ax, {angle: sample}, color, linestyle="none", marker="o", zorder=3)
         ax.set_xticks(places)
     panels[2].set_ylim(0.0, None)
     return picture
 
 
-def _quantities(runs: Sequence[Run]) -> tuple[Array, Array, Array]:
-    """Return static friction, t_max - t_avg in µs, and the lesser peak's prominence in %."""
-    lesser = np.array([PERCENT * lesser_prominence(friction(run)) for run in runs])
-    return *highest_and_lag(runs), lesser
-
-
-@journal
 def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Run]]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level."""
-    found = {key: whole_curve(runs) for key, runs in sorted(ensembles.items())}
+    found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
     span = curves.enlarged_span(list(found.values()), _CLOSE)
     picture, panels = style.panels(style.COLUMN, 99.0, "a;b", sharex=True)
     for direction, ax in zip(("x", "y"), panels, strict=True):
         shown = {level: curve for (name, level), curve in found.items() if name == direction}
         for level, curve in shown.items():
-            color = {2: direction_color(direction), 3: PURPLE}.get(level, GREEN)
+            color = {2: looks.direction_color(direction), 3: style.PURPLE}.get(level, style.GREEN)
             curves.draw_load_peaks(ax, curve, color, f"{level} levels")
         if shown:
             curves.fit_forces(ax, list(shown.values()), span)
             ax.legend(loc="lower left", bbox_to_anchor=(0.14, 0.0))
         ax.set_ylabel(FORCE)
-        ax.set_title(f"sliding {direction_name(direction)}", loc="right")
+        ax.set_title(f"sliding {looks.direction_name(direction)}", loc="right")
     panels[-1].set_xlabel("time (µs)")
     return picture
 
 
-@journal
 def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations."""
     picture, panels = style.panels(style.COLUMN, 110.0, "a;b", sharex=True)
-    for key in in_order(ensembles):
-        name, look = surface_look(key)
-        highest, lag = highest_and_lag(ensembles[key])
+    for key in looks.in_order(ensembles):
+        name, look = looks.surface_look(key)
+        highest, lag = points.highest_and_lag(ensembles[key])
         for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):
             _draw_widths(ax, values, look | {"label": name})
     names = ("static friction (10⁻³)", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
@@ -152,7 +113,7 @@ def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
         ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.yaxis.set_major_formatter("{x:g}")
         ax.yaxis.set_minor_formatter(NullFormatter())
-    name_places(panels[0], [k for k in _SIZES if k <= max(map(len, ensembles.values()))])
+    points.name_places(panels[0], [k for k in _SIZES if k <= max(map(len, ensembles.values()))])
     panels[1].set_xlabel("number of realisations")
     panels[0].plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
     picture.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
@@ -161,7 +122,7 @@ def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
 
 def _draw_widths(ax: Axes, values: Array, look: Look) -> None:
     """Draw widths measured on subsets, over the line that the whole ensemble predicts."""
-    widths = half_widths(values, _SIZES)
+    widths = statistics.half_widths(values, _SIZES)
     if not widths:
         return
     sizes = np.array(list(widths))
@@ -170,7 +131,6 @@ def _draw_widths(ax: Axes, values: Array, look: Look) -> None:
     ax.plot(sizes, predicted, color=look["color"], linewidth=0.5)
 
 
-@journal
 def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     """Draw how many blocks have let go again over time, for each surface.
 
@@ -179,9 +139,9 @@ def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     picture, (ax,) = style.panels(style.COLUMN, 80.0)
     ax.set(yscale="log", ylim=(_FLOOR, 50.0))
     ax.yaxis.set_major_formatter("{x:g}")
-    for i, key in enumerate(in_order(ensembles)):
-        name, look = surface_look(key)
-        again = mean_interval([let_go_again(run) for run in ensembles[key]])
+    for i, key in enumerate(looks.in_order(ensembles)):
+        name, look = looks.surface_look(key)
+        again = statistics.mean_interval([let_go_again(run) for run in ensembles[key]])
         look |= {"label": name, "markevery": (62 + 3 * (i % 4), 12)}
         curves.draw_band(ax, _TIMES, again, **look)
     ax.set(xlabel=r"time $t/t_\mathrm{max}$", ylabel="let go again (% of blocks)")
@@ -197,13 +157,12 @@ def let_go_again(run: Run) -> Array:
     return np.interp(_TIMES, run.time / run.t_max, again)
 
 
-@journal
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
     """Draw mask, mean t_det/t_max and force of each surface below the one before.
 
     A block that has not let go in one of the runs has no mean time.
     """
-    size = (style.DOUBLE * MM, len(ensembles) * _ROW * MM)
+    size = (style.DOUBLE * style.MM, len(ensembles) * _ROW * style.MM)
     picture = Figure(figsize=size, layout="constrained")
     rows = picture.subplots(len(ensembles), 3, squeeze=False)
     for (contact, times, force), runs in zip(rows, ensembles.values(), strict=True):
@@ -211,7 +170,7 @@ def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
         contact.set_title(fill(str(runs[0].scene), _LINE), loc="left", fontsize="medium")
         mean = np.mean([run.t_det / run.t_max for run in runs], axis=0)
         maps.draw_mean_times(times, mean, r"mean $t_\mathrm{det}/t_\mathrm{max}$")
-        curve = whole_curve(runs)
+        curve = statistics.whole_curve(runs)
         curves.draw_single_forces(force, curve, GREY)
         curves.draw_mean_force(force, curve, BLACK, "mean")
         latest = MICRO * float(np.mean([run.t_max for run in runs]))

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from springblock.plotting.accuracy_cases import stability
+from springblock.plotting import drawing
 
 NAN = np.nan
 #: family, parameter, outcome, quantity, energy residual, relative error, tolerance
@@ -46,7 +46,7 @@ def cases() -> pd.DataFrame:
 
 
 table = pytest.fixture(cases, scope="module")
-DRAWINGS = {"stability": lambda: stability(cases())}
+DRAWINGS = {"stability": lambda: drawing("stability")(cases())}
 
 
 def points(ax, marker):
@@ -61,14 +61,14 @@ def heights(ax, marker):
 
 
 def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused(table):
-    steps = stability(table).axes[0]
+    steps = drawing("stability")(table).axes[0]
     assert points(steps, "o").tolist() == points(steps, "s").tolist() == [0.5, 0.99]
     assert heights(steps, "o").tolist() == [3e-3, 4e-2]
     assert points(steps, "x").tolist() == [1.01, 1.01]
 
 
 def test_families_show_each_error_below_what_is_accepted(table):
-    stiffness, strain, damping, speed = stability(table).axes[2:6]
+    stiffness, strain, damping, speed = drawing("stability")(table).axes[2:6]
     assert points(stiffness, "o").tolist() == [1e-4, 1e4]
     assert heights(stiffness, "o").tolist() == [1e-15, 2e-4]
     assert heights(strain, "o").tolist() == [1e-16, 2e-11]  # no error at all is on the floor
@@ -80,7 +80,7 @@ def test_families_show_each_error_below_what_is_accepted(table):
 
 
 def test_the_overview_counts_all_cases_and_marks_those_without_a_number(table):
-    overview = stability(table).axes[1]
+    overview = drawing("stability")(table).axes[1]
     names = [label.get_text() for label in overview.get_xticklabels()]
     assert names[0] == "step (6)"
     assert names[-1] == "overflow (2)"
