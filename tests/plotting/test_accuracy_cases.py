@@ -1,8 +1,9 @@
 """The figure of the stiff and extreme cases shows what the table holds."""
 
+from functools import cache
+
 import numpy as np
 import pandas as pd
-import pytest
 
 from springblock.plotting import drawing
 
@@ -24,7 +25,7 @@ ROWS = [
     ("rest", 1e6, "at rest", "none", 0.0, NAN, NAN),
     ("overflow", NAN, "raises", "none", NAN, NAN, NAN),
 ]
-NAMES = (
+NAMES = [
     "family",
     "parameter",
     "outcome",
@@ -32,43 +33,39 @@ NAMES = (
     "energy_error",
     "relative_error",
     "tolerance",
-)
+]
 
 
 def cases() -> pd.DataFrame:
     """Every case by both integrators."""
-    rows = [
-        {**dict(zip(NAMES, row, strict=True)), "integrator": name, "case": f"pillars {i}"}
-        for i, row in enumerate(ROWS)
-        for name in ("leapfrog", "rk4")
-    ]
-    return pd.DataFrame(rows)
+    table = pd.DataFrame(ROWS, columns=NAMES)
+    table["case"] = [f"pillars {i}" for i in table.index]
+    return pd.concat([table.assign(integrator=name) for name in ("leapfrog", "rk4")])
 
 
-table = pytest.fixture(cases, scope="module")
 DRAWINGS = {"stability": lambda: drawing("stability")(cases())}
+drawn = cache(DRAWINGS["stability"])  # for tests that only look at it
 
 
-def points(ax, marker):
+def points(ax, marker, axis=0):
     """Places of all markers of a kind in a panel, sorted."""
     lines = [line for line in ax.get_lines() if line.get_marker() == marker]
-    return np.sort(np.concatenate([line.get_xdata() for line in lines]).astype(float))
+    return np.sort(np.concatenate([line.get_data()[axis] for line in lines]).astype(float))
 
 
 def heights(ax, marker):
-    lines = [line for line in ax.get_lines() if line.get_marker() == marker]
-    return np.sort(np.concatenate([line.get_ydata() for line in lines]).astype(float))
+    return points(ax, marker, axis=1)
 
 
-def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused(table):
-    steps = drawing("stability")(table).axes[0]
+def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused():
+    steps = drawn().axes[0]
     assert points(steps, "o").tolist() == points(steps, "s").tolist() == [0.5, 0.99]
     assert heights(steps, "o").tolist() == [3e-3, 4e-2]
     assert points(steps, "x").tolist() == [1.01, 1.01]
 
 
-def test_families_show_each_error_below_what_is_accepted(table):
-    stiffness, strain, damping, speed = drawing("stability")(table).axes[2:6]
+def test_families_show_each_error_below_what_is_accepted():
+    stiffness, strain, damping, speed = drawn().axes[2:6]
     assert points(stiffness, "o").tolist() == [1e-4, 1e4]
     assert heights(stiffness, "o").tolist() == [1e-15, 2e-4]
     assert heights(strain, "o").tolist() == [1e-16, 2e-11]  # no error at all is on the floor
@@ -79,8 +76,8 @@ def test_families_show_each_error_below_what_is_accepted(table):
     assert damping.get_xlim()[0] < 0.0  # zero is shown
 
 
-def test_the_overview_counts_all_cases_and_marks_those_without_a_number(table):
-    overview = drawing("stability")(table).axes[1]
+def test_the_overview_counts_all_cases_and_marks_those_without_a_number():
+    overview = drawn().axes[1]
     names = [label.get_text() for label in overview.get_xticklabels()]
     assert names[0] == "step (6)"
     assert names[-1] == "overflow (2)"

@@ -129,20 +129,10 @@ def test_every_single_run_is_shown(letters, cost, quantity):
 def test_rings_mark_the_default_and_the_paper():
     default = inspect.signature(simulate).parameters
     rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
-    for ring, integrator, step in zip(
-        rings,
-        (default["integrator"].default, PLAIN),
-        (default["step"].default, PAPER_STEP),
-        strict=True,
-    ):
-        row = chosen(
-            table(),
-            comparison="reference",
-            scene="flat",
-            quantity="t_det before horizon",
-            integrator=integrator,
-            step=step,
-        )
+    runs = chosen(table(), comparison="reference", scene="flat", quantity="t_det before horizon")
+    marked = ((default["integrator"].default, default["step"].default), (PLAIN, PAPER_STEP))
+    for ring, (integrator, step) in zip(rings, marked, strict=True):
+        row = chosen(runs, integrator=integrator, step=step)
         assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
 
 
@@ -161,9 +151,8 @@ def test_every_bias_is_shown_with_its_interval_and_the_scatter():
         ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
         assert sorted(bars[:, 1]) == pytest.approx(ends)
         assert visible(ax, bars)
-        scatter = chosen(
-            table(), comparison="scatter", scene=scene, quantity=quantity
-        ).ci_high.item()
+        spread = chosen(table(), comparison="scatter", scene=scene, quantity=quantity)
+        scatter = spread.ci_high.item()
         (band,) = ax.patches
         assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
         assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)

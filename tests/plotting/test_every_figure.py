@@ -81,11 +81,6 @@ def test_the_same_figure_is_the_same_file(name, suffix, tmp_path, monkeypatch):
     assert b"atplotlib version" not in contents[0]
 
 
-def test_other_formats_are_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"\.pdf, \.png, \.svg"):
-        style.save(Figure(), tmp_path / "figure.jpg")
-
-
 def test_figures_do_not_follow_the_settings_of_the_reader(tmp_path):
     draw = drawing("figure_1")
     style.save(draw(), tmp_path / "mine.pdf")

@@ -11,7 +11,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from springblock import Pattern
 from springblock.analysis.statistics import whole_curve
@@ -21,7 +20,6 @@ from springblock.plotting import drawing
 from springblock.plotting.curves import draw_single_forces
 from springblock.plotting.figures import SINGLE
 from springblock.plotting.looks import pillar_look
-from springblock.simulation.run import percent
 
 SIZE = 6
 PILLARS = Pattern.pillars(24, SIZE, SIZE)
@@ -49,7 +47,7 @@ def record(seed: int, peaks: tuple[float, ...] = (110e-6,), samples: int = 700) 
         force=force * (1.0 + 0.01 * rng.standard_normal()),
         normal_force=NORMAL_FORCE,
         detachments=detachments,
-        switches=detachments,
+        switches=detachments + (time > 120e-6),
         t_det=t_det,
         contact=np.isfinite(t_det),
     )
@@ -74,28 +72,6 @@ def sizes(runs: int = 4):
     return {n_p: ensemble(peak, runs=runs) for n_p, peak in peaks.items()}
 
 
-def made(seed: int, samples: int = 700, contact: NDArray[np.bool_] | None = None) -> Record:
-    """A force that rises to 110 µs and falls, and blocks that let go a little later."""
-    contact = np.ones((20, 20), bool) if contact is None else contact
-    rng = np.random.default_rng(seed)
-    time = 2e-7 * np.arange(samples)
-    t_det = np.where(contact, rng.normal(112e-6, 3e-6, contact.shape), np.nan)
-    edges = np.append(-1.0, time)
-    detachments = np.histogram(t_det[contact], edges)[0]
-    force = 1e-3 * np.minimum(time / 110e-6, 1.0) - 4e-4 * (time > 110e-6)
-    return Record(
-        scene=Scene(len(contact)),
-        seed=seed,
-        time=time,
-        force=force + 1e-7 * rng.standard_normal(samples),
-        normal_force=1.3e-3,
-        detachments=detachments,
-        switches=detachments + (time > 120e-6),
-        t_det=t_det,
-        contact=np.isfinite(t_det),
-    )
-
-
 SIZES = [6, 20, 60]
 LENGTH = {"x": 3.0, "y": 0.5}
 
@@ -118,20 +94,16 @@ def lengths() -> pd.DataFrame:
         for side, length in LENGTH.items():
             l_c = length * (1.0 + n_p / 600.0)
             tail = np.nan if n_p == 6 else l_c + 1.0
-            row = {
-                "l_c": l_c,
-                "ci_low": l_c - 0.2,
-                "ci_high": l_c + 0.3,
-                "r_last": min(n_p // 3, 5),
-            }
+            row = {"l_c": l_c, "ci_low": l_c - 0.2, "ci_high": l_c + 0.3}
+            row |= {"r_last": min(n_p // 3, 5)}
             row |= {"tail": tail, "tail_low": tail - 0.5, "tail_high": tail + 0.5}
             rows.append({"n_p": n_p, "side": side, **row})
     return pd.DataFrame(rows)
 
 
 DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "figure_2": lambda: drawing("figure_2")([made(seed) for seed in range(4)]),
-    "figure_3": lambda: drawing("figure_3")([made(0)]),
+    "figure_2": lambda: drawing("figure_2")(ensemble(110e-6)),
+    "figure_3": lambda: drawing("figure_3")(ensemble(110e-6)),
     "figure_5": lambda: drawing("figure_5")(ensemble(110e-6)),
     "figure_6": lambda: drawing("figure_6")(sizes()),
     "figure_7": lambda: drawing("figure_7")(correlation(), lengths()),
@@ -145,38 +117,39 @@ drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
 
 
 def test_figure_2_shows_the_run_in_front_of_the_others():
-    runs = [made(0), made(1, samples=690), made(2)]
+    runs = ensemble(110e-6, runs=3)
     force, blocks = (drawing("figure_2")(runs).axes[i] for i in (0, 2))
     lines = {line.get_label(): line for line in force.get_lines()}
-    np.testing.assert_allclose(lines["one run"].get_ydata(), runs[0].force / 1.3e-3)
-    others = (runs[1].force + runs[2].force[:690]) / 2.6e-3
+    np.testing.assert_allclose(lines["one run"].get_ydata(), runs[0].force / NORMAL_FORCE)
+    others = (runs[1].force[:694] + runs[2].force) / (2.0 * NORMAL_FORCE)
     np.testing.assert_allclose(lines["their mean"].get_ydata(), others)
     all_switches, first = blocks.patches[:2]
-    np.testing.assert_allclose(all_switches.get_data().values, runs[0].switches[1:] / 4.0)
-    np.testing.assert_allclose(first.get_data().values, runs[0].detachments[1:] / 4.0)
-    assert blocks.get_ylim()[0] < percent(runs[0], np.array([1]))[0]  # one block is visible
+    per_block = 100.0 / PILLARS.contact.sum()
+    for steps, counts in ((all_switches, runs[0].switches), (first, runs[0].detachments)):
+        np.testing.assert_allclose(steps.get_data().values, per_block * counts[1:])
+    assert blocks.get_ylim()[0] < per_block  # one block is visible
 
 
 def test_figure_2_marks_both_times():
-    run = made(0)
+    run = record(0)
     for ax in drawing("figure_2")([run]).axes:
-        upright = {
-            line.get_linestyle(): line.get_xdata()[0]
-            for line in ax.get_lines()
-            if len(line.get_xdata()) == 2
-        }
+        marks = [line for line in ax.get_lines() if len(line.get_xdata()) == 2]
+        upright = {line.get_linestyle(): line.get_xdata()[0] for line in marks}
         assert upright == {":": pytest.approx(110.0), "-": pytest.approx(1e6 * run.t_avg)}
 
 
 def test_figure_2_refuses_runs_sampled_differently():
-    odd = replace(made(1), time=2.0 * made(1).time)
+    odd = replace(record(1), time=2.0 * record(1).time)
     with pytest.raises(ValueError, match="sample interval"):
-        drawing("figure_2")([made(0), made(2), odd])
+        drawing("figure_2")([record(0), record(2), odd])
 
 
-@pytest.mark.parametrize("pattern", [None, PILLARS])
-def test_figure_3_maps_t_det_over_t_max(pattern):
-    run = made(0, contact=None if pattern is None else pattern.contact)
+@pytest.mark.parametrize("flat", [False, True])
+def test_figure_3_maps_t_det_over_t_max(flat):
+    run = record(0)
+    if flat:
+        times = np.where(run.contact, run.t_det, run.t_avg)
+        run = replace(run, t_det=times, contact=np.ones_like(run.contact))
     ax = drawing("figure_3")([run]).axes[0]
     image = ax.images[0]
     shown = np.ma.filled(image.get_array(), np.nan)
@@ -185,7 +158,7 @@ def test_figure_3_maps_t_det_over_t_max(pattern):
     blue, red = image.cmap(0.2), image.cmap(0.8)
     assert blue[2] > blue[0]
     assert red[0] > red[2]
-    assert (ax.get_legend() is None) == (pattern is None)
+    assert (ax.get_legend() is None) == flat
 
 
 def lines(ax):
@@ -201,11 +174,8 @@ def test_figure_5_maps_the_mean_and_tells_sides_apart():
     np.testing.assert_allclose(shown, np.mean(cut, axis=0) / 110e-6)
     bars = {bar.get_label(): bar.lines[0].get_xydata() for bar in rings.containers}
     corners, along_y, along_x = bars.values()
-    assert [label.split(" (")[0] for label in bars] == [
-        "corners",
-        "sides along $y$",
-        "sides along $x$",
-    ]
+    names = ["corners", "sides along $y$", "sides along $x$"]
+    assert [label.split(" (")[0] for label in bars] == names
     assert [len(part) for part in (corners, along_y, along_x)] == [3, 2, 2]  # rings
     assert corners[0, 1] == pytest.approx(shown[[0, 0, -1, -1], [0, -1, 0, -1]].mean())
     assert along_y[0, 1] == pytest.approx(shown[1:-1, [0, -1]].mean())
@@ -262,26 +232,20 @@ def test_no_more_single_runs_are_shown_than_can_be_told_apart():
 def test_curves_go_on_past_the_shortest_run():
     """Solid while all runs go on, dotted and over the rest of them as long as half are left."""
     runs = ensemble(100e-6)  # they end after 700, 697, 694 and 691 samples
-    force, blocks = (drawn("figure_6").axes[i] for i in (0, 2))
+    force, _, detached, _ = drawn("figure_6").axes
     solid = lines(force)["$n_p$ = 6"]
-    (dotted,) = (
-        line.get_xydata()
-        for line in force.get_lines()
-        if line.get_linestyle() == "--"
-        and len(line.get_xydata()) > 1
-        and np.array_equal(line.get_xydata()[0], solid[-1])
-    )
+    dashed = [line.get_xydata() for line in force.get_lines() if line.get_linestyle() == "--"]
+    (dotted,) = (xy for xy in dashed if len(xy) > 1 and np.array_equal(xy[0], solid[-1]))
     assert len(solid) == 691
     shown = dotted[np.isfinite(dotted[:, 1])]
     assert len(solid) + len(shown) - 1 == 697
     rest = np.mean([run.force[691:697] / NORMAL_FORCE for run in runs[:2]], axis=0)
     np.testing.assert_allclose(shown[-3:, 1], rest[-3:])
-    for steps, n_p in zip(blocks.patches, sizes(), strict=True):
+    for steps, n_p in zip(detached.patches, sizes(), strict=True):
         shares = steps.get_data()
         assert shares.edges[-1] == pytest.approx(138.0)  # whole bins of the longest run
-        late = np.mean(
-            [np.sum(r.t_det > 138e-6) / np.isfinite(r.t_det).sum() for r in sizes()[n_p]]
-        )
+        blocks = PILLARS.contact.sum()
+        late = np.mean([np.sum(run.t_det > 138e-6) / blocks for run in sizes()[n_p]])
         assert shares.values.sum() == pytest.approx(100.0 * (1.0 - late), abs=0.01)
 
 

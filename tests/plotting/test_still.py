@@ -120,12 +120,9 @@ def test_blocks_are_those_of_the_mask(name):
     np.testing.assert_array_equal(whole.images[0].get_array(), contact)
     assert whole.get_xlim() == (-0.5, contact.shape[1] - 0.5)
     left, right, bottom, top = detail.images[0].get_extent()
-    rows, columns = (
-        slice(round(bottom + 0.5), round(top + 0.5)),
-        slice(round(left + 0.5), round(right + 0.5)),
-    )
-    np.testing.assert_array_equal(detail.images[0].get_array(), contact[rows, columns])
-    assert contact[rows, columns].any()
+    left, right, bottom, top = (round(edge + 0.5) for edge in (left, right, bottom, top))
+    np.testing.assert_array_equal(detail.images[0].get_array(), contact[bottom:top, left:right])
+    assert contact[bottom:top, left:right].any()
 
 
 def test_the_share_in_contact_is_said():

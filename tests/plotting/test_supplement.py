@@ -1,8 +1,7 @@
 """The figures of the supplement draw without a warning and show the data they are given."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -31,29 +30,30 @@ def ensemble(friction: float, *peaks: float, runs: int = 4) -> list[Record]:
     ]
 
 
-def drawings(number: int) -> dict[str, Callable[[], Figure]]:
+@cache
+def given(number: int) -> dict[str, dict]:
+    """What each figure is drawn from, of so many runs of each surface."""
+
     def some(friction: float, *peaks: float) -> list[Record]:
         return ensemble(friction, *(peaks or (110e-6,)), runs=number)
 
-    lengths = {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)}
     sizes = {(0, 0, "x", 60): some(0.8), (0, 0, "x", 120): some(0.79)}
     sizes |= {(20, 0, "x", 80): some(0.7), (58, 8, "y", 120): some(0.72)}
-    levels = {
-        ("x", 2): some(0.7, 80e-6, 110e-6),
-        ("x", 3): some(0.7, 90e-6, 110e-6),
-        ("y", 2): some(0.7, 100e-6),
-        ("y", 3): some(0.7, 105e-6),
-    }
-    angles = {"x": some(0.7), "45": some(0.6), "y": some(0.8)}
+    levels = {("x", 2): some(0.7, 80e-6, 110e-6), ("x", 3): some(0.7, 90e-6, 110e-6)}
+    levels |= {("y", 2): some(0.7, 100e-6), ("y", 3): some(0.7, 105e-6)}
     scenes = {(0, 0, "x"): some(0.8), (6, 0, "x"): some(0.6), (58, 8, "y"): some(0.7)}
     return {
-        "spacing": lambda: drawing("supplement_spacing")(lengths),
-        "size": lambda: drawing("supplement_size")(sizes),
-        "angle": lambda: drawing("supplement_angle")(angles),
-        "levels": lambda: drawing("supplement_levels")(levels),
-        "repetitions": lambda: drawing("supplement_repetitions")(scenes),
-        "restick": lambda: drawing("supplement_restick")(scenes),
+        "spacing": {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)},
+        "size": sizes,
+        "angle": {"x": some(0.7), "45": some(0.6), "y": some(0.8)},
+        "levels": levels,
+        "repetitions": scenes,
+        "restick": scenes,
     }
+
+
+def draw(name: str, number: int = 6) -> Figure:
+    return drawing(f"supplement_{name}")(given(number)[name])
 
 
 @cache
@@ -66,20 +66,14 @@ def on_islands(number: int) -> list[Record]:
     return [replace(run, scene=scene, t_det=t) for run, t in zip(made, times, strict=True)]
 
 
-DRAWINGS = {f"supplement_{name}": draw for name, draw in drawings(6).items()}
-DRAWINGS |= {f"supplement_{name} of one run": draw for name, draw in drawings(1).items()}
-DRAWINGS |= {
-    f"surfaces of {k} runs": lambda k=k: drawing("surfaces")(
-        {"first": on_islands(k), "second": on_islands(k)}
-    )
-    for k in (1, 3)
-}
+def draw_surfaces(number: int = 3) -> Figure:
+    return drawing("surfaces")({name: on_islands(number) for name in ("first", "second")})
 
 
-@cache
-def drawn(name: str, runs: int = 6) -> Figure:
-    """A figure for tests that only look at it."""
-    return drawings(runs)[name]()
+DRAWINGS = {"surfaces": draw_surfaces, "surfaces of one run": partial(draw_surfaces, 1)}
+for name in given(1):
+    DRAWINGS[f"supplement_{name}"] = partial(draw, name)
+    DRAWINGS[f"supplement_{name} of one run"] = partial(draw, name, 1)
 
 
 def lines(ax: Axes) -> list[np.ndarray]:
@@ -100,21 +94,21 @@ def lines(ax: Axes) -> list[np.ndarray]:
     ],
 )
 def test_lines_go_through_the_means(name, line, expected):
-    friction, lag = drawn(name).axes[:2]
+    friction, lag = draw(name).axes[:2]
     np.testing.assert_allclose(lines(friction)[line], expected)
     expected_lag = 1e6 * np.mean([run.t_max - run.t_avg for run in ensemble(0.8, 110e-6, runs=6)])
     np.testing.assert_allclose(lines(lag)[line][:, 1], expected_lag)
 
 
 def test_each_level_has_its_load_peaks_marked():
-    for ax, expected in zip(drawn("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
+    for ax, expected in zip(draw("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
         peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
         assert peaks == pytest.approx(expected, abs=0.6)
 
 
 def test_the_lesser_peak_is_shown_run_by_run():
     """Two hills alike, then one alone: what stands out is the valley, or nothing."""
-    *_, lesser = drawn("angle").axes
+    *_, lesser = draw("angle").axes
     assert lesser.get_ylabel() == "lesser peak (% of force)"
     dots = [line.get_xydata() for line in lesser.get_lines() if line.get_marker() == "."]
     assert [len(runs) for runs in dots] == [6, 6, 6]
@@ -127,7 +121,7 @@ def test_the_lesser_peak_is_shown_run_by_run():
 
 
 def test_intervals_narrow_with_the_root_of_the_number():
-    friction, _ = drawn("repetitions", runs=20).axes
+    friction, _ = draw("repetitions", 20).axes
     measured, predicted = (line.get_xydata() for line in friction.get_lines()[:2])
     assert measured[:, 0].tolist() == [3, 5, 10, 20]
     np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
@@ -146,13 +140,13 @@ def test_only_blocks_that_let_go_again_are_counted():
 
 
 def test_a_row_shows_the_mask_the_mean_times_and_the_force():
-    mask, times, force = DRAWINGS["surfaces of 3 runs"]().axes[:3]
+    (mask, times, force), others = np.split(draw_surfaces().axes, [3])
     np.testing.assert_array_equal(mask.images[0].get_array(), ISLANDS)
     expected = np.where(ISLANDS, np.linspace(0.8, 1.2, 9) + 0.01, np.nan)
     shown = np.ma.filled(times.images[0].get_array(), np.nan)
     np.testing.assert_allclose(shown, expected)
     assert force.get_ylim()[0] == 0.0
-    assert len(DRAWINGS["surfaces of 3 runs"]().axes) == 6
+    assert len(others) == 3
 
 
 def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
@@ -164,7 +158,7 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
 
 
 def test_each_row_is_named_after_its_scene():
-    names = [ax.get_title("left") for ax in DRAWINGS["surfaces of 1 runs"]().axes]
+    names = [ax.get_title("left") for ax in draw_surfaces(1).axes]
     assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
 
 
