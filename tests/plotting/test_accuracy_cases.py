@@ -25,15 +25,8 @@ ROWS = [
     ("rest", 1e6, "at rest", "none", 0.0, NAN, NAN),
     ("overflow", NAN, "raises", "none", NAN, NAN, NAN),
 ]
-NAMES = [
-    "family",
-    "parameter",
-    "outcome",
-    "quantity",
-    "energy_error",
-    "relative_error",
-    "tolerance",
-]
+NAMES = ["family", "parameter", "outcome", "quantity"]
+NAMES += ["energy_error", "relative_error", "tolerance"]
 
 
 def cases() -> pd.DataFrame:

@@ -99,15 +99,20 @@ def points(ax):
     return np.vstack([line.get_xydata() for line in lines if line.get_linestyle() != "None"])
 
 
-def contains(shown, wanted):
-    return all(np.isclose(shown, point, rtol=1e-9, atol=0.0).all(axis=1).any() for point in wanted)
-
-
 def visible(ax, places):
     """Within the limits of the axes, and where a logarithm exists."""
     shown = ax.transData.transform(places)
     low, high = ax.transAxes.transform([(0.0, 0.0), (1.0, 1.0)])
     return bool(((shown >= low - 0.01) & (shown <= high + 0.01)).all())
+
+
+def check_points(ax, wanted):
+    """Every wanted point is drawn, no other, and all are visible."""
+    shown, wanted = points(ax), wanted.to_numpy()
+    assert len(shown) == len(wanted)
+    assert visible(ax, wanted)
+    for point in wanted:
+        assert np.isclose(shown, point, rtol=1e-9, atol=0.0).all(axis=1).any()
 
 
 @pytest.mark.parametrize(
@@ -120,10 +125,8 @@ def visible(ax, places):
 def test_every_single_run_is_shown(letters, cost, quantity):
     for letter, scene in zip(letters, SCENES, strict=True):
         wanted = chosen(table(), comparison="reference", scene=scene, quantity=quantity)
-        wanted = wanted[[cost, "error"]].to_numpy()
-        assert len(points(panel(letter))) == len(wanted) == 20
-        assert contains(points(panel(letter)), wanted)
-        assert visible(panel(letter), wanted)
+        assert len(wanted) == 20
+        check_points(panel(letter), wanted[[cost, "error"]])
 
 
 def test_rings_mark_the_default_and_the_paper():
@@ -163,10 +166,9 @@ def test_every_bias_is_shown_with_its_interval_and_the_scatter():
     [("j", "t_det before peak"), ("k", "static_friction"), ("l", "horizon")],
 )
 def test_every_twin_is_shown_also_where_nothing_differs(letter, quantity):
-    wanted = chosen(table(), comparison="twin", quantity=quantity)[["nudge", "error"]].to_numpy()
-    assert len(points(panel(letter))) == len(wanted) == 18
-    assert contains(points(panel(letter)), wanted)
-    assert visible(panel(letter), wanted)
+    wanted = chosen(table(), comparison="twin", quantity=quantity)
+    assert len(wanted) == 18
+    check_points(panel(letter), wanted[["nudge", "error"]])
 
 
 def rows(quantity, scene):

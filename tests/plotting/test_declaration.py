@@ -44,7 +44,8 @@ QUICK = configuration("config.yaml", "quick.yaml")
 
 
 def test_a_dry_run_loads_nothing_that_draws():
-    script = "import sys; from springblock.plotting import declarations as d; d(); print(*sys.modules)"
+    script = "from springblock.plotting import declarations; declarations(); "
+    script += "import sys; print(*sys.modules)"
     loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
     assert "springblock.plotting.figures" in loaded
     assert not {"matplotlib", "pandas", "scipy", "seaborn"} & {*loaded}

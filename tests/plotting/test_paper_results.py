@@ -1,6 +1,5 @@
 """Figures 2, 3, 5, 6, 7 and 9 show the runs and the tables that they are given."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
@@ -101,7 +100,7 @@ def lengths() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-DRAWINGS: dict[str, Callable[[], Figure]] = {
+DRAWINGS = {
     "figure_2": lambda: drawing("figure_2")(ensemble(110e-6)),
     "figure_3": lambda: drawing("figure_3")(ensemble(110e-6)),
     "figure_5": lambda: drawing("figure_5")(ensemble(110e-6)),

@@ -10,7 +10,6 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 
 from springblock import Pattern, Realisation, draw_friction, plot, simulate
-from springblock.plotting import style
 from springblock.plotting.maps import painted, scale
 from springblock.plotting.still import show
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
@@ -41,21 +40,12 @@ def oblong() -> Realisation:
 
 run = pytest.fixture(made, scope="module")
 
+#: Drawn for `test_every_figure.py`.
 PICTURES = {
     "run": lambda: plot(made()),
     "oblong run": lambda: plot(oblong()),
     **{name: lambda c=c: show(c, 30, "its name") for name, c in SURFACES.items()},
 }
-
-
-@pytest.mark.parametrize("name", PICTURES)
-def test_nothing_leaves_the_page(name):
-    picture = PICTURES[name]()
-    style.settle(picture)
-    box = style.journal(picture.get_tightbbox)()  # inches
-    width, height = picture.get_size_inches()
-    assert 0.0 <= box.x0 < box.x1 <= width
-    assert 0.0 <= box.y0 < box.y1 <= height
 
 
 def test_colours_tell_when_a_block_has_detached(run):

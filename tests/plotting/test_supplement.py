@@ -8,7 +8,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from plotting.test_paper_results import record
+from plotting.test_paper_results import marked, record
 from springblock import Material
 from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
@@ -102,8 +102,7 @@ def test_lines_go_through_the_means(name, line, expected):
 
 def test_each_level_has_its_load_peaks_marked():
     for ax, expected in zip(draw("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
-        peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
-        assert peaks == pytest.approx(expected, abs=0.6)
+        assert marked(ax) == pytest.approx(expected, abs=0.6)
 
 
 def test_the_lesser_peak_is_shown_run_by_run():

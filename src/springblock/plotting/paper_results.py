@@ -118,9 +118,8 @@ def figure_6(ensembles: BySize) -> Figure:
     picture, panels = style.panels(style.DOUBLE, 103.0, "ac;bd", **ratios)
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
-    samples = zip(*(points.highest_and_lag(runs) for runs in ensembles.values()), strict=True)
-    for ax, values in zip((friction, lag), samples, strict=True):
-        _draw_sizes(ax, dict(zip(ensembles, values, strict=True)))
+    for ax, samples in zip((friction, lag), points.highest_and_lag(ensembles), strict=True):
+        _draw_sizes(ax, samples)
     lag.axhline(0.0, **points.ZERO)
     friction.set_ylabel(points.FRICTION)
     friction.tick_params(labelbottom=False)

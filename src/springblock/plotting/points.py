@@ -1,7 +1,7 @@
 """Means of ensembles with their intervals, over what they vary with."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +13,9 @@ from springblock.analysis.statistics import mean_interval
 from springblock.plotting import style
 from springblock.plotting.style import GREY, MICRO, Look
 from springblock.simulation.run import Array, Run
+
+Key = TypeVar("Key")
+Samples = dict[Key, Array]  #: a number of each of k realisations, (k,), by ensemble
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
@@ -46,10 +49,13 @@ def name_places(ax: Axes, places: ArrayLike) -> None:
     ax.margins(x=0.1, y=0.1)
 
 
-def highest_and_lag(runs: Sequence[Run]) -> tuple[Array, Array]:
-    """Return static friction, 1, and t_max - t_avg, µs, of k realisations, (k,) each."""
-    highest = np.array([run.static_friction for run in runs])
-    return highest, np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
+def highest_and_lag(ensembles: Mapping[Key, Sequence[Run]]) -> tuple[Samples[Key], Samples[Key]]:
+    """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
+    highest, lag = {}, {}
+    for key, runs in ensembles.items():
+        highest[key] = np.array([run.static_friction for run in runs])
+        lag[key] = np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
+    return highest, lag
 
 
 def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
@@ -68,7 +74,5 @@ def draw_series(
     panels: Sequence[Axes], ensembles: Mapping[int, Sequence[Run]], color: Any, **look: Any
 ) -> None:
     """Draw static friction and t_max - t_avg of ensembles over a number that they differ in."""
-    places = sorted(ensembles)
-    samples = zip(*(highest_and_lag(ensembles[place]) for place in places), strict=True)
-    for ax, values in zip(panels, samples, strict=True):
-        draw_means(ax, dict(zip(places, values, strict=True)), color, **look)
+    for ax, samples in zip(panels, highest_and_lag(dict(sorted(ensembles.items()))), strict=True):
+        draw_means(ax, samples, color, **look)

@@ -61,21 +61,22 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     """
     label = "angle between sliding and grooves (°)"
     picture, panels = points.friction_and_lag(label, "lesser peak (% of force)")
-    angles = {name: float(_ANGLES.get(name, name)) for name in ensembles}
-    names = sorted(angles, key=lambda name: angles[name])
-    places = [angles[name] for name in names]
-    quantities = []
-    for name in names:
-        lesser = [PERCENT * statistics.lesser_prominence(friction(r)) for r in ensembles[name]]
-        quantities.append((*points.highest_and_lag(ensembles[name]), np.array(lesser)))
-    for ax, *values in zip(panels, *quantities, strict=True):
-        ax.plot(places, [sample.mean() for sample in values], color=GREY, linewidth=0.6)
-        for name, angle, sample in zip(names, places, values, strict=True):
-            color = looks.direction_color(name)
+    names = {float(_ANGLES.get(name, name)): name for name in ensembles}
+    by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
+    highest, lag = points.highest_and_lag(by_angle)
+    lesser = {
+        angle: PERCENT * np.array([statistics.lesser_prominence(friction(run)) for run in runs])
+        for angle, runs in by_angle.items()
+    }
+    for ax, samples in zip(panels, (highest, lag, lesser), strict=True):
+        means = [sample.mean() for sample in samples.values()]
+        ax.plot(list(samples), means, color=GREY, linewidth=0.6)
+        for angle, sample in samples.items():
+            color = looks.direction_color(names[angle])
             aside = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
             ax.plot(angle + aside, sample, color=color, markeredgewidth=0.0, **_DOT)
             points.draw_means(ax, {angle: sample}, color, linestyle="none", marker="o", zorder=3)
-        ax.set_xticks(places)
+        ax.set_xticks(list(samples))
     panels[2].set_ylim(0.0, None)
     return picture
 
@@ -102,10 +103,10 @@ def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Run]]) -> Fig
 def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations."""
     picture, panels = style.panels(style.COLUMN, 110.0, "a;b", sharex=True)
+    highest, lag = points.highest_and_lag(ensembles)
     for key in looks.in_order(ensembles):
         name, look = looks.surface_look(key)
-        highest, lag = points.highest_and_lag(ensembles[key])
-        for ax, values in zip(panels, (_MILLI * highest, lag), strict=True):
+        for ax, values in zip(panels, (_MILLI * highest[key], lag[key]), strict=True):
             _draw_widths(ax, values, look | {"label": name})
     names = ("static friction (10⁻³)", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
     for ax, name in zip(panels, names, strict=True):
