@@ -250,13 +250,12 @@ def _cases(table: DataFrame) -> Cases:
 def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:
     """Draw biases of all quantities, side by side at each step but the finest, which has none."""
     for ax, scene in zip(panels, SCENES, strict=True):
-        for aside, (quantity, (_, look)) in zip(
-            (0.95, 1.0, 1.05), _QUANTITIES.items(), strict=True
-        ):
+        for aside, quantity in zip((0.95, 1.0, 1.05), _QUANTITIES, strict=True):
             if rows := cases.get((quantity, scene), [])[1:]:
                 keys = ("bias", "ci_low", "ci_high")
                 percent = [[PERCENT * row[key] / row["scale"] for key in keys] for row in rows]
-                draw_points(ax, [aside * row["cpu_seconds"] for row in rows], percent, **look)
+                places = [aside * row["cpu_seconds"] for row in rows]
+                draw_points(ax, places, percent, **_QUANTITIES[quantity][1])
         _mark_steps(ax, cases["static_friction", scene])
         n = cases["static_friction", scene][0]["n_blocks"]
         ax.set_title(f"{scene}, {n} × {n} blocks", pad=13.0)

@@ -20,7 +20,6 @@ from springblock.simulation.run import Array, Run, friction
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
 _HOLD = 15  #: of these frames show the end
 _AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
-_FAINT = "0.75"  #: curves that are still to come
 _PIXELS = 5  #: per mm
 _HEIGHT = 112.0  #: mm
 _MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
@@ -144,7 +143,7 @@ def _displacement(ax: Axes, run: Run) -> Update:
 def _curve(ax: Axes, run: Run, values: Array) -> Update:
     """Draw a curve over time, as far as it has come in black, with a cursor and t_max."""
     time = MICRO * run.time
-    ax.plot(time, values, color=_FAINT, linewidth=0.8)
+    ax.plot(time, values, color="0.75", linewidth=0.8)  # faint: still to come
     (so_far,) = ax.plot([], [], color=style.BLACK, animated=True)
     cursor = ax.axvline(0.0, color=style.VERMILION, linewidth=0.8, animated=True)
     ax.axvline(MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5)

@@ -1,7 +1,7 @@
 """Means of ensembles with their intervals, over what they vary with."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,8 +14,7 @@ from springblock.plotting import style
 from springblock.plotting.style import GREY, MICRO, Look
 from springblock.simulation.run import Array, Run
 
-Key = TypeVar("Key")
-Samples = dict[Key, Array]  #: a number of each of k realisations, (k,), by ensemble
+Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ensemble
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
@@ -49,7 +48,7 @@ def name_places(ax: Axes, places: ArrayLike) -> None:
     ax.margins(x=0.1, y=0.1)
 
 
-def highest_and_lag(ensembles: Mapping[Key, Sequence[Run]]) -> tuple[Samples[Key], Samples[Key]]:
+def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Samples]:
     """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
     highest, lag = {}, {}
     for key, runs in ensembles.items():
