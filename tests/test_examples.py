@@ -22,7 +22,7 @@ from nbformat.v4 import new_output
 from springblock import Material, read, simulate
 from springblock.cli import main
 from springblock.model.scene import Scene
-from springblock.plotting.runs import film
+from springblock.plotting import film
 from studies import ROOT, Study
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from springblock.model.asperities import draw_friction
     from springblock.model.material import Material
     from springblock.model.pattern import Pattern
-    from springblock.plotting.runs.film import animate
-    from springblock.plotting.runs.still import plot
+    from springblock.plotting.film import animate
+    from springblock.plotting.still import plot
     from springblock.simulation.prelude import Prelude, compute_prelude
     from springblock.simulation.run import Realisation
     from springblock.simulation.simulate import SimulationError, simulate
@@ -38,10 +38,10 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "Prelude": "simulation.prelude",
         "Realisation": "simulation.run",
         "SimulationError": "simulation.simulate",
-        "animate": "plotting.runs.film",
+        "animate": "plotting.film",
         "compute_prelude": "simulation.prelude",
         "draw_friction": "model.asperities",
-        "plot": "plotting.runs.still",
+        "plot": "plotting.still",
         "read": "io.records",
         "simulate": "simulation.simulate",
     }

@@ -5,8 +5,7 @@ import pytest
 from PIL import Image
 
 from springblock.io.parquet import write
-from springblock.plotting import style
-from springblock.plotting.runs import film
+from springblock.plotting import film, style
 
 
 @pytest.fixture(autouse=True)

@@ -1,6 +1,5 @@
 """The figures beyond the paper draw without a warning and show the data they are given."""
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -10,13 +9,7 @@ from matplotlib.figure import Figure
 from beyond.made_up import ensemble, grooves, lattices, lean, sizes_and_distances
 from springblock.io.records import Record
 from springblock.model.scene import Scene
-from springblock.plotting.beyond import (
-    beyond_disorder,
-    beyond_friction,
-    beyond_lattice,
-    beyond_peaks,
-    beyond_precursors,
-)
+from springblock.plotting import drawing
 
 
 def by_folder(*groups: dict[Scene, list[Record]]) -> dict[str, list[Record]]:
@@ -27,19 +20,21 @@ def by_folder(*groups: dict[Scene, list[Record]]) -> dict[str, list[Record]]:
 @cache
 def lattice() -> Figure:
     """Static friction is 0.7 at 60 µm, whatever the lattice."""
-    return beyond_lattice.draw(
+    return drawing("beyond_lattice")(
         by_folder(lattices(lambda *_: 20.0, lambda *_: 60.0, runs=12)),
     )
 
 
 def peaks() -> Figure:
     heights = {"x": 0.97, "30": 0.95, "y": 0.92}
-    return beyond_peaks.draw(by_folder(grooves(heights, runs=2), grooves(heights, 22, runs=2)))
+    return drawing("beyond_peaks")(
+        by_folder(grooves(heights, runs=2), grooves(heights, 22, runs=2))
+    )
 
 
 def friction() -> Figure:
     made = sizes_and_distances(lambda n_p, ratio: 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.1 * ratio)
-    return beyond_friction.draw(by_folder(made))
+    return drawing("beyond_friction")(by_folder(made))
 
 
 def precursors() -> Figure:
@@ -48,7 +43,7 @@ def precursors() -> Figure:
         for direction in ("x", "45", "y")
     }
     plain = {scene: ensemble(scene, runs=3) for scene in (Scene(60), Scene(60, 6, 6))}
-    return beyond_precursors.draw(by_folder(plain, angles))
+    return drawing("beyond_precursors")(by_folder(plain, angles))
 
 
 def disorder() -> Figure:
@@ -59,22 +54,15 @@ def disorder() -> Figure:
         for varied in ((), (("mu_static_std", 0.05),), (("mu_static_std", 0.2),))
     }
     flat = {(scene := Scene(n)): lean(scene, 0.7, 40, 0.1 / n) for n in (12, 24, 48)}
-    return beyond_disorder.draw(by_folder(scatter, flat))
+    return drawing("beyond_disorder")(by_folder(scatter, flat))
 
 
-DRAWINGS: dict[str, Callable[[], Figure]] = {
-    "beyond_lattice": lattice,
-    "beyond_peaks": peaks,
-    "beyond_friction": friction,
-    "beyond_precursors": precursors,
-    "beyond_disorder": disorder,
+DRAWINGS = {
+    f"beyond_{make.__name__}": make for make in (lattice, peaks, friction, precursors, disorder)
 }
 
 
-@cache
-def drawn(name: str) -> Figure:
-    """A figure for tests that only look at it."""
-    return DRAWINGS[name]()
+drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
 
 
 def bars(ax: Axes) -> dict[str, np.ndarray]:
@@ -95,11 +83,7 @@ def test_friction_is_lowest_where_it_is_said_to_be():
 
 def test_cells_hold_the_prominence_of_their_surface():
     for ax in drawn("beyond_peaks").axes[:2]:
-        assert [text.get_text() for text in ax.texts if text.get_text() != ""][-3:] == [
-            "97.0",
-            "95.0",
-            "92.0",
-        ]
+        assert [text.get_text() for text in ax.texts][-3:] == ["97.0", "95.0", "92.0"]
         assert [label.get_text() for label in ax.get_xticklabels()] == ["0", "30", "90"]
 
 

@@ -1,6 +1,8 @@
 """What figures declare, what follows for a study, and the command that draws by it."""
 
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from inspect import signature
 from pathlib import Path
@@ -11,7 +13,7 @@ import yaml
 from click.testing import CliRunner
 from snakemake.utils import update_config
 
-from plotting.test_ensembles import NORMAL_FORCE, SIZE, record
+from plotting.test_paper_results import NORMAL_FORCE, SIZE, record
 from springblock import Material
 from springblock import plotting as figures
 from springblock.cli import main
@@ -39,6 +41,14 @@ def configuration(*files: str):
 PAPER = configuration("config.yaml")
 FULL = configuration("config.yaml", "full.yaml")
 QUICK = configuration("config.yaml", "quick.yaml")
+
+
+def test_a_dry_run_loads_nothing_that_draws():
+    script = "from springblock.plotting import declarations; declarations(); "
+    script += "import sys; print(*sys.modules)"
+    loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
+    assert "springblock.plotting.figures" in loaded
+    assert not {"matplotlib", "pandas", "scipy", "seaborn"} & {*loaded}
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -162,18 +172,11 @@ def test_a_caption_follows_the_grid():
 @pytest.mark.parametrize("suffix", ["pdf", "png", "svg"])
 def test_a_picture_keeps_its_caption(suffix, tmp_path):
     """The general one, or the one that the workflow fills, which the report shows, too."""
-    for caption, options in (
-        ("The model: a) the mesh", []),
-        ("Two levels.", ["--caption", "Two levels."]),
-    ):
+    for caption, options in (("The model: a", []), ("Two levels.", ["--caption", "Two levels."])):
         output = tmp_path / f"figure.{suffix}"
         arguments = ["figure", "figure_1", *options, "--output", str(output)]
         assert CliRunner().invoke(main, arguments).exit_code == 0
-        content = output.read_bytes()
-        assert (
-            caption.encode() in content
-            or caption.replace("(", "\\(").replace(")", "\\)").encode() in content
-        )
+        assert caption.encode() in output.read_bytes()
 
 
 def batch(path: Path, run: Record) -> Path:

@@ -1,24 +1,24 @@
 """The figures of the supplement draw without a warning and show the data they are given."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from plotting.test_ensembles import record
+from plotting.test_paper_results import marked, record
+from springblock import Material
 from springblock.io.records import Record
-from springblock.plotting.supplement import (
-    supplement_angle,
-    supplement_levels,
-    supplement_repetitions,
-    supplement_restick,
-    supplement_size,
-    supplement_spacing,
-)
+from springblock.model.blockmap import BlockMap
+from springblock.model.scene import Scene
+from springblock.plotting import drawing
+from springblock.plotting.figures import FIGURES
+from springblock.plotting.supplement import let_go_again
+from springblock.study.configuration import Ensemble
+
+ISLANDS = np.indices((6, 9)).sum(axis=0) % 4 > 1
 
 
 @cache
@@ -30,38 +30,50 @@ def ensemble(friction: float, *peaks: float, runs: int = 4) -> list[Record]:
     ]
 
 
-def drawings(runs: int) -> dict[str, Callable[[], Figure]]:
-    def some(friction: float, *peaks: float) -> list[Record]:
-        return ensemble(friction, *(peaks or (110e-6,)), runs=runs)
+@cache
+def given(number: int) -> dict[str, dict]:
+    """What each figure is drawn from, of so many runs of each surface."""
 
-    lengths = {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)}
+    def some(friction: float, *peaks: float) -> list[Record]:
+        return ensemble(friction, *(peaks or (110e-6,)), runs=number)
+
     sizes = {(0, 0, "x", 60): some(0.8), (0, 0, "x", 120): some(0.79)}
     sizes |= {(20, 0, "x", 80): some(0.7), (58, 8, "y", 120): some(0.72)}
-    levels = {
-        ("x", 2): some(0.7, 80e-6, 110e-6),
-        ("x", 3): some(0.7, 90e-6, 110e-6),
-        ("y", 2): some(0.7, 100e-6),
-        ("y", 3): some(0.7, 105e-6),
-    }
+    levels = {("x", 2): some(0.7, 80e-6, 110e-6), ("x", 3): some(0.7, 90e-6, 110e-6)}
+    levels |= {("y", 2): some(0.7, 100e-6), ("y", 3): some(0.7, 105e-6)}
     scenes = {(0, 0, "x"): some(0.8), (6, 0, "x"): some(0.6), (58, 8, "y"): some(0.7)}
     return {
-        "spacing": lambda: supplement_spacing.draw(lengths),
-        "size": lambda: supplement_size.draw(sizes),
-        "angle": lambda: supplement_angle.draw({"x": some(0.7), "45": some(0.6), "y": some(0.8)}),
-        "levels": lambda: supplement_levels.draw(levels),
-        "repetitions": lambda: supplement_repetitions.draw(scenes),
-        "restick": lambda: supplement_restick.draw(scenes),
+        "spacing": {(2, 2): some(0.8), (2, 1): some(0.7), (6, 6): some(0.6), (6, 3): some(0.5)},
+        "size": sizes,
+        "angle": {"x": some(0.7), "45": some(0.6), "y": some(0.8)},
+        "levels": levels,
+        "repetitions": scenes,
+        "restick": scenes,
     }
 
 
-DRAWINGS = {f"supplement_{name}": draw for name, draw in drawings(6).items()}
-DRAWINGS |= {f"supplement_{name} of one run": draw for name, draw in drawings(1).items()}
+def draw(name: str, number: int = 6) -> Figure:
+    return drawing(f"supplement_{name}")(given(number)[name])
 
 
 @cache
-def drawn(name: str, runs: int = 6) -> Figure:
-    """A figure for tests that only look at it."""
-    return drawings(runs)[name]()
+def on_islands(number: int) -> list[Record]:
+    """Runs on islands that let go from left to right, about t_max."""
+    scene = Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS))
+    made = [record(seed, (110e-6,)) for seed in range(number)]
+    columns = np.linspace(0.8, 1.2, 9)
+    times = [np.where(ISLANDS, run.t_max * (columns + 0.01 * run.seed), np.nan) for run in made]
+    return [replace(run, scene=scene, t_det=t) for run, t in zip(made, times, strict=True)]
+
+
+def draw_surfaces(number: int = 3) -> Figure:
+    return drawing("surfaces")({name: on_islands(number) for name in ("first", "second")})
+
+
+DRAWINGS = {"surfaces": draw_surfaces, "surfaces of one run": partial(draw_surfaces, 1)}
+for name in given(1):
+    DRAWINGS[f"supplement_{name}"] = partial(draw, name)
+    DRAWINGS[f"supplement_{name} of one run"] = partial(draw, name, 1)
 
 
 def lines(ax: Axes) -> list[np.ndarray]:
@@ -82,33 +94,33 @@ def lines(ax: Axes) -> list[np.ndarray]:
     ],
 )
 def test_lines_go_through_the_means(name, line, expected):
-    friction, lag = drawn(name).axes[:2]
+    friction, lag = draw(name).axes[:2]
     np.testing.assert_allclose(lines(friction)[line], expected)
     expected_lag = 1e6 * np.mean([run.t_max - run.t_avg for run in ensemble(0.8, 110e-6, runs=6)])
     np.testing.assert_allclose(lines(lag)[line][:, 1], expected_lag)
 
 
 def test_each_level_has_its_load_peaks_marked():
-    for ax, expected in zip(drawn("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
-        peaks = [text.xy[0] for text in ax.texts if text.get_text() == "▼"]
-        assert peaks == pytest.approx(expected, abs=0.6)
+    for ax, expected in zip(draw("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
+        assert marked(ax) == pytest.approx(expected, abs=0.6)
 
 
 def test_the_lesser_peak_is_shown_run_by_run():
     """Two hills alike, then one alone: what stands out is the valley, or nothing."""
-    *_, lesser = drawn("angle").axes
+    *_, lesser = draw("angle").axes
     assert lesser.get_ylabel() == "lesser peak (% of force)"
     dots = [line.get_xydata() for line in lesser.get_lines() if line.get_marker() == "."]
     assert [len(runs) for runs in dots] == [6, 6, 6]
     assert not np.concatenate(dots)[:, 1].any()
-    twin = supplement_angle.draw({"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)})
+    hills = {"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)}
+    twin = drawing("supplement_angle")(hills)
     along, across = lines(twin.axes[2])[0]
     assert along[1] > 80.0  # both hills rise from almost nothing
     assert across[1] == 0.0
 
 
 def test_intervals_narrow_with_the_root_of_the_number():
-    friction, _ = drawn("repetitions", runs=20).axes
+    friction, _ = draw("repetitions", 20).axes
     measured, predicted = (line.get_xydata() for line in friction.get_lines()[:2])
     assert measured[:, 0].tolist() == [3, 5, 10, 20]
     np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
@@ -117,10 +129,49 @@ def test_intervals_narrow_with_the_root_of_the_number():
 
 def test_only_blocks_that_let_go_again_are_counted():
     run = ensemble(0.8, 110e-6)[0]
-    assert not supplement_restick.let_go_again(replace(run, switches=run.detachments)).any()
+    assert not let_go_again(replace(run, switches=run.detachments)).any()
     once_more = run.detachments.copy()
     once_more[10] += 3
-    again = supplement_restick.let_go_again(replace(run, switches=once_more))
+    again = let_go_again(replace(run, switches=once_more))
     blocks = np.count_nonzero(np.isfinite(run.t_det))
     assert again[0] == 0.0
     assert again[-1] == pytest.approx(300.0 / blocks)
+
+
+def test_a_row_shows_the_mask_the_mean_times_and_the_force():
+    (mask, times, force), others = np.split(draw_surfaces().axes, [3])
+    np.testing.assert_array_equal(mask.images[0].get_array(), ISLANDS)
+    expected = np.where(ISLANDS, np.linspace(0.8, 1.2, 9) + 0.01, np.nan)
+    shown = np.ma.filled(times.images[0].get_array(), np.nan)
+    np.testing.assert_allclose(shown, expected)
+    assert force.get_ylim()[0] == 0.0
+    assert len(others) == 3
+
+
+def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
+    one, other = on_islands(2)
+    short = replace(other, t_det=np.where(np.arange(9) < 8, np.nan, other.t_det))
+    (image,) = drawing("surfaces")({"short": [one, short]}).axes[1].images
+    known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
+    np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
+
+
+def test_each_row_is_named_after_its_scene():
+    names = [ax.get_title("left") for ax in draw_surfaces(1).axes]
+    assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
+
+
+def test_its_caption_names_what_is_ones_own():
+    mu = BlockMap("strong-00000000", np.ones((4, 4)))
+    weibull = Scene(4, n_rows=2, varied={"distribution": "weibull"})
+    scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
+    scenes += [Scene(4, mu_static_field=mu)]
+    ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
+    said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
+    assert said == (
+        "Sliding direction x. "
+        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 (seeds 0 to 2). "
+        "Flat distribution=weibull, n_rows = 2, N = 4 (seeds 0 to 2); "
+        "mu_static from strong-00000000, N = 4 (seeds 0 to 2). "
+        "Material of the paper, but distribution = uniform."
+    )

@@ -1,4 +1,4 @@
-# A rule for each figure, from what its module declares, and for each sweep of the configuration.
+# A rule for each figure, from its declaration, and for each sweep of the configuration.
 
 for figure, declared in FIGURES.items():
 

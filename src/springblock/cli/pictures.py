@@ -11,7 +11,7 @@ from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
 from springblock.model.scene import Scene
-from springblock.plotting.runs import contact, film, still, sweep
+from springblock.plotting import film, still, sweep
 from springblock.plotting.style import save
 
 _RUN = [
@@ -64,7 +64,7 @@ def plot(
         if over is None:
             if len(files) > 1:
                 raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
-            picture, caption = still.plot(_chosen(files[0], seed)), still.CAPTION
+            picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
         else:
             rows = read_tables(files, SUMMARY).to_pylist()
             picture = sweep.draw(rows, over, observables or ["static_friction"])
@@ -94,5 +94,5 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 def show(scene: Scene, output: Path) -> None:
     """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
     with one_sentence():
-        picture = contact.draw(scene.contact, scene.direction, str(scene))
-        save(picture, output, contact.CAPTION)
+        picture = still.show(scene.contact, scene.direction, str(scene))
+        save(picture, output, still.SURFACE_CAPTION)

@@ -1,30 +1,20 @@
-"""The figures of the study: a module each, of the same name, in the folder of their kind."""
+"""Figures of the study, and pictures and films of single runs."""
 
 from collections.abc import Callable
-from functools import cache
-from importlib import import_module
-from pkgutil import walk_packages
-from types import ModuleType
-
-from matplotlib.figure import Figure
+from pkgutil import resolve_name
+from typing import Any
 
 from springblock.plotting.declaration import Declaration
-
-
-@cache
-def _figures() -> dict[str, ModuleType]:
-    """Modules with a constant `FIGURE` and a function `draw`, by name."""
-    paths = [path for _, path, _ in walk_packages(__path__, f"{__name__}.")]
-    modules = {path.rpartition(".")[2]: import_module(path) for path in paths}
-    return {name: modules[name] for name in sorted(modules) if hasattr(modules[name], "FIGURE")}
+from springblock.plotting.figures import FIGURES
 
 
 def declarations() -> dict[str, Declaration]:
-    """Return what each figure declares, by its name."""
-    return {name: module.FIGURE for name, module in _figures().items()}
+    """Return the declaration of each figure, by name in alphabetical order."""
+    return dict(sorted(FIGURES.items()))
 
 
-def drawing(name: str) -> Callable[..., Figure]:
-    """Return the function that draws a figure."""
-    draw: Callable[..., Figure] = _figures()[name].draw
-    return draw
+def drawing(name: str) -> Callable[..., Any]:
+    """Return the function that draws a figure in the journal's style, as matplotlib's `Figure`."""
+    from springblock.plotting.style import journal  # slow to load: it brings matplotlib along
+
+    return journal(resolve_name(f"{__name__}.{FIGURES[name].module}:{name}"))

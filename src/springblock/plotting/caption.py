@@ -35,7 +35,8 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
     for (surface, varied, seeds), some in alike.items():
         parts = [surface_in_words(*(scene.lengths for scene in some)), varied]
         parts += [_named(some, name) for name in _NAMES if name not in shared]
-        text = f"{', '.join(filter(None, parts))} ({_seeds(seeds)})"
+        seeded = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {seeds[0]}"
+        text = f"{', '.join(filter(None, parts))} ({seeded})"
         kinds.setdefault(surface, []).append(text.strip())
     sentences = [", ".join(_named(scenes, name) for name in shared)]
     sentences += [f"{surface} {'; '.join(texts)}" for surface, texts in kinds.items()]
@@ -43,7 +44,7 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
 
 
 def _surface(scene: Scene) -> str:
-    """What kind of surface a scene has."""
+    """Return what kind of surface a scene has."""
     if scene.mask:
         return f"surface {scene.mask}"
     if scene.n_p3:
@@ -52,7 +53,7 @@ def _surface(scene: Scene) -> str:
 
 
 def _own(scene: Scene) -> list[str]:
-    """What else a surface has that those of the paper have not."""
+    """Return what a surface has that those of the paper have not."""
     rows = f"n_rows = {scene.n_rows}" if scene.n_rows else ""
     edges = "periodic edges" if scene.is_periodic else ""
     fields = {"mu_static": scene.mu_static_field, "mu_dynamic": scene.mu_dynamic_field}
@@ -78,10 +79,6 @@ def _values(scenes: Iterable[Scene], name: str) -> list[str]:
     values = dict.fromkeys(str(getattr(scene, name)) for scene in scenes)
     angles = name == "direction"
     return [f"{v}°" if angles and v not in ("x", "y") else v for v in values]
-
-
-def _seeds(seeds: range) -> str:
-    return f"seed {seeds[0]}" if len(seeds) == 1 else f"seeds {seeds[0]} to {seeds[-1]}"
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -1,33 +1,26 @@
-"""Force and detachments of ensembles over time."""
+"""Force and detachments over time, of single runs and of ensembles."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
-from springblock.analysis.statistics import (
-    Curve,
-    Interval,
-    load_peaks,
-    mean_interval,
-    mean_of_rest,
-    standard_error,
-)
-from springblock.plotting.style import MICRO, Look
-from springblock.simulation.run import Array
+from springblock.analysis import statistics
+from springblock.analysis.statistics import Curve, Interval
+from springblock.plotting.figures import SINGLE
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
+from springblock.simulation.run import Array, Run, friction, percent
+
+Span = tuple[float, float]  #: of times in µs
 
 BAND = 0.25  #: opacity of the intervals
-SINGLE = 20  #: runs of an ensemble that are shown one by one, at most
-_BIN = 2e-6  #: s, width of the bins of detachments
 REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs' end
-
-#: What captions say of curves that `draw_mean_force` and `draw_detachments` draw.
-ENDS = """Runs end after a set time, or after the first minimum behind their force maximum. From
-    where the first has ended the force is dotted, the mean over those that go on, and it ends with
-    half of them; no block is left to detach for the first time in a run that has ended, so these
-    shares are of all runs throughout."""
+_BIN = 2e-6  #: s, width of the bins of detachments
+_PERCENTILES = (5.0, 95.0)  #: of the ensemble behind a single run
+_MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
 
 
 def draw_band(
@@ -40,7 +33,7 @@ def draw_band(
 
 def draw_mean_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any) -> Array:
     """Draw the mean force with its interval, dotted where runs are missing; return it, (n,)."""
-    force = mean_of_rest(curve.friction)
+    force = statistics.mean_of_rest(curve.friction)
     time, whole = MICRO * curve.time, _length_of_all(curve)
     ax.plot(time[:whole], force.mean[:whole], color=color, label=label, markevery=[], **look)
     ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **REST)
@@ -49,12 +42,12 @@ def draw_mean_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any)
 
 
 def _length_of_all(curve: Curve) -> int:
-    """Number of samples that all runs have."""
+    """Return the number of samples that all runs have."""
     return int(np.isfinite(curve.friction).all(axis=0).sum())
 
 
 def draw_single_forces(ax: Axes, curve: Curve, color: Any) -> None:
-    """Draw the force of single runs, up to their own end: of the first `SINGLE`, lest they blot."""
+    """Draw the force of the first `SINGLE` runs, each up to its own end."""
     forces = curve.friction[:SINGLE].T
     ax.plot(MICRO * curve.time, forces, color=color, linewidth=0.3, alpha=0.4, zorder=1.0)
 
@@ -65,17 +58,11 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
     A marker stands on the largest.
     """
     edges, shares = curve.binned(_BIN)
-    share, low, high = mean_interval(shares)
+    share, *limits = statistics.mean_interval(shares)
     ax.stairs(share, MICRO * edges, baseline=None, color=color, linewidth=0.8)
-    ax.fill_between(
-        MICRO * edges,
-        np.append(low, low[-1]),
-        np.append(high, high[-1]),
-        step="post",
-        color=color,
-        alpha=BAND,
-        linewidth=0.0,
-    )
+    low, high = (np.append(limit, limit[-1]) for limit in limits)
+    look: Look = {"step": "post", "alpha": BAND, "linewidth": 0.0}
+    ax.fill_between(MICRO * edges, low, high, color=color, **look)
     width, top = edges[1] - edges[0], int(share.argmax())
     ax.plot(MICRO * (edges[top] + 0.5 * width), share[top], color=color, marker=marker)
     ax.set_ylabel(f"first detachments\n(% per {MICRO * width:.3g} µs)")
@@ -84,7 +71,7 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
 def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
     """Draw the mean force, and triangles above its load peaks as long as all runs go on."""
     forces = curve.friction[:, : _length_of_all(curve)]
-    peaks = load_peaks(forces.mean(axis=0), standard_error(forces))
+    peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))
     plural = "" if len(peaks) == 1 else "s"
     draw_mean_force(ax, curve, color, f"{name}: {len(peaks)} load peak{plural}")
     heights = forces[:, peaks].mean(axis=0)
@@ -93,24 +80,78 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
 
 
-def enlarged_span(curves: Sequence[Curve], share: float = 0.85) -> tuple[float, float]:
-    """Times in µs from which the first mean force is close to its maximum to the last one's end."""
-    starts, ends = [], []
-    for curve in curves:
-        mean = mean_of_rest(curve.friction).mean
-        starts.append(curve.time[np.argmax(mean >= share * np.nanmax(mean))])
-        ends.append(curve.time[np.isfinite(mean)][-1])
-    return MICRO * float(min(starts)), MICRO * float(max(ends))
+def enlarged_span(curves: Sequence[Curve], share: float) -> Span:
+    """Return the times from which the first mean force is close to its maximum to the last's end.
+
+    Close is a `share` of the maximum.
+    """
+    means = [(curve.time, statistics.mean_of_rest(curve.friction).mean) for curve in curves]
+    start = min(time[np.argmax(mean >= share * np.nanmax(mean))] for time, mean in means)
+    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
+    return MICRO * float(start), MICRO * float(end)
 
 
-def fit_forces(ax: Axes, curves: Sequence[Curve], span: tuple[float, float]) -> None:
+def fit_forces(ax: Axes, curves: Sequence[Curve], span: Span) -> None:
     """Fit axes to the mean forces within `span`, with room for triangles."""
-    means: list[Array] = []
-    for curve in curves:
-        time = MICRO * curve.time
-        mean = mean_of_rest(curve.friction).mean
-        means.append(mean[np.isfinite(mean) & (time >= span[0]) & (time <= span[1])])
-    shown = np.concatenate(means)
-    room = float(np.ptp(shown))
-    ax.set_ylim(float(shown.min()) - 0.1 * room, float(shown.max()) + 0.25 * room)
-    ax.set_xlim(span)
+    means = [_within(span, c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
+    low, high = np.nanmin(np.concatenate(means)), np.nanmax(np.concatenate(means))
+    ax.set(xlim=span, ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
+
+
+def _within(span: Span, time: Array, values: Array) -> Array:
+    """Return the values at times in s that lie within `span`."""
+    return values[(MICRO * time >= span[0]) & (MICRO * time <= span[1])]
+
+
+def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
+    """Draw force above and detaching blocks below in a span, and mark t_max and t_avg in both."""
+    draw_force(force, run, others, span)
+    _draw_blocks(blocks, run, others)
+    for ax in (force, blocks):
+        ax.set_xlim(span)
+        for time, dashes, width in ((run.t_max, ":", 1.1), (run.t_avg, "-", 0.6)):
+            look: Look = {"linestyle": dashes, "linewidth": width, "zorder": 0.5}
+            ax.axvline(MICRO * time, color=BLACK, **look)
+    times = sorted(((run.t_max, r"$t_\mathrm{max}$"), (run.t_avg, r"$t_\mathrm{avg}$")))
+    for (time, name), side in zip(times, ("right", "left"), strict=True):  # away from each other
+        look = {"ha": side, "va": "bottom", "transform": force.get_xaxis_transform()}
+        force.text(MICRO * time, 1.03, name, **look)
+    force.tick_params(labelbottom=False)
+    blocks.set_xlabel("time (µs)")
+
+
+def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
+    """Draw the friction force of a run; its axis fits what it and the others show in `span`."""
+    if others:
+        time, forces = statistics.cut(others, [friction(other) for other in others])
+        low, high = np.percentile(forces, _PERCENTILES, axis=0)
+        name = f"{_PERCENTILES[0]:g}–{_PERCENTILES[1]:g} % of {len(others)} other runs"
+        ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
+        ax.plot(MICRO * time, forces.mean(axis=0), label="their mean", **_MEAN)
+    ax.plot(MICRO * run.time, friction(run), color=BLACK, label="one run")
+    shown = np.concatenate([_within(span, one.time, friction(one)) for one in (run, *others)])
+    room = 0.08 * float(np.ptp(shown))
+    ax.set_ylim(max(0.0, float(shown.min()) - room), float(shown.max()) + room)
+    ax.set_ylabel(FORCE)
+
+
+def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
+    """Draw shares of detaching blocks, on a logarithmic axis that begins below one block."""
+    floor = 0.6 * float(percent(run, np.array([1]))[0])
+    for counts, color, name in (
+        (run.switches, "0.75", "rest to sliding"),
+        (run.detachments, BLACK, "of these, for the first time"),
+    ):
+        share = percent(run, counts[1:])  # in the interval that ends at the sample
+        edges = MICRO * run.time
+        ax.stairs(share, edges, baseline=floor, fill=True, color=color, label=name)
+    if others:
+        time, shares = statistics.cut(others, [percent(other, other.switches) for other in others])
+        middle = MICRO * (time - 0.5 * (time[1] - time[0]))
+        casing = [withStroke(linewidth=1.6, foreground="white")]  # visible on any ground
+        name = "rest to sliding, mean of others"
+        ax.plot(middle, shares.mean(axis=0), label=name, path_effects=casing, **_MEAN)
+    ax.set(yscale="log", ylim=(floor, 80.0))
+    ax.yaxis.set_major_formatter("{x:g}")
+    interval = MICRO * (run.time[1] - run.time[0])
+    ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")

@@ -1,11 +1,10 @@
 """What a figure says of itself: what it shows, and what it is drawn from.
 
-A module of `plotting` with a constant `FIGURE` and a function `draw` is a figure of the study: the
-command line and the workflow learn all else from its declaration.
+The command line and the workflow know figures by their declarations alone.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -19,13 +18,18 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
 Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
+#: Category of the figures in each module of `plotting`.
+_CATEGORIES: dict[str, Category] = {
+    "paper_surfaces": "Figures",
+    "paper_results": "Figures",
+    "supplement": "Supplement",
+    "accuracy_errors": "Accuracy",
+    "accuracy_cases": "Accuracy",
+    "beyond": "Beyond",
+}
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
-
-#: What captions call the intervals of `statistics.mean_interval` and of `correlation`.
-INTERVALS = "95 % t intervals over realisations"
-CORRELATION_INTERVALS = "95 % BCa bootstrap intervals over realisations"
 
 
 class Need(NamedTuple):
@@ -122,13 +126,18 @@ class Declaration:
     """What a figure shows, and what it is drawn from."""
 
     title: str
-    category: Category
+    module: str  #: of `plotting`, whose function of the figure's name draws it
     caption: str  #: in whole sentences; lines may break anywhere
     source: Source
     upon_request: bool = False  #: drawn in studies with `production: true` alone
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "caption", " ".join(self.caption.split()))
+
+    @property
+    def category(self) -> Category:
+        """Return the heading under which the report has the figure."""
+        return _CATEGORIES[self.module]
 
     def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         """Return the caption, and after it what the figure is drawn from in a study."""
@@ -151,15 +160,3 @@ def first_of_each(keys: Sequence[str], scenes: Iterable[Scene]) -> list[Scene]:
     for scene in scenes:
         first.setdefault(tuple(getattr(scene, key) for key in keys), scene)
     return list(first.values())
-
-
-def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
-    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
-    return [*flat, *pillars, *one_pattern(grooves)]
-
-
-def one_pattern(*groups: Scenes) -> list[Scene]:
-    """Return the scenes of all groups with the pattern of the last group's first one."""
-    last = groups[-1][0]
-    size, direction = last.n_blocks, last.direction
-    return [s for s in chain(*groups) if replace(s, n_blocks=size, direction=direction) == last]

@@ -25,21 +25,22 @@ def dimension(
     outside, pointing at it, and its label where the second one begins.
     """
     along_x, middle = axis == "x", 0.5 * (start + end)
-
-    def point(along: float) -> Point:
-        return (along, at) if along_x else (at, along)
-
     if narrow:
         tail = 2.0 * (end - start)
-        arrow(ax, point(start - tail), point(start))
+        arrow(ax, point(axis, start - tail, at), point(axis, start, at))
         middle = end + tail
-        arrow(ax, point(middle), point(end))
+        arrow(ax, point(axis, middle, at), point(axis, end, at))
     else:
-        arrow(ax, point(start), point(end), _HEADS)
+        arrow(ax, point(axis, start, at), point(axis, end, at), _HEADS)
     aside = (0.0, 2.5) if along_x else (3.5, 0.0)  # points
     look: Look = {"ha": "center" if along_x else "left"}
     look |= {"va": "bottom" if along_x else "center", "textcoords": "offset points"}
-    ax.annotate(label, point(middle), aside, annotation_clip=False, **look)
+    ax.annotate(label, point(axis, middle, at), aside, annotation_clip=False, **look)
+
+
+def point(axis: Axis, along: float, at: float) -> Point:
+    """Return the point (x, y) at `along` on an axis and `at` on the other one."""
+    return (along, at) if axis == "x" else (at, along)
 
 
 def arrow(ax: Axes, start: Point, end: Point, heads: str = _HEAD, width: float = 0.6) -> None:

@@ -11,15 +11,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
-from springblock.plotting.style import (
-    BEFORE_AFTER,
-    BLACK,
-    CONTACT,
-    NANO,
-    NO_CONTACT,
-    Look,
-    color_bar,
-)
+from springblock.plotting import style
+from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT, Look, color_bar
 from springblock.simulation.run import Array, Run
 
 _BLOCKS = ListedColormap([NO_CONTACT, CONTACT])
@@ -71,7 +64,7 @@ def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> Non
 
 
 def scale(run: Run) -> CenteredNorm:
-    """Scale of t_det/t_max around 1 of a run in which blocks have detached."""
+    """Return the scale of t_det/t_max around 1 of a run in which blocks have detached."""
     half = np.abs(np.nanpercentile(run.t_det / run.t_max, _ROBUST) - 1.0).max()
     return CenteredNorm(1.0, max(float(half), _LEAST))
 
@@ -85,8 +78,17 @@ def draw_times_bar(ax: Axes, run: Run) -> None:
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
 
 
+def draw_times(ax: Axes, run: Run, *names: str, until: float = math.inf) -> AxesImage:
+    """Map the blocks that have detached until a time in s, and name the colours of others."""
+    image = draw_map(ax, painted(run, until))
+    draw_key(ax, *names, *([] if run.contact.all() else ["not in contact"]))
+    if np.isfinite(run.t_det).any():
+        draw_times_bar(ax, run)
+    return image
+
+
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
-    """Colours of all blocks at a time in s, (N, N, 3).
+    """Return the colours of all blocks at a time in s, (N, N, 3).
 
     Those that have detached have the colour of their time, or are black where they have done so
     after `since`; those that have not are distinct from those that are not in contact.
@@ -108,8 +110,8 @@ def draw_key(ax: Axes, *names: str) -> None:
 
 
 def displacements(snapshots: Array) -> tuple[Array, ScalarMappable]:
-    """|u| in nm of snapshots, (k, 2, N, N) m, and their common colours."""
-    sizes = NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
+    """Return |u| in nm of snapshots, (k, 2, N, N) m, and their common colours."""
+    sizes = style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
     # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
     # doi:10.1371/journal.pone.0199239).
     return sizes, ScalarMappable(Normalize(0.0, max(float(sizes.max()), 1e-12)), "cividis")

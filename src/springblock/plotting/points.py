@@ -9,13 +9,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from numpy.typing import ArrayLike
 
-from springblock.analysis.statistics import Interval, mean_interval
+from springblock.analysis.statistics import mean_interval
 from springblock.plotting import style
 from springblock.plotting.style import GREY, MICRO, Look
 from springblock.simulation.run import Array, Run
 
+Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ensemble
+
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
+ZERO: Look = {"color": GREY, "linewidth": 0.5, "zorder": 0}  #: of a line at zero
 FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
@@ -30,9 +33,10 @@ def draw_points(ax: Axes, places: ArrayLike, intervals: ArrayLike, color: Any, *
     ax.errorbar(places, mean, bars, color=color, **(BAR | look))
 
 
-def draw_point(ax: Axes, place: float, interval: Interval, color: Any, **look: Any) -> None:
-    """Draw a mean with a bar over its interval."""
-    draw_points(ax, [place], [interval], color, linestyle="none", **look)
+def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: Any) -> None:
+    """Draw the mean of each sample at its place with a bar over its 95 % interval."""
+    intervals = [mean_interval(sample) for sample in samples.values()]
+    draw_points(ax, list(samples), intervals, color, **look)
 
 
 def name_places(ax: Axes, places: ArrayLike) -> None:
@@ -44,10 +48,13 @@ def name_places(ax: Axes, places: ArrayLike) -> None:
     ax.margins(x=0.1, y=0.1)
 
 
-def highest_and_lag(runs: Sequence[Run]) -> tuple[Array, Array]:
-    """Static friction, 1, and t_max - t_avg, µs, of each of k realisations, (k,)."""
-    highest = np.array([run.static_friction for run in runs])
-    return highest, np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
+def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Samples]:
+    """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
+    highest, lag = {}, {}
+    for key, runs in ensembles.items():
+        highest[key] = np.array([run.static_friction for run in runs])
+        lag[key] = np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
+    return highest, lag
 
 
 def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
@@ -58,20 +65,13 @@ def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
     for ax, label in zip(panels, labels, strict=True):
         ax.set_ylabel(label)
     panels[-1].set_xlabel(xlabel)
-    draw_no_lag(panels[1])
+    panels[1].axhline(0.0, **ZERO)
     return picture, panels
-
-
-def draw_no_lag(ax: Axes) -> None:
-    """A line where t_max = t_avg."""
-    ax.axhline(0.0, color=GREY, linewidth=0.5, zorder=0)
 
 
 def draw_series(
     panels: Sequence[Axes], ensembles: Mapping[int, Sequence[Run]], color: Any, **look: Any
 ) -> None:
     """Draw static friction and t_max - t_avg of ensembles over a number that they differ in."""
-    places = sorted(ensembles)
-    samples = zip(*(highest_and_lag(ensembles[place]) for place in places), strict=True)
-    for ax, values in zip(panels, samples, strict=True):
-        draw_points(ax, places, [mean_interval(sample) for sample in values], color, **look)
+    for ax, samples in zip(panels, highest_and_lag(dict(sorted(ensembles.items()))), strict=True):
+        draw_means(ax, samples, color, **look)

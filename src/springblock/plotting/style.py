@@ -1,7 +1,8 @@
 """One look for all figures: sizes, colours, lettered panels, and files that are always the same.
 
-Figures are drawn without pyplot, so that nothing depends on global state: `draw` functions wear
-the decorator `journal`, which puts the style in force whatever the reader's own settings are.
+Figures are drawn without pyplot, so that nothing depends on global state: functions that draw wear
+the decorator `journal`, which puts the style in force whatever the reader's own settings are. To
+those of the study's figures `plotting.drawing` gives it.
 """
 
 from collections.abc import Sequence
@@ -48,16 +49,11 @@ BEFORE_AFTER = LinearSegmentedColormap.from_list(
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
 
+#: What differs from matplotlib's own style, whose font comes with it: the same on every computer.
 JOURNAL: Look = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],  # comes with matplotlib: the same on every computer
-    "mathtext.fontset": "dejavusans",
     "font.size": SMALL,
     "axes.labelsize": NORMAL,
     "axes.titlesize": NORMAL,
-    "xtick.labelsize": SMALL,
-    "ytick.labelsize": SMALL,
-    "legend.fontsize": SMALL,
     "legend.frameon": False,
     "legend.handlelength": 1.6,
     "legend.borderaxespad": 0.4,

@@ -9,9 +9,8 @@ import numpy as np
 from PIL import Image
 
 from springblock.io.records import Record, read_records
-from springblock.plotting import declarations
+from springblock.plotting import declarations, film
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.runs import film
 from springblock.plotting.style import MICRO
 
 _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them

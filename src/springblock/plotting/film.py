@@ -14,12 +14,12 @@ from PIL import Image
 
 from springblock.files import whole_file
 from springblock.plotting import maps, style
+from springblock.plotting.style import MICRO, MM
 from springblock.simulation.run import Array, Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
 _HOLD = 15  #: of these frames show the end
 _AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
-_FAINT = "0.75"  #: curves that are still to come
 _PIXELS = 5  #: per mm
 _HEIGHT = 112.0  #: mm
 _MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
@@ -32,10 +32,7 @@ Update = Callable[[float, float], list[Artist]]
 def animate(run: Run, path: str | Path) -> None:
     """Write a film as GIF or MP4, whole or not at all, as the suffix of `path` says.
 
-    Raises
-    ------
-    ValueError
-        Where the suffix is another one, or MP4 is not installed.
+    MP4 needs the package imageio-ffmpeg; a ValueError names what is missing.
     """
     file = Path(path)
     if file.suffix not in _WRITERS:
@@ -61,13 +58,13 @@ def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
 
 
 def moments(run: Run) -> Array:
-    """Times of the frames in s, (FRAMES,): evenly spaced, and the last one for a while."""
+    """Return the times of the frames in s, (FRAMES,): evenly spaced, the last one for a while."""
     start, stop = span(run)
     return np.append(np.linspace(start, stop, FRAMES - _HOLD), np.full(_HOLD, stop))
 
 
 def span(run: Run) -> tuple[float, float]:
-    """Times in s between which there is something to be seen.
+    """Return the times in s between which there is something to be seen.
 
     That is the time from the first to the last detachment or snapshot, and a little before and
     after it: the loading, half of a run or more, and steady sliding show nothing.
@@ -84,9 +81,7 @@ def scenery(run: Run) -> tuple[Figure, Update]:
     """Draw what stands still, and return it with the function that moves the rest."""
     kept = len(run.snapshots) > 0
     curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
-    picture = Figure(
-        figsize=((curves + 84.0) * style.MM, _HEIGHT * style.MM), dpi=_PIXELS / style.MM
-    )
+    picture = Figure(figsize=((curves + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
     picture.suptitle(run.name, y=0.975, fontsize="medium")
     updates = [_blocks(_place(picture, _MAP, _BOTTOM, _SIDE, _SIDE), run)]
     if kept:
@@ -94,15 +89,14 @@ def scenery(run: Run) -> tuple[Figure, Update]:
         updates.append(_displacement(ax, run))
     force = _place(picture, curves, 63.0, 80.0, 37.0)
     detached = _place(picture, curves, 11.0, 80.0, 37.0)
-    updates += [_force(force, run), _detached(detached, run)]
-    for ax in (force, detached):
-        ax.set_xlabel("time (µs)")
-        ax.axvline(
-            style.MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5
-        )
-    above = (style.MICRO * run.t_max, 1.03)
+    share = 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact)
+    updates += [_curve(force, run, friction(run)), _curve(detached, run, share)]
+    start, stop = (MICRO * end for end in span(run))
+    force.axvspan(start, stop, color="0.93", linewidth=0.0, zorder=0)
+    force.set(xlim=(0.0, MICRO * run.time[-1]), ylabel=style.FORCE)
+    detached.set(xlim=(start, stop), ylabel="detached blocks (%)")
     middle: style.Look = {"ha": "center", "va": "bottom", "transform": force.get_xaxis_transform()}
-    force.text(*above, r"$t_\mathrm{max}$", **middle)
+    force.text(MICRO * run.t_max, 1.03, r"$t_\mathrm{max}$", **middle)
 
     def update(now: float, before: float) -> list[Artist]:
         return [artist for move in updates for artist in move(now, before)]
@@ -112,18 +106,14 @@ def scenery(run: Run) -> tuple[Figure, Update]:
 
 def _place(picture: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
     """Add axes at a place in mm: blocks of a map are all as many pixels."""
-    across, up = picture.get_size_inches() / style.MM
+    across, up = picture.get_size_inches() / MM
     return picture.add_axes((left / across, bottom / up, width / across, height / up))
 
 
 def _blocks(ax: Axes, run: Run) -> Update:
-    """Map of the blocks that have detached so far."""
-    image = maps.draw_map(ax, maps.painted(run, until=0.0))
+    """Map the blocks that have detached so far."""
+    image = maps.draw_times(ax, run, "not detached", "detaching now", until=0.0)
     image.set_animated(True)
-    elsewhere = [] if run.contact.all() else ["not in contact"]
-    maps.draw_key(ax, "not detached", "detaching now", *elsewhere)
-    if np.isfinite(run.t_det).any():
-        maps.draw_times_bar(ax, run)
 
     def update(now: float, before: float) -> list[Artist]:
         image.set_data(maps.painted(run, now, before))
@@ -133,7 +123,7 @@ def _blocks(ax: Axes, run: Run) -> Update:
 
 
 def _displacement(ax: Axes, run: Run) -> Update:
-    """Map of the latest snapshot so far; before the first there is none."""
+    """Map the latest snapshot so far; before the first there is none."""
     fields, colors = maps.displacements(run.snapshots)
     nothing = np.full_like(fields[0], np.nan)
     image = maps.draw_map(ax, nothing)
@@ -144,40 +134,25 @@ def _displacement(ax: Axes, run: Run) -> Update:
     def update(now: float, before: float) -> list[Artist]:
         latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
         image.set_data(fields[latest] if latest >= 0 else nothing)
-        title.set_text(
-            f"at {style.MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else ""
-        )
+        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
         return [image, title]
 
     return update
 
 
-def _force(ax: Axes, run: Run) -> Update:
-    """Force of the whole run; what the film shows of it is shaded."""
-    start, stop = span(run)
-    ax.axvspan(style.MICRO * start, style.MICRO * stop, color="0.93", linewidth=0.0, zorder=0)
-    ax.set(xlim=(0.0, style.MICRO * run.time[-1]), ylabel=style.FORCE)
-    return _curve(ax, run, friction(run))
-
-
-def _detached(ax: Axes, run: Run) -> Update:
-    """Share of the contact blocks that have detached, as long as the film takes."""
-    start, stop = span(run)
-    ax.set(xlim=(style.MICRO * start, style.MICRO * stop), ylabel="detached blocks (%)")
-    return _curve(ax, run, 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact))
-
-
 def _curve(ax: Axes, run: Run, values: Array) -> Update:
-    """A curve over time, as far as it has come in black, with a cursor."""
-    time = style.MICRO * run.time
-    ax.plot(time, values, color=_FAINT, linewidth=0.8)
+    """Draw a curve over time, as far as it has come in black, with a cursor and t_max."""
+    time = MICRO * run.time
+    ax.plot(time, values, color="0.75", linewidth=0.8)  # faint: still to come
     (so_far,) = ax.plot([], [], color=style.BLACK, animated=True)
     cursor = ax.axvline(0.0, color=style.VERMILION, linewidth=0.8, animated=True)
+    ax.axvline(MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5)
+    ax.set_xlabel("time (µs)")
 
     def update(now: float, before: float) -> list[Artist]:
         count = int(np.searchsorted(run.time, now, side="right"))
         so_far.set_data(time[:count], values[:count])
-        cursor.set_xdata([style.MICRO * now] * 2)
+        cursor.set_xdata([MICRO * now] * 2)
         return [so_far, cursor]
 
     return update

@@ -6,7 +6,7 @@ import pytest
 from springblock.analysis.statistics import mean_interval
 from springblock.model.material import Material
 from springblock.model.scene import Scene
-from springblock.plotting.runs import sweep
+from springblock.plotting import sweep
 
 SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
 

@@ -1,30 +1,51 @@
-"""The picture of one run shows what the run holds, and nothing else."""
+"""Pictures of one run and of one surface show what these hold, and stay on their pages."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.text import Text
 
 from springblock import Pattern, Realisation, draw_friction, plot, simulate
 from springblock.plotting.maps import painted, scale
+from springblock.plotting.still import show
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
 
 PILLARS = Pattern.pillars(12, 4, 2)
-TIMES = (1e-4, 1.5e-4)
+GROOVED = Pattern.pillars(60, 28, 32).grooved(8, 2)
+SURFACES = {
+    "flat": Pattern.flat(8).contact,
+    "grooved": GROOVED.contact,
+    "oblong": GROOVED.contact[:20],
+    "one row": np.array([[True, False, True]]),
+}
 
 
-@pytest.fixture(scope="module")
-def run() -> Realisation:
-    """It ends when some blocks have detached and some have not."""
+@cache
+def made() -> Realisation:
+    """A run that ends when some blocks have detached and some have not, with two snapshots."""
     scene = PILLARS.contact, *draw_friction(12, 1)
-    return simulate(*scene, duration=1.6e-4, snapshot_times=TIMES)
+    return simulate(*scene, duration=1.6e-4, snapshot_times=(1e-4, 1.5e-4))
 
 
-def oblong(run: Realisation) -> Realisation:
+@cache
+def oblong() -> Realisation:
     """The same run with its last three columns cut off."""
-    cut = {name: getattr(run, name)[..., :9] for name in ("t_det", "contact", "snapshots")}
-    return replace(run, **cut)
+    cut = {name: getattr(made(), name)[..., :9] for name in ("t_det", "contact", "snapshots")}
+    return replace(made(), **cut)
+
+
+run = pytest.fixture(made, scope="module")
+
+#: Drawn for `test_every_figure.py`.
+PICTURES = {
+    "run": lambda: plot(made()),
+    "oblong run": lambda: plot(oblong()),
+    **{name: lambda c=c: show(c, 30, "its name") for name, c in SURFACES.items()},
+}
 
 
 def test_colours_tell_when_a_block_has_detached(run):
@@ -47,9 +68,9 @@ def test_what_is_still_to_come_is_not_seen_and_what_has_just_come_is_black(run):
     np.testing.assert_array_equal(image[run.t_det <= before], painted(run)[run.t_det <= before])
 
 
-@pytest.mark.parametrize("shape", [lambda run: run, oblong])
-def test_a_run_is_drawn_with_all_that_it_holds(run, shape):
-    run = shape(run)
+@pytest.mark.parametrize("made", [made, oblong])
+def test_a_run_is_drawn_with_all_that_it_holds(made):
+    run = made()
     force, times, blocks, *snapshots = plot(run).axes
     np.testing.assert_array_equal(force.get_lines()[0].get_ydata(), run.force / run.normal_force)
     assert blocks.patches
@@ -76,3 +97,42 @@ def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
     many = replace(run, snapshot_times=times, snapshots=np.zeros((10, 2, 12, 12)))
     titles = [ax.get_title() for ax in plot(many).axes]
     assert [title for title in titles if title] == ["1 µs", "4 µs", "7 µs", "10 µs"]
+
+
+def texts(picture):
+    return " ".join(text.get_text() for text in picture.findobj(Text))
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_blocks_are_those_of_the_mask(name):
+    contact = SURFACES[name]
+    whole, detail = show(contact, "x").axes
+    np.testing.assert_array_equal(whole.images[0].get_array(), contact)
+    assert whole.get_xlim() == (-0.5, contact.shape[1] - 0.5)
+    left, right, bottom, top = detail.images[0].get_extent()
+    left, right, bottom, top = (round(edge + 0.5) for edge in (left, right, bottom, top))
+    np.testing.assert_array_equal(detail.images[0].get_array(), contact[bottom:top, left:right])
+    assert contact[bottom:top, left:right].any()
+
+
+def test_the_share_in_contact_is_said():
+    assert "8 of 9 blocks in contact, 88.9 %" in texts(show(np.arange(9).reshape(3, 3) > 0, "x"))
+
+
+@pytest.mark.parametrize(
+    ("direction", "said", "towards"),
+    [
+        ("x", "$x$", (1, 0)),
+        (90, "$y$", (0, 1)),
+        ("30", "30°", (np.sqrt(0.75), 0.5)),
+        (180, "180°", (-1, 0)),
+    ],
+)
+def test_the_arrow_goes_where_the_slider_goes(direction, said, towards):
+    whole = show(GROOVED.contact, direction).axes[0]
+    (arrow,) = whole.findobj(FancyArrowPatch)
+    corners = arrow.get_path().vertices[:-1]  # the last one closes the head
+    way = corners - corners[0]
+    tip = way[np.argmax(np.hypot(*way.T))]
+    assert tip / np.hypot(*tip) == pytest.approx(towards, abs=1e-6)
+    assert f"sliding direction {said}" in texts(whole.figure)

@@ -9,8 +9,8 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from springblock import Pattern, Realisation, animate, draw_friction, simulate
+from springblock.plotting import film
 from springblock.plotting.maps import painted
-from springblock.plotting.runs import film
 from springblock.plotting.style import VERMILION
 
 PILLARS = Pattern.pillars(12, 4, 2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,22 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
-from numpy.typing import NDArray
+from pandas import DataFrame
 
 from springblock.plotting import style
-from springblock.plotting.declaration import Declaration, TableSource
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, journal
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
-FIGURE = Declaration(
-    title="Stiff and extreme cases",
-    category="Accuracy",
-    caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond the
-    stability limit; failing ones end in an exception.""",
-    source=TableSource("stability"),
-)
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
 
 _INTEGRATORS: dict[str, tuple[str, Look]] = {
     "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),
@@ -50,10 +38,7 @@ _PANELS: dict[str, tuple[str, dict[str, tuple[str, float, float]]]] = {
             "displacement": ("path of a column", 0.30, 1e-7),
         },
     ),
-    "strain": (
-        r"strain $F_n/(K_s\,l)$",
-        {"displacement": ("path of a column", 0.42, 1e-11)},
-    ),
+    "strain": (r"strain $F_n/(K_s\,l)$", {"displacement": ("path of a column", 0.42, 1e-11)}),
     "damping": (r"damping $\gamma/\omega$", {"spring force": ("force in the slip", 0.05, 1e-11)}),
     "speed": (
         r"speed $v\,K_s/(F_n\,\omega)$",
@@ -64,8 +49,7 @@ _SMALLEST = 1e-16  #: relative error
 _LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is drawn here
 
 
-@journal
-def draw(cases: DataFrame) -> Figure:
+def stability(cases: DataFrame) -> Figure:
     """Draw results/tables/stability.parquet.
 
     a) Energy residual over step, up to the stability limit and beyond; b) error of all cases
@@ -74,7 +58,6 @@ def draw(cases: DataFrame) -> Figure:
     picture, panels = style.panels(style.DOUBLE, 116.0, "ab|cdef")
     steps, overview, *families = panels
     _draw_steps(steps, _family(cases, "step"))
-    _draw_close_up(steps, _family(cases, "step"))
     _draw_overview(overview, cases)
     for ax, (family, (name, shown)) in zip(families, _PANELS.items(), strict=True):
         _draw_family(ax, _family(cases, family), shown)
@@ -89,55 +72,50 @@ def _family(cases: DataFrame, name: str) -> DataFrame:
     return cases.loc[cases["family"] == name].sort_values("parameter", kind="stable")
 
 
-def _of(cases: DataFrame, integrator: str, *outcomes: str) -> DataFrame:
-    """Cases of one integrator, and with one of these outcomes if there are any."""
-    cases = cases.loc[cases["integrator"] == integrator]
-    return cases.loc[cases["outcome"].isin(outcomes)] if outcomes else cases
-
-
-def _draw_residuals(ax: Axes, cases: DataFrame) -> None:
-    """Energy residual of one scene at growing shares of the stability limit."""
-    scene = cases.loc[cases["case"].str.startswith("pillars")]
-    for integrator, (_, look) in _INTEGRATORS.items():
-        runs = _of(scene, integrator, "stable")
-        ax.plot(runs["parameter"], runs["energy_error"].abs(), linewidth=0.6, **look)
-    ax.axvline(1.0, color=BLACK, linewidth=0.8, linestyle="--", zorder=0.5)
-    ax.set_yscale("log")
+def _of(cases: DataFrame, integrator: str, outcome: str) -> DataFrame:
+    """Return the cases of one integrator with this outcome."""
+    return cases.loc[(cases["integrator"] == integrator) & (cases["outcome"] == outcome)]
 
 
 def _draw_steps(ax: Axes, cases: DataFrame) -> None:
-    """Small and unstable steps too, on a logarithmic axis."""
-    _draw_residuals(ax, cases)
-    _draw_ends(ax, cases.loc[cases["case"].str.startswith("pillars")])
+    """Draw the energy residual of one scene over the step, small and unstable steps too.
+
+    The last fifth before the limit is enlarged in the corner where no step is stable.
+    """
+    scene = cases.loc[cases["case"].str.startswith("pillars")]
+    inset = ax.inset_axes((0.675, 0.17, 0.305, 0.50))
+    for panel in (ax, inset):
+        for integrator, (_, look) in _INTEGRATORS.items():
+            runs = _of(scene, integrator, "stable")
+            panel.plot(runs["parameter"], runs["energy_error"].abs(), linewidth=0.6, **look)
+        panel.axvline(1.0, color=BLACK, linewidth=0.8, linestyle="--", zorder=0.5)
+        panel.set_yscale("log")
+        panel.yaxis.set_minor_locator(NullLocator())
+    _draw_ends(ax, scene)
     side = ax.get_xaxis_transform()
     ax.text(0.95, 0.03, "stability limit", transform=side, ha="right", va="bottom")
     ax.set(xscale="log", xlim=(0.035, 14.0), ylim=(1e-8, 30.0))
+    ax.set(xlabel="step over the stability limit", ylabel="energy residual / work")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set_yticks([10.0**k for k in range(-8, 1, 2)])
-    ax.yaxis.set_minor_locator(NullLocator())
-    ax.set(xlabel="step over the stability limit", ylabel="energy residual / work")
-
-
-def _draw_close_up(ax: Axes, cases: DataFrame) -> None:
-    """The last fifth before the limit, in the corner where no step is stable."""
-    inset = ax.inset_axes((0.675, 0.17, 0.305, 0.50))
-    _draw_residuals(inset, cases)
     inset.set(xlim=(0.77, 1.03), ylim=(1e-3, 1.0))
     inset.set_xticks([0.8, 0.9, 0.99], ["0.8", "0.9", "0.99"])
     inset.set_yticks([1e-3, 1e-2, 1e-1, 1.0])
-    inset.yaxis.set_minor_locator(NullLocator())
     inset.tick_params(labelsize=6.0, pad=1.5)
 
 
 def _draw_overview(ax: Axes, cases: DataFrame) -> None:
-    """Error over accepted error, family by family; within each, the cases lie side by side."""
+    """Draw error over accepted error, family by family; within each, the cases lie side by side."""
     families = list(dict.fromkeys(cases["family"]))
     for number, family in enumerate(families):
         for integrator, (_, look) in _INTEGRATORS.items():
-            runs = _of(_family(cases, family), integrator)
+            runs = _family(cases, family).query("integrator == @integrator")
             middle = number + (-0.21 if integrator == "leapfrog" else 0.21)
-            share = _share(runs)
-            ax.plot(middle + _spread(len(share)), share, linestyle="", **look)
+            known = runs.loc[runs["tolerance"].notna()]
+            error = known["relative_error"].abs()
+            share = (error / known["tolerance"]).where(error > 0.0, 0.0).clip(lower=_LEAST)
+            aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0 * share
+            ax.plot(middle + aside, share, linestyle="", **look)
             outcomes = set(runs["outcome"])
             markers = [marker for word, (_, marker) in _ENDS.items() if word in outcomes]
             if (runs["tolerance"].isna() & ~runs["outcome"].isin(_ENDS)).any():
@@ -157,20 +135,8 @@ def _draw_overview(ax: Axes, cases: DataFrame) -> None:
     ax.set(xlabel="family (number of cases)", ylabel="error / accepted error")
 
 
-def _share(runs: DataFrame) -> Series[float]:
-    """Error over accepted error of the cases that have one; nothing is the least."""
-    runs = runs.loc[runs["tolerance"].notna()]
-    error, accepted = runs["relative_error"].abs(), runs["tolerance"]
-    return (error / accepted).where(error > 0.0, 0.0).clip(lower=_LEAST)
-
-
-def _spread(count: int) -> NDArray[np.float64]:
-    """Places of so many markers around their middle."""
-    return np.linspace(-0.13, 0.13, count) if count > 1 else np.zeros(count)
-
-
 def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, float]]) -> None:
-    """Error of a family over its parameter."""
+    """Draw the error of a family over its parameter."""
     for start, (label, across, up) in shown.items():
         same = cases.loc[cases["quantity"].str.startswith(start)]
         for integrator, (_, look) in _INTEGRATORS.items():
@@ -205,7 +171,7 @@ def _draw_ends(ax: Axes, cases: DataFrame) -> None:
 
 
 def _mark(ax: Axes, places: Any, height: float, look: Look, marker: str) -> None:
-    """Markers at a share of the panel's height."""
+    """Draw markers at a share of the panel's height."""
     looks = {**look, "marker": marker, "markersize": 4.0, "linestyle": ""}
     ax.plot(places, np.full(len(places), height), transform=ax.get_xaxis_transform(), **looks)
 

@@ -1,10 +1,11 @@
 """The figure of the stiff and extreme cases shows what the table holds."""
 
+from functools import cache
+
 import numpy as np
 import pandas as pd
-import pytest
 
-from springblock.plotting.accuracy import stability
+from springblock.plotting import drawing
 
 NAN = np.nan
 #: family, parameter, outcome, quantity, energy residual, relative error, tolerance
@@ -24,51 +25,40 @@ ROWS = [
     ("rest", 1e6, "at rest", "none", 0.0, NAN, NAN),
     ("overflow", NAN, "raises", "none", NAN, NAN, NAN),
 ]
-NAMES = (
-    "family",
-    "parameter",
-    "outcome",
-    "quantity",
-    "energy_error",
-    "relative_error",
-    "tolerance",
-)
+NAMES = ["family", "parameter", "outcome", "quantity"]
+NAMES += ["energy_error", "relative_error", "tolerance"]
 
 
 def cases() -> pd.DataFrame:
     """Every case by both integrators."""
-    rows = [
-        {**dict(zip(NAMES, row, strict=True)), "integrator": name, "case": f"pillars {i}"}
-        for i, row in enumerate(ROWS)
-        for name in ("leapfrog", "rk4")
-    ]
-    return pd.DataFrame(rows)
+    table = pd.DataFrame(ROWS, columns=NAMES)
+    table["case"] = [f"pillars {i}" for i in table.index]
+    return pd.concat([table.assign(integrator=name) for name in ("leapfrog", "rk4")])
 
 
-table = pytest.fixture(cases, scope="module")
-DRAWINGS = {"stability": lambda: stability.draw(cases())}
+DRAWINGS = {"stability": lambda: drawing("stability")(cases())}
+drawn = cache(DRAWINGS["stability"])  # for tests that only look at it
 
 
-def points(ax, marker):
+def points(ax, marker, axis=0):
     """Places of all markers of a kind in a panel, sorted."""
     lines = [line for line in ax.get_lines() if line.get_marker() == marker]
-    return np.sort(np.concatenate([line.get_xdata() for line in lines]).astype(float))
+    return np.sort(np.concatenate([line.get_data()[axis] for line in lines]).astype(float))
 
 
 def heights(ax, marker):
-    lines = [line for line in ax.get_lines() if line.get_marker() == marker]
-    return np.sort(np.concatenate([line.get_ydata() for line in lines]).astype(float))
+    return points(ax, marker, axis=1)
 
 
-def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused(table):
-    steps = stability.draw(table).axes[0]
+def test_stable_steps_show_their_residual_and_unstable_ones_that_they_are_refused():
+    steps = drawn().axes[0]
     assert points(steps, "o").tolist() == points(steps, "s").tolist() == [0.5, 0.99]
     assert heights(steps, "o").tolist() == [3e-3, 4e-2]
     assert points(steps, "x").tolist() == [1.01, 1.01]
 
 
-def test_families_show_each_error_below_what_is_accepted(table):
-    stiffness, strain, damping, speed = stability.draw(table).axes[2:6]
+def test_families_show_each_error_below_what_is_accepted():
+    stiffness, strain, damping, speed = drawn().axes[2:6]
     assert points(stiffness, "o").tolist() == [1e-4, 1e4]
     assert heights(stiffness, "o").tolist() == [1e-15, 2e-4]
     assert heights(strain, "o").tolist() == [1e-16, 2e-11]  # no error at all is on the floor
@@ -79,8 +69,8 @@ def test_families_show_each_error_below_what_is_accepted(table):
     assert damping.get_xlim()[0] < 0.0  # zero is shown
 
 
-def test_the_overview_counts_all_cases_and_marks_those_without_a_number(table):
-    overview = stability.draw(table).axes[1]
+def test_the_overview_counts_all_cases_and_marks_those_without_a_number():
+    overview = drawn().axes[1]
     names = [label.get_text() for label in overview.get_xticklabels()]
     assert names[0] == "step (6)"
     assert names[-1] == "overflow (2)"

@@ -2,52 +2,31 @@
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import cycle
-from typing import NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from springblock.analysis.statistics import mean_interval
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.scene import LENGTHS, Scene
 from springblock.plotting import style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.points import FRICTION, LAG, draw_points, name_places
+from springblock.plotting.points import FRICTION, LAG, draw_means, name_places
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
 
 Names = tuple[tuple[str, str], ...]
 
-CAPTION = """Means over realisations with their 95 % t intervals; a single realisation has none.
-Lines join ensembles that differ in nothing else."""
-
-
-def caption(rows: Iterable[Row], over: str) -> str:
-    """Say what is drawn over an axis, and of which surfaces and seeds."""
-    seeds: dict[Scene, list[int]] = {}
-    for row in drawn(rows, over):
-        seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
-    sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
-    return f"{' '.join(CAPTION.split())} {sample_in_words(sample)}"
-
-
-class Observable(NamedTuple):
-    """A number of each realisation, how its axis is called, and its unit there."""
-
-    label: str
-    of: Callable[[Row], float]
-
-
-OBSERVABLES: dict[str, Observable] = {
-    "static_friction": Observable(FRICTION, lambda row: row["static_friction"]),
-    "dynamic_friction": Observable("dynamic friction", lambda row: row["dynamic_friction"]),
-    "t_max": Observable(r"$t_\mathrm{max}$ (µs)", lambda row: MICRO * row["t_max"]),
-    "t_avg": Observable(r"$t_\mathrm{avg}$ (µs)", lambda row: MICRO * row["t_avg"]),
-    "t_first": Observable("first detachment (µs)", lambda row: MICRO * row["t_first"]),
-    "t_max-t_avg": Observable(LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
+#: What is drawn of each realisation: the label of its axis, and its value there.
+OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
+    "static_friction": (FRICTION, lambda row: row["static_friction"]),
+    "dynamic_friction": ("dynamic friction", lambda row: row["dynamic_friction"]),
+    "t_max": (r"$t_\mathrm{max}$ (µs)", lambda row: MICRO * row["t_max"]),
+    "t_avg": (r"$t_\mathrm{avg}$ (µs)", lambda row: MICRO * row["t_avg"]),
+    "t_first": ("first detachment (µs)", lambda row: MICRO * row["t_first"]),
+    "t_max-t_avg": (LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
 }
 
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
@@ -58,15 +37,22 @@ _WIDE = 24  #: characters of a line's name from which on names stand below each 
 _LINE = 3.6  #: mm, of the legend
 
 
+def caption(rows: Iterable[Row], over: str) -> str:
+    """Return what is drawn over an axis, and of which surfaces and seeds, in words."""
+    seeds: dict[Scene, list[int]] = {}
+    for row in drawn(rows, over):
+        seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
+    sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
+    return (
+        "Means over realisations with their 95 % t intervals; a single realisation has none. "
+        f"Lines join ensembles that differ in nothing else. {sample_in_words(sample)}"
+    )
+
+
 def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
-    """Rows by their place on the axis, for each line, named by what tells its scenes from others.
+    """Return rows by place on the axis, for each line, named by what tells its scenes from others.
 
     Scenes that share a line with no other are left out, if some do.
-
-    Raises
-    ------
-    ValueError
-        Where there is no such axis, or all realisations have the same place on it.
     """
     if over not in AXES:
         raise ValueError(f"{over!r} is no axis; there are {', '.join(AXES)}")
@@ -79,18 +65,16 @@ def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
     swept = {names: line for names, line in found.items() if len(line) > 1} or found
     common = set.intersection(*(set(names) for names in swept))
     ordered = sorted(swept, key=lambda names: [value for _, value in names])
-    return {_label(names, common): dict(sorted(swept[names].items())) for names in ordered}
+    labelled = {}
+    for names in ordered:
+        own = [f"{_math(key)} = {value}" for key, value in names if (key, value) not in common]
+        labelled[", ".join(own) or "as the study"] = dict(sorted(swept[names].items()))
+    return labelled
 
 
 def drawn(rows: Iterable[Row], over: str) -> list[Row]:
-    """Rows that `lines` has a place for."""
+    """Return the rows that `lines` has a place for."""
     return [row for line in lines(rows, over).values() for runs in line.values() for row in runs]
-
-
-def _label(names: Names, common: set[tuple[str, str]]) -> str:
-    """What tells the scenes of a line from those of others."""
-    own = [f"{_math(key)} = {value}" for key, value in names if (key, value) not in common]
-    return ", ".join(own) or "as the study"
 
 
 def _place(row: Row, over: str) -> float:
@@ -99,7 +83,7 @@ def _place(row: Row, over: str) -> float:
 
 
 def _others(row: Row, over: str) -> Names:
-    """What tells a scene from others besides its place; n_s in proportion, where pillars grow."""
+    """Return what else tells a scene from others; n_s in proportion, where pillars grow."""
     scene = Scene.from_row(row)
     named = {"N" if key == "n_blocks" else key: value for key, value in scene.named.items()}
     if over == "n_p" and scene.n_p:
@@ -112,7 +96,7 @@ def _others(row: Row, over: str) -> Names:
 
 
 def _math(name: str) -> str:
-    """Lengths as the paper prints them, other names in words."""
+    """Write lengths as the paper prints them, other names in words."""
     printed = re.sub(r"n_(\w+)", r"$n_{\1}$", name)
     return printed if name in ("n_s/n_p", *LENGTHS) else name.replace("_", " ")
 
@@ -127,7 +111,13 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
     height = 15.0 + 43.0 * len(observables) + names
     picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
     for ax, name in zip(panels, observables, strict=True):
-        _draw_panel(ax, found, over, OBSERVABLES[name])
+        label, of = OBSERVABLES[name]
+        looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
+        for (line, places), (color, marker) in zip(found.items(), looks, strict=False):
+            samples = {place: [of(row) for row in runs] for place, runs in places.items()}
+            draw_means(ax, samples, color, marker=marker, label=line)
+        ax.set_ylabel(label)
+        _fit_places(ax, sorted({place for places in found.values() for place in places}))
     panels[-1].set_xlabel(_axis(over))
     if len(found) > 1:
         named = panels[0].get_legend_handles_labels()
@@ -135,15 +125,8 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
     return picture
 
 
-def _draw_panel(
-    ax: Axes, found: Mapping[str, Mapping[float, list[Row]]], over: str, seen: Observable
-) -> None:
-    looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
-    for (name, line), (color, marker) in zip(found.items(), looks, strict=False):
-        intervals = [mean_interval([seen.of(row) for row in runs]) for runs in line.values()]
-        draw_points(ax, list(line), intervals, color, marker=marker, label=name)
-    ax.set_ylabel(seen.label)
-    places = sorted({place for line in found.values() for place in line})
+def _fit_places(ax: Axes, places: Sequence[float]) -> None:
+    """Make the horizontal axis logarithmic where places, in order, span decades."""
     if places[0] <= 0.0 or places[-1] < _DECADE * places[0]:
         return
     if len(places) <= _NAMED:
@@ -154,7 +137,7 @@ def _draw_panel(
 
 
 def _axis(over: str) -> str:
-    """Meaning and unit of an axis, as the tables say."""
+    """Return the meaning and unit of an axis, as the tables say."""
     field = next(field for field in (*SCENE, *SETUP) if field.name == over)
     unit = "degrees" if over == "direction" else field.metadata[b"unit"].decode()
     return _math(over) + ("" if unit == "1" else f" ({unit})")

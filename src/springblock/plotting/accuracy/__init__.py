@@ -1,1 +1,0 @@
-"""How large the numerical errors are, and what they cost."""

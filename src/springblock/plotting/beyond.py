@@ -1,0 +1,293 @@
+"""Figures beyond the paper; each function takes realisations by the folder of their scene."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain, product
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter, NullLocator
+
+from springblock.analysis.correlation import Correlation, side_times
+from springblock.analysis.statistics import Interval, cluster_sizes
+from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
+from springblock.beyond.question import Ensembles, by_scene
+from springblock.beyond.resampling import FEWEST
+from springblock.io.records import Record
+from springblock.plotting import style
+from springblock.plotting.curves import draw_band
+from springblock.plotting.looks import pillar_look, pillar_name, shades
+from springblock.plotting.points import FRICTION, ZERO, draw_means, draw_points, name_places
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, color_bar
+from springblock.simulation.run import Array
+
+Folders = Mapping[str, Sequence[Record]]  #: realisations by the folder of their scene
+
+_LABELS = {"spacing": "$l$ = {:g} µm", "thickness": "$l_z$ = {:g} µm"}
+_DOTS: Look = {"marker": "o", "markersize": 2.0}
+_TICKS = (1, 2, 5, 10, 20, 40, 80)  #: blocks, of the map of friction
+_LETTERS = ("ab", "cd")  #: of the maps of load peaks
+_COLORS = "viridis_r"  #: of these maps
+_SHOWN = (0, 6, 20)  #: n_p of the surfaces whose clusters are drawn
+_LAST = 15  #: blocks, distance up to which correlations along grooves are drawn
+
+
+def _by_scene(ensembles: Folders) -> Ensembles:
+    """Return the realisations of each scene that the paper could have."""
+    return by_scene(list(chain.from_iterable(ensembles.values())))
+
+
+def beyond_lattice(ensembles: Folders) -> Figure:
+    """Draw c(r), l_c and static friction over the lattice spacing and the layer's thickness."""
+    surfaces = lattice.layers(_by_scene(ensembles))
+    common, alike = lattice.usual(surfaces), lattice.refined(surfaces)
+    lattices = {at: sizes for at, sizes in alike.items() if at.thickness == common.thickness}
+    thick = {at: sizes for at, sizes in alike.items() if at.spacing == common.spacing}
+    picture, panels = style.panels(style.DOUBLE, 122.0, "ab;cd")
+    _draw_correlation(panels[0], lattices)
+    _draw_lengths(panels[1], lattices, lattice.evenly_disordered(surfaces), thick)
+    _draw_sizes(panels[2], lattices, "spacing")
+    _draw_sizes(panels[3], thick, "thickness")
+    return picture
+
+
+def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
+    """Draw c_x(r) with its band over r in µm."""
+    colors = shades(at.spacing for at in lattices)
+    for at, sizes in lattices.items():
+        runs = list(sizes.values())[-1]
+        if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
+            continue
+        found = Correlation(side_times(runs, runs[0].scene.pattern, "x")).interval
+        label = _LABELS["spacing"].format(at.spacing)
+        look = {"color": colors[at.spacing], "label": label} | _DOTS
+        draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
+    ax.axhline(0.0, **ZERO)
+    ax.set(xlabel="distance along the side $r$ (µm)", ylabel="time correlation $c_x(r)$")
+    ax.legend(loc="upper right")
+
+
+def _draw_lengths(
+    ax: Axes, lattices: lattice.Surfaces, even: lattice.Surfaces, thick: lattice.Surfaces
+) -> None:
+    """Draw l_c on the largest pillars over l and over l_z, with guides."""
+    spots: list[float] = []
+    for part, varied, color, marker, label in (
+        (lattices, "spacing", BLUE, "o", "over $l$"),
+        (even, "spacing", VERMILION, "s", "over $l$, same disorder per area"),
+        (thick, "thickness", BLACK, "^", "over $l_z$"),
+    ):
+        found = {at: list(lattice.fits(sizes).values())[-1:] for at, sizes in part.items()}
+        lengths = {at: last.interval for at, each in found.items() for last in each}
+        if lengths:
+            places = [getattr(at, varied) for at in lengths]
+            intervals = [at.spacing * np.array(blocks) for at, blocks in lengths.items()]  # µm
+            draw_points(ax, places, intervals, color, marker=marker, label=label)
+            spots += places
+    ax.set_yscale("log")
+    ends = np.array([min(spots), max(spots)])
+    height = float(np.exp(np.mean(np.log(ax.get_ylim()))))
+    for slope in (0.0, 1.0):
+        guide = height * (ends / np.sqrt(ends.prod())) ** slope
+        ax.plot(ends, guide, color=GREY, linewidth=0.5, linestyle=":", zorder=0)
+    name_places(ax, spots)
+    ax.set(xlabel="spacing $l$ or thickness $l_z$ (µm)", ylabel="correlation length $l_c$ (µm)")
+    ax.set_ylim(None, 8.0 * ax.get_ylim()[1])
+    ax.legend(loc="upper left")
+
+
+def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
+    """Draw static friction over the size of pillars, and mark where it is lowest."""
+    lines = {getattr(at, varied): sizes for at, sizes in part.items()}
+    colors = shades(lines)
+    for value, sizes in lines.items():
+        samples = {size: friction.static_friction(runs) for size, runs in sizes.items()}
+        label = _LABELS[varied].format(value)
+        draw_means(ax, samples, colors[value], marker="o", label=label)
+    low, high = ax.get_ylim()
+    line = 0.06 * (high - low)
+    for i, (value, sizes) in enumerate(lines.items(), 1):
+        place, left, right = (float(limit) for limit in lattice.minimum(sizes))
+        bars = np.nan_to_num([[place - left], [right - place]])
+        look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
+        ax.errorbar([place], [low - i * line], xerr=bars, **look)
+    ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
+    name_places(ax, [size for sizes in part.values() for size in sizes])
+    ax.set(xlabel="size of pillars (µm)", ylabel=FRICTION)
+    ax.legend(loc="upper center", ncols=2)
+
+
+def beyond_disorder(ensembles: Folders) -> Figure:
+    """Draw a) l_c and b) static friction over scatter, and c) its variance over N²."""
+    found = _by_scene(ensembles)
+    scatters = scatter.shared(scatter.by_scatter(found))
+    picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
+    _draw_lengths_of_scatters(panels[0], scatters)
+    for std, color in shades(scatters).items():
+        samples = {n_p: friction.static_friction(runs) for n_p, runs in scatters[std].items()}
+        draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
+    name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
+    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+    panels[1].legend(loc="best", title="scatter")
+    _draw_variance(panels[2], found)
+    return picture
+
+
+def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes]) -> None:
+    sizes = scatter.long_enough(scatters)
+    for n_p, color in shades(sizes).items():
+        fitted = scatter.fits(scatters, int(n_p))
+        lengths = [fit.interval for fit in fitted.values()]
+        places = [std * (1.0 + 0.03 * (sizes.index(int(n_p)) - 1)) for std in fitted]
+        draw_points(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
+    name_places(ax, list(scatters))
+    ax.set(xlabel="scatter of static coefficients", ylabel="correlation length $l_c$ (blocks)")
+    ax.set_yscale("log")
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.legend(loc="best")
+
+
+def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
+    patterns = variance.by_pattern(ensembles)
+    for (pattern, sizes), color in zip(patterns.items(), (BLUE, VERMILION), strict=False):
+        blocks = [float(n**2) for n in sizes]
+        spread = [variance.variance(values) for values in sizes.values()]
+        named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
+        label = f"{named}: $x$ = {float(variance.exponent(sizes).mean):.2f}"
+        draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
+        products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
+        independent = np.exp(np.mean(np.log(products))) / np.array(blocks)
+        ax.plot(blocks, independent, color=GREY, linewidth=0.5, zorder=0)
+    ax.set_yscale("log")
+    name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
+    ax.set(xlabel="blocks of the surface $N^2$", ylabel="variance of static friction")
+    ax.legend(loc="best")
+
+
+def beyond_friction(ensembles: Folders) -> Figure:
+    """Draw the map of friction, and the lines of the same contact fraction."""
+    found = friction.friction_map(_by_scene(ensembles))
+    picture, (over_both, lines) = style.panels(style.DOUBLE, 80.0, "ab")
+    _draw_friction_map(over_both, found)
+    _draw_contact_fractions(lines, found)
+    return picture
+
+
+def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
+    sizes, gaps = np.array(list(found), dtype=float).T
+    means = [float(values.mean()) for values in found.values()]
+    ends = np.array([0.8, 1.25 * sizes.max()])
+    for kind in friction.families(found):
+        ax.plot(ends, float(kind) * ends, color=GREY, linewidth=0.4, zorder=0)
+    points = ax.scatter(sizes, gaps, c=means, cmap="viridis", s=34.0, marker="s", linewidths=0.0)
+    ax.set(xscale="log", yscale="log")
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel="distance $n_s$ (blocks)")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_ticks(_TICKS, labels=[str(tick) for tick in _TICKS])
+        axis.set_minor_locator(NullLocator())
+    ax.set(xlim=ends, ylim=(0.8 * gaps.min(), 1.25 * gaps.max()))
+    color_bar(ax, points, FRICTION)
+
+
+def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
+    alike = friction.families(found)
+    left = friction.residuals(friction.crossed(found))
+    colors = shades(float(kind) for kind in alike)
+    for kind, sizes in alike.items():
+        color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
+        draw_means(ax, sizes, color, marker="o", label=label)
+        here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
+        model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
+        look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
+        ax.plot(list(model), list(model.values()), color=color, **look)
+    name_places(ax, sorted({n_p for n_p, _ in found}))
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+    ax.legend(loc="best")
+
+
+def beyond_peaks(ensembles: Folders) -> Figure:
+    """Draw a map of the lesser peak for each width of grooves, with pillars and without."""
+    found = peaks.by_grooves(_by_scene(ensembles))
+    largest = max(float(v.mean()) for angles in found.values() for v in angles.values())
+    widths = sorted({key.n_s2 for key in found})
+    letters = ";".join(_LETTERS[: len(widths)])
+    picture, panels = style.panels(style.ONE_AND_A_HALF, 6.0 + 55.0 * len(widths), letters)
+    for ax, (n_s2, pillars) in zip(panels, product(widths, (True, False)), strict=True):
+        part = {k: v for k, v in found.items() if k.n_s2 == n_s2 and bool(k.n_p) is pillars}
+        if part:
+            _draw_peaks(ax, part, largest)
+        where = "on pillars" if pillars else "whole surface"
+        ax.set_title(f"{where}, $n_{{s2}}$ = {n_s2}")
+        ax.set(xlabel="angle to grooves (°)", ylabel="width of pawls $n_{p2}$ (blocks)")
+    colors = ScalarMappable(Normalize(0.0, largest), _COLORS)
+    picture.colorbar(colors, ax=panels, label="prominence of the lesser load peak (%)", aspect=40)
+    return picture
+
+
+def _draw_peaks(
+    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Array]], largest: float
+) -> None:
+    """Draw cells by angle and pawl, coloured and numbered."""
+    angles = sorted({angle for each in part.values() for angle in each})
+    pawls = sorted(key.n_p2 for key in part)
+    cells = np.full((len(pawls), len(angles)), np.nan)
+    for key, each in part.items():
+        for angle, values in each.items():
+            cells[pawls.index(key.n_p2), angles.index(angle)] = values.mean()
+    ax.imshow(cells, cmap=_COLORS, vmin=0.0, vmax=largest, origin="lower", aspect="auto")
+    for (row, column), value in np.ndenumerate(cells):
+        if np.isfinite(value):
+            color = "white" if value > 0.55 * largest else "black"
+            ax.text(column, row, f"{value:.1f}", ha="center", va="center", color=color)
+    ax.set_xticks(range(len(angles)), [f"{angle:g}" for angle in angles])
+    ax.set_yticks(range(len(pawls)), [str(pawl) for pawl in pawls])
+    ax.tick_params(length=0.0)
+
+
+def beyond_precursors(ensembles: Folders) -> Figure:
+    """Draw a) clusters of precursors beside those of chance and b) c(r) by angle."""
+    found = _by_scene(ensembles)
+    picture, (left, right) = style.panels(style.DOUBLE, 73.0, "ab")
+    _draw_clusters(left, found)
+    _draw_angles(right, found)
+    return picture
+
+
+def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
+    rng = np.random.default_rng(0)
+    for scene, runs in clusters.surfaces(ensembles).items():
+        if scene.n_p2 or scene.n_p not in _SHOWN:
+            continue
+        masks, color = [clusters.precursors(run) for run in runs], pillar_look(scene.n_p)["color"]
+        anywhere = [clusters.shuffled(mask, scene.contact, rng) for mask in masks]
+        _draw_shares(ax, masks, color, linestyle="-", label=pillar_name(scene.n_p))
+        _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
+        _draw_shares(ax, clusters.mixed(masks, rng), color, linestyle=":", linewidth=0.9)
+    ax.set(xlabel="size of the cluster (blocks)", ylabel="share of precursors in clusters as large")
+    ax.set(xscale="log", xlim=(0.9, 3000.0), ylim=(0.0, 1.03))
+    for line, word in (("-", "observed"), ("--", "anywhere"), (":", "same places")):
+        ax.plot([], [], color=GREY, linestyle=line, label=word)
+    ax.legend(loc="upper right")
+
+
+def _draw_shares(ax: Axes, masks: Iterable[clusters.Mask], color: Any, **look: Any) -> None:
+    """Draw the share of blocks in clusters of a size or more."""
+    sizes = np.sort(np.concatenate([cluster_sizes(mask) for mask in masks]))
+    share = np.cumsum(sizes[::-1])[::-1] / sizes.sum()
+    ax.step(sizes, share, where="pre", color=color, **look)
+
+
+def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
+    found = sliding.by_angle(ensembles)
+    colors = shades(found)
+    for angle, runs in found.items():
+        curve = Correlation(sliding.edges(runs)["grooves"]).interval
+        shown = Interval(*(part[: _LAST + 1] for part in curve))
+        look = {"color": colors[angle], "opacity": 0.12, "label": f"{angle:g}°"} | _DOTS
+        draw_band(ax, range(len(shown.mean)), shown, **look)
+    ax.axhline(0.0, **ZERO)
+    ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
+    ax.legend(loc="upper right", title="sliding at", ncols=2)

@@ -1,0 +1,264 @@
+"""Figures 2, 3, 5, 6, 7 and 9 of the paper: forces, detachments and their correlation."""
+
+from collections.abc import Mapping, Sequence
+from string import ascii_lowercase
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from springblock.analysis import statistics
+from springblock.analysis.statistics import Interval
+from springblock.io.records import Record
+from springblock.plotting import curves, maps, points, style
+from springblock.plotting.dimensions import arrow, draw_sliding
+from springblock.plotting.looks import direction_color, direction_name, pillar_look, pillar_name
+from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
+from springblock.simulation.run import Array, Run
+
+if TYPE_CHECKING:  # read by the command, and only then
+    import pandas as pd
+
+BySize = Mapping[int, Sequence[Run]]  #: by n_p, 0 for the flat surface
+
+_BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that figure 2 enlarges
+_TIME = r"mean first detachment $t_\mathrm{det}/t_\mathrm{max}$"
+#: Colour, marker and name of the parts of a ring, each moved aside a little to show its bar.
+_PARTS = {
+    "corners": (BLACK, "o", "corners", -0.12),
+    "y": (VERMILION, "s", "sides along $y$ ($x_p$ = const.)", 0.0),
+    "x": (BLUE, "D", "sides along $x$ ($y_p$ = const.)", 0.12),
+}
+_FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
+_SIDES: dict[str, Look] = {
+    "x": {"color": BLUE, "marker": "D", "linestyle": "none"},
+    "y": {"color": VERMILION, "marker": "s", "linestyle": "none"},
+}
+_EXPONENTIAL = r"$\exp(-r/l_c)$"
+_FREE = r"$A\,$" + _EXPONENTIAL
+_DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
+_SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
+
+
+def figure_2(runs: Sequence[Run]) -> Figure:
+    """Draw runs[0] before the spread of the other runs: a), b) force and c), d) blocks.
+
+    The left panels show the whole run, the right ones the time around the force maximum. All runs
+    share one sample interval.
+    """
+    run, others = runs[0], runs[1:]
+    zoom = (MICRO * (run.t_max - _BEFORE), MICRO * (run.t_max + _AFTER))
+    whole = (0.0, MICRO * float(run.time[-1]))
+    picture, panels = style.panels(style.DOUBLE, 95.0, "ab;cd", width_ratios=(82, 71))
+    for upper, lower, span in zip(panels[:2], panels[2:], (whole, zoom), strict=True):
+        curves.draw_run(upper, lower, run, others, span)
+    force, _, blocks, enlarged = panels
+    for ax, name in ((force, "enlarged at the right"), (blocks, None)):
+        ax.axvspan(*zoom, color="0.93", linewidth=0.0, zorder=0, label=name)
+    early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
+    force.legend(loc="lower right" if early else "upper left")
+    blocks.legend(loc="upper right" if early else "upper left")
+    end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
+    arrow(enlarged, (end, height), (end - 0.8 * before, height))
+    enlarged.text(end - 0.4 * before, 1.3 * height, "precursors", ha="center", va="bottom")
+    return picture
+
+
+def figure_3(runs: Sequence[Run]) -> Figure:
+    """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
+    run = runs[0]
+    picture, (ax,) = style.panels(style.COLUMN, 97.0)
+    image = maps.draw_map(ax, run.t_det / run.t_max)
+    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run))
+    maps.draw_times_bar(ax, run)
+    if not run.contact.all():
+        maps.draw_key(ax, "not in contact")
+    return picture
+
+
+def figure_5(runs: Sequence[Record]) -> Figure:
+    """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
+
+    Means over all pillars and `runs`, which share one scene; bars are 95 % intervals.
+    """
+    scene = runs[0].scene
+    times = statistics.pillar_map(runs, scene.pattern)
+    picture, (pillar, rings) = style.panels(style.DOUBLE, 75.0, "ab")
+    maps.draw_mean_times(pillar, times.mean(axis=0), _TIME, axes="_p/l")
+    draw_sliding(pillar, scene.direction)
+    _draw_rings(rings, times)
+    return picture
+
+
+def _draw_rings(ax: Axes, times: Array) -> None:
+    """Draw means over the corners and the sides of each ring, from the edge to the middle."""
+    size = times.shape[-1]
+    depths = range((size + 1) // 2)
+    for part, (color, marker, name, aside) in _PARTS.items():
+        masks = {depth: statistics.pillar_ring(size, depth)[part] for depth in depths}
+        samples = {d + aside: times[:, m].mean(axis=1) for d, m in masks.items() if m.any()}
+        if samples:
+            points.draw_means(ax, samples, color, marker=marker, label=name)
+    ax.set(xlabel="distance from the edge of the pillar (blocks)", ylabel=_TIME)
+    ax.axhline(1.0, color=GREY, linestyle=":", zorder=0)
+    side = ax.get_yaxis_transform()
+    ax.text(0.985, 0.995, "force maximum", transform=side, color=GREY, ha="right", va="top")
+    ax.set_xlim(-0.5, len(depths) - 0.5)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    ax.legend(loc="lower right")
+
+
+def figure_6(ensembles: BySize) -> Figure:
+    """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
+    ensembles = dict(sorted(ensembles.items()))
+    ratios: Look = {"width_ratios": (105, 46), "height_ratios": (43, 37)}
+    picture, panels = style.panels(style.DOUBLE, 103.0, "ac;bd", **ratios)
+    force, blocks, friction, lag = panels
+    _draw_time(force, blocks, ensembles)
+    for ax, samples in zip((friction, lag), points.highest_and_lag(ensembles), strict=True):
+        _draw_sizes(ax, samples)
+    lag.axhline(0.0, **points.ZERO)
+    friction.set_ylabel(points.FRICTION)
+    friction.tick_params(labelbottom=False)
+    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
+    return picture
+
+
+def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
+    """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
+    highest = 0.0
+    for n_p, runs in ensembles.items():
+        curve, look = statistics.whole_curve(runs), pillar_look(n_p)
+        mean = curves.draw_mean_force(force, curve, label=pillar_name(n_p), **look)
+        curves.draw_detachments(blocks, curve, **look)
+        highest = max(highest, float(np.nanmax(mean)))
+        for times, face in (
+            ([r.t_max for r in runs], look["color"]),
+            ([r.t_avg for r in runs], "white"),
+        ):
+            time = float(np.mean(times))
+            height = np.interp(time, curve.time, mean)
+            force.plot(MICRO * time, height, **look, markerfacecolor=face, zorder=3)
+    force.plot([], [], color=GREY, **curves.REST, label="fewer runs")
+    force.add_artist(force.legend(loc="lower right", ncols=2))
+    signs = [
+        Line2D([], [], color=GREY, marker="o", linestyle="none", markerfacecolor=face, label=name)
+        for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$"))
+    ]
+    force.legend(handles=signs, loc="upper left")
+    force.set(ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
+    force.tick_params(labelbottom=False)
+    blocks.set(xlabel="time (µs)", xlim=force.get_xlim(), yscale="log", ylim=(_FLOOR, 100.0))
+    blocks.yaxis.set_major_formatter("{x:g}")
+
+
+def _draw_sizes(ax: Axes, samples: Mapping[int, Array]) -> None:
+    """Draw means over n_p on a logarithmic axis; the flat surface as a line with a band."""
+    for n_p, sample in samples.items():
+        if n_p:
+            points.draw_means(ax, {n_p: sample}, linestyle="none", **pillar_look(n_p))
+            continue
+        mean, low, high = map(float, statistics.mean_interval(sample))
+        ax.axhline(mean, color=BLACK, linewidth=0.8, linestyle="--")
+        ax.axhspan(low, high, color="0.8", linewidth=0.0, zorder=0)
+        below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
+        ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
+    points.name_places(ax, [n_p for n_p in samples if n_p])
+
+
+def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
+    """Draw c_x(r) and c_y(r) of one scene with their fits, and l_c over n_p in an inset.
+
+    `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
+    CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
+    """
+    if lengths.duplicated(["n_p", "side"]).any():
+        raise ValueError("several scenes have the same n_p, which the inset cannot tell apart")
+    n_p = correlation["n_p"].iloc[0]
+    shown = lengths[lengths["n_p"] == n_p].set_index("side")
+    if shown.empty:
+        raise ValueError(f"there is no correlation length for n_p = {n_p}")
+    picture, (ax,) = style.panels(style.COLUMN, 78.0)
+    for side, curve in correlation.groupby("side"):
+        _draw_side(ax, str(side), curve, shown.loc[side])
+    ax.plot([], [], color=GREY, label=_EXPONENTIAL)
+    ax.plot([], [], color=GREY, label=_FREE, **_DASHED)
+    ax.axhline(0.0, **points.ZERO)
+    ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
+    ax.set_ylim(None, 1.04)
+    ax.margins(x=0.02)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
+    ax.legend(loc="upper left", bbox_to_anchor=(0.06, 1.0), title=f"$n_p$ = {n_p}")
+    _draw_lengths(ax.inset_axes((0.475, 0.47, 0.5, 0.5)), lengths[lengths["side"] == "x"])
+    return picture
+
+
+def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
+    """Draw c(r), its band, and the fitted exponential, dotted beyond what it was fitted to."""
+    values = Interval(*curve[["correlation", "ci_low", "ci_high"]].to_numpy().T)
+    curves.draw_band(ax, curve["r"], values, **_SIDES[side], label=f"$c_{side}(r)$")
+    color, last, end = _SIDES[side]["color"], length["r_last"], curve["r"].max()
+    for r, line in ((np.linspace(0.0, last), "-"), (np.linspace(last, end), ":")):
+        ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
+    if np.isfinite(length["tail"]):
+        r = np.linspace(1.0, last)
+        ax.plot(r, _amplitude(curve, length) * np.exp(-r / length["tail"]), color=color, **_DASHED)
+
+
+def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
+    """Return the A of A exp(-r/l_c) that belongs to the length of the table, by least squares.
+
+    Weights are those of the fit, 1/error²; errors are in proportion to the intervals.
+    """
+    fitted = curve[(curve["r"] >= 1) & (curve["r"] <= length["r_last"])]
+    decay = np.exp(-fitted["r"] / length["tail"])
+    weight = (fitted["ci_high"] - fitted["ci_low"]) ** -2.0
+    return float((weight * decay * fitted["correlation"]).sum() / (weight * decay**2).sum())
+
+
+def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
+    """Draw l_c of c_x over n_p on a logarithmic axis; open points have a free amplitude."""
+    for columns, face, aside, label in (
+        (["l_c", "ci_low", "ci_high"], BLUE, 0.96, _EXPONENTIAL),
+        (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),
+    ):
+        look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
+        points.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
+    points.name_places(ax, lengths["n_p"])
+    ax.set_ylim(0.0, 2.2 * lengths["ci_high"].max())  # room for the legend
+    ax.set_xlabel("$n_p$ (blocks)", fontsize=style.SMALL, labelpad=1.0)
+    ax.set_ylabel("$l_c$ of $c_x$ (blocks)", fontsize=style.SMALL)
+    ax.legend(loc="upper left", borderaxespad=0.2, handletextpad=0.2, labelspacing=0.3)
+
+
+def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
+    """Draw force and detachments by (n_p2, n_s2, direction), a row for each pair of widths.
+
+    All rows have the same axes; triangles stand above load peaks.
+    """
+    found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
+    every = list(found.values())
+    rows = sorted({key[:2] for key in found})
+    letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
+    look: Look = {"width_ratios": (95, 57), "sharex": True}
+    height = 17.0 + 37.5 * len(rows)
+    picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
+    for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
+        for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
+            color = direction_color(direction)
+            curves.draw_single_forces(force, curve, color)
+            curves.draw_load_peaks(force, curve, color, direction_name(direction))
+            curves.draw_detachments(blocks, curve, color)
+        force.set_ylabel(FORCE)
+        force.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+        name = f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}"
+        force.text(0.02, 0.94, name, transform=force.transAxes, va="top")
+        curves.fit_forces(force, every, curves.enlarged_span(every, _SHOWN))
+        blocks.sharey(panels[1])
+    panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
+    for ax in panels[-2:]:
+        ax.set_xlabel("time (µs)")
+    return picture

@@ -1,0 +1,95 @@
+"""Pictures of one run and of one surface."""
+
+import numpy as np
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from springblock.plotting import maps, style
+from springblock.plotting.curves import draw_force, draw_run
+from springblock.plotting.dimensions import draw_sliding
+from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
+from springblock.simulation.run import Run
+
+RUN_CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
+maximum (dotted), and t_avg, the mean first detachment time (solid); share of blocks that detach in
+each sample interval; first detachment times t_det over t_max, block by block; displacements, where
+the run has kept snapshots."""
+
+SURFACE_CAPTION = """A surface: blocks in contact with the substrate, dark, and others, light, as
+the solver takes them; a) all of it, b) single blocks from the first corner of the contact on. The
+arrow shows where the slider goes."""
+
+_SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
+_HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
+_ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
+
+
+@journal
+def plot(run: Run) -> Figure:
+    """Draw what a run holds: force, detachments, the map of t_det, and snapshots if any.
+
+    A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
+    `%matplotlib inline`.
+    """
+    heights = [_HEIGHT, _ROW] if len(run.snapshots) else [_HEIGHT]
+    picture = Figure(figsize=(DOUBLE * MM, sum(heights) * MM), layout="constrained")
+    picture.suptitle(run.name, fontsize="medium")
+    parts = picture.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
+    detached = bool(np.isfinite(run.t_det).any())
+    panels = parts[0].subplot_mosaic("FM;BM" if detached else "FM", width_ratios=(79, 65))
+    span = (0.0, MICRO * float(run.time[-1]))
+    if detached:
+        draw_run(panels["F"], panels["B"], run, (), span)
+        early = 2.0 * run.t_max < run.time[-1]  # room beside the peak
+        panels["B"].legend(loc="upper right" if early else "upper left")
+    else:
+        draw_force(panels["F"], run, (), span)
+        panels["F"].set(xlabel="time (µs)", xlim=span)
+    stuck = (run.contact & np.isnan(run.t_det)).any()
+    maps.draw_times(panels["M"], run, *(["not detached"] if stuck else []))
+    if len(run.snapshots):
+        _draw_snapshots(parts[1], run)
+    return picture
+
+
+def _draw_snapshots(part: SubFigure, run: Run) -> None:
+    """Map displacements at up to four times, in the same colours."""
+    count = len(run.snapshots)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
+    fields, colors = maps.displacements(run.snapshots[chosen])
+    panels = part.subplots(1, _SNAPSHOTS)
+    for ax in panels[len(chosen) :]:
+        ax.remove()
+    for ax, i, field in zip(panels, chosen, fields, strict=False):
+        maps.draw_map(ax, field).set(cmap=colors.cmap, norm=colors.norm)
+        ax.set_title(f"{MICRO * run.snapshot_times[i]:.4g} µs")
+        if i:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+    color_bar(panels[len(chosen) - 1], colors, maps.DISPLACEMENT)
+
+
+@journal
+def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> Figure:
+    """Draw a) a whole surface, (N, N) [y, x], and b) single blocks of it."""
+    picture, (whole, detail) = style.panels(DOUBLE, 105.0, "ab")
+    share = f"{np.count_nonzero(contact)} of {contact.size} blocks in contact, {contact.mean():.1%}"
+    title = "\n".join(filter(None, [name, share.replace("%", " %")]))
+    picture.suptitle(title, fontsize="medium", linespacing=1.4)
+    maps.draw_contact(whole, contact)
+    draw_sliding(whole, direction)
+    corner = []  # of a window that shows the first contact with a margin, and lies inside
+    for axis, size in enumerate(contact.shape):
+        first = int(np.argmax(contact.any(axis=1 - axis)))
+        corner.append(max(0, min(first - _ENLARGED // 6, size - _ENLARGED)))
+    y, x = corner
+    window = contact[y : y + _ENLARGED, x : x + _ENLARGED]
+    rows, columns = window.shape
+    extent = (x - 0.5, x + columns - 0.5, y - 0.5, y + rows - 0.5)
+    maps.draw_contact(detail, window).set_extent(extent)
+    detail.set(xlim=extent[:2], ylim=extent[2:])
+    maps.draw_borders(detail, window.shape, (y, x))
+    maps.draw_key(detail, "in contact", "not in contact")
+    whole.add_patch(Rectangle((x - 0.5, y - 0.5), columns, rows, fill=False))
+    return picture

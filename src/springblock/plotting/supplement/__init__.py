@@ -1,1 +1,0 @@
-"""What the paper leaves open: spacing, size, angles, levels, realisations, own surfaces."""

@@ -1,0 +1,237 @@
+"""The figures of errors against cost show their tables, all of them, without a warning."""
+
+import inspect
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from precision import production_rows
+from springblock import simulate
+from springblock.accuracy import production
+from springblock.accuracy.budget import Bias, choices, excess, study_budget
+from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, PAPER_STEP, PLAIN, SCENES
+from springblock.model.defaults import STEP
+from springblock.plotting import drawing
+
+STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
+NUDGES = (1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3)
+SEEDS = 4 * ENSEMBLE  #: of the ensembles
+
+
+def row(comparison, scene, integrator, step, nudge, quantity, error, half=0.0):
+    evaluations = 2e-4 / step * (1 if integrator == "leapfrog" else 4)
+    return {
+        "comparison": comparison,
+        "scene": scene,
+        "n_blocks": 16 if comparison in ("paired", "scatter") else 8,
+        "integrator": integrator,
+        "step": step,
+        "nudge": nudge,
+        "quantity": quantity,
+        "error": error,
+        "ci_low": error - half,
+        "ci_high": error + half,
+        "worst": 2.0 * error,
+        "realisations": SEEDS,
+        "cpu_seconds": 3e-6 * evaluations,
+        "force_evaluations": evaluations,
+    }
+
+
+@cache
+def table():
+    """First order for both integrators, none for the plain Runge-Kutta; in no order of rows."""
+    rows = []
+    for i, scene in enumerate(SCENES, 1):
+        for quantity in ("t_det before horizon", "static_friction", "t_max"):
+            for h, integrator in product(STEPS, ("leapfrog", "rk4")):
+                rows.append(row("reference", scene, integrator, h, 0.0, quantity, 3e3 * i * h))
+            for h in STEPS[:-1]:
+                rows.append(row("reference", scene, PLAIN, h, 0.0, quantity, 0.02 * i))
+        for quantity in ("static_friction", "t_max", "t_avg"):
+            rows.append(row("scatter", scene, "leapfrog", 2.5e-9, 0.0, quantity, 0.0, 4e-3 * i))
+            for h, integrator in product(STEPS[:3], ("leapfrog", "rk4")):
+                bias = row("paired", scene, integrator, h, 0.0, quantity, -3e4 * i * h, 5e-4)
+                rows.append(bias)
+        for nudge in NUDGES:
+            for quantity in ("t_det before peak", "static_friction"):
+                error = 0.0 if nudge < 1e-6 else 3.0 * i * nudge
+                rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, quantity, error))
+            rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, "horizon", 1.0 - 9.0 * nudge))
+    return pd.DataFrame(rows).sample(frac=1.0, random_state=1)
+
+
+#: Panels of total errors, and what they are of.
+CASES = [*product(("static_friction", DELAY), SCENES), (LENGTH, "pillared")]
+ERRORS = dict(zip("defghij", CASES, strict=True))
+
+
+@cache
+def production_table():
+    """A bias of order two; in no order of rows."""
+    return pd.DataFrame(production_rows()).sample(frac=1.0, random_state=1)
+
+
+DRAWINGS = {
+    "work_precision": lambda: drawing("work_precision")(table()),
+    "total_error": lambda: drawing("total_error")(production_table()),
+}
+drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
+
+
+def panel(letter, name="work_precision"):
+    """The axes that carry this letter."""
+    return next(ax for ax in drawn(name).axes if ax.get_title("left") == f"{letter})")
+
+
+def chosen(rows, **conditions):
+    for name, value in conditions.items():
+        rows = rows[rows[name] == value]
+    return rows
+
+
+def points(ax):
+    """What markers of lines show, (n, 2), but for rings."""
+    lines = [line for line in ax.lines if line.get_marker() != "None"]
+    return np.vstack([line.get_xydata() for line in lines if line.get_linestyle() != "None"])
+
+
+def visible(ax, places):
+    """Within the limits of the axes, and where a logarithm exists."""
+    shown = ax.transData.transform(places)
+    low, high = ax.transAxes.transform([(0.0, 0.0), (1.0, 1.0)])
+    return bool(((shown >= low - 0.01) & (shown <= high + 0.01)).all())
+
+
+def check_points(ax, wanted):
+    """Every wanted point is drawn, no other, and all are visible."""
+    shown, wanted = points(ax), wanted.to_numpy()
+    assert len(shown) == len(wanted)
+    assert visible(ax, wanted)
+    for point in wanted:
+        assert np.isclose(shown, point, rtol=1e-9, atol=0.0).all(axis=1).any()
+
+
+@pytest.mark.parametrize(
+    ("letters", "cost", "quantity"),
+    [
+        ("abc", "force_evaluations", "t_det before horizon"),
+        ("def", "cpu_seconds", "static_friction"),
+    ],
+)
+def test_every_single_run_is_shown(letters, cost, quantity):
+    for letter, scene in zip(letters, SCENES, strict=True):
+        wanted = chosen(table(), comparison="reference", scene=scene, quantity=quantity)
+        assert len(wanted) == 20
+        check_points(panel(letter), wanted[[cost, "error"]])
+
+
+def test_rings_mark_the_default_and_the_paper():
+    default = inspect.signature(simulate).parameters
+    rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
+    runs = chosen(table(), comparison="reference", scene="flat", quantity="t_det before horizon")
+    marked = ((default["integrator"].default, default["step"].default), (PLAIN, PAPER_STEP))
+    for ring, (integrator, step) in zip(rings, marked, strict=True):
+        row = chosen(runs, integrator=integrator, step=step)
+        assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
+
+
+def test_orders_are_those_of_the_data():
+    texts = [text.get_text() for text in panel("b").texts]
+    assert texts.count("order 1.0") == 2
+
+
+def test_every_bias_is_shown_with_its_interval_and_the_scatter():
+    panels = drawn("work_precision").axes[6:15]
+    quantities = ("static_friction", "t_max", "t_avg")
+    for ax, (quantity, scene) in zip(panels, product(quantities, SCENES), strict=True):
+        wanted = chosen(table(), comparison="paired", scene=scene, quantity=quantity)
+        assert sorted(points(ax)[:, 1]) == pytest.approx(sorted(100.0 * wanted.error))
+        bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
+        ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
+        assert sorted(bars[:, 1]) == pytest.approx(ends)
+        assert visible(ax, bars)
+        spread = chosen(table(), comparison="scatter", scene=scene, quantity=quantity)
+        scatter = spread.ci_high.item()
+        (band,) = ax.patches
+        assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
+        assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)
+
+
+@pytest.mark.parametrize(
+    ("letter", "quantity"),
+    [("j", "t_det before peak"), ("k", "static_friction"), ("l", "horizon")],
+)
+def test_every_twin_is_shown_also_where_nothing_differs(letter, quantity):
+    wanted = chosen(table(), comparison="twin", quantity=quantity)
+    assert len(wanted) == 18
+    check_points(panel(letter), wanted[["nudge", "error"]])
+
+
+def rows(quantity, scene):
+    return chosen(production_table(), quantity=quantity, scene=scene).to_dict("records")
+
+
+def error_panel(letter):
+    return panel(letter, "total_error")
+
+
+@pytest.mark.parametrize(("letter", "scene"), list(zip("abc", SCENES, strict=True)))
+def test_every_bias_but_that_of_the_finest_step_is_shown_with_its_interval(letter, scene):
+    shown = chosen(production_table(), scene=scene)
+    shown = shown[shown.step > min(production.STEPS)]
+    shown = shown[shown.quantity.isin(["static_friction", DELAY, LENGTH])]
+    bars = np.vstack([bar for c in error_panel(letter).collections for bar in c.get_segments()])
+    ends = 100.0 * pd.concat([shown.ci_low, shown.ci_high]) / 50.0
+    assert sorted(bars[:, 1]) == pytest.approx(sorted(ends))
+    low, high = error_panel(letter).get_ylim()
+    assert low < ends.min() < ends.max() < high
+
+
+@pytest.mark.parametrize("letter", ERRORS)
+def test_errors_are_those_of_as_many_seeds_as_the_time_allows(letter):
+    steps = choices(rows(*ERRORS[letter]))
+    dots = [line.get_xydata() for line in error_panel(letter).lines if line.get_marker() == "."]
+    assert len(dots) == len(steps)
+    for step, shown in zip(steps, dots, strict=True):
+        wanted = [(step.bias**2 + step.deviation**2 / k) ** 0.5 for k in (1, 10, 100, 1000)]
+        assert shown[:, 0] == pytest.approx([step.spent(k) for k in (1, 10, 100, 1000)])
+        assert shown[:, 1] == pytest.approx([100.0 * error for error in wanted])
+
+
+@pytest.mark.parametrize("letter", ERRORS)
+def test_a_ring_marks_the_default_at_the_study_s_budget_and_no_line_passes_below_the_least(letter):
+    lines = error_panel(letter).lines
+    (ring,) = (line.get_xydata()[0] for line in lines if line.get_fillstyle() == "none")
+    (default,) = (s for s in choices(rows(*ERRORS[letter])) if s.step == STEP)
+    budget = study_budget(rows(*ERRORS[letter]))
+    assert ring == pytest.approx([budget, 100.0 * default.error(budget)])
+    (least,) = (line.get_ydata() for line in lines if line.get_linewidth() == 4.0)
+    curves = [line.get_ydata() for line in lines if len(line.get_ydata()) == len(least)]
+    assert np.nanmin(curves, axis=0) == pytest.approx(least)
+
+
+def test_words_name_the_best_step_and_what_half_its_error_costs():
+    """In 10 s, 20 % over the root of 40 seeds is what 40 ns leave; 80 ns have a bias of 4 %."""
+    (words,) = (t.get_text() for t in error_panel("d").texts if "best" in t.get_text())
+    assert words.startswith("best at 10 s: 40 ns, 40 seeds;\nhalf its error: 5.")
+
+
+def test_every_step_is_compared_with_the_best_in_every_case():
+    shown = [line.get_xydata() for line in error_panel("k").lines]
+    assert len(shown) == len(ERRORS)
+    for case in ERRORS.values():
+        found = excess(choices(rows(*case)), study_budget(rows(*case)))
+        wanted = [[1e9 * step, ratio] for step, ratio in found.items()]
+        assert any(np.allclose(line, wanted, equal_nan=True) for line in shown)
+
+
+def test_shades_hold_the_ends_of_the_bias_s_interval():
+    band = error_panel("e").collections[-1].get_paths()[0].vertices
+    at_end = band[np.isclose(band[:, 0], band[:, 0].max())][:, 1]
+    ends = [choices(rows("static_friction", "pillared"), bias)[-1] for bias in Bias._fields[1:]]
+    wanted = [100.0 * step.error(band[:, 0].max()) for step in ends]
+    assert (at_end.min(), at_end.max()) == pytest.approx(tuple(wanted))
