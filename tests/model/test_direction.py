@@ -5,7 +5,7 @@ import pytest
 from click.testing import CliRunner
 
 from springblock.cli import main
-from springblock.model.direction import heading, normalised
+from springblock.model.direction import degrees, heading, normalised
 from springblock.model.scene import Scene
 
 
@@ -23,6 +23,7 @@ from springblock.model.scene import Scene
 def test_a_direction_is_written_in_one_way(name, others):
     assert {normalised(direction) for direction in (name, *others)} == {name}
     assert {heading(direction) for direction in others} == {heading(name)}
+    assert heading(degrees(name)) == heading(name)
     assert {Scene(4, direction=direction) for direction in others} == {Scene(4, direction=name)}
 
 

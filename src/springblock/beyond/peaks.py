@@ -9,10 +9,10 @@ from springblock.analysis.statistics import Interval, lesser_prominence, mean_in
 from springblock.beyond.question import Ensembles, grouped, number
 from springblock.beyond.resampling import difference
 from springblock.io.rows import markdown_table
+from springblock.model.direction import degrees
 from springblock.simulation.run import Array, Run, friction
 
 NEEDS = "groups peaks and grooves"
-_ANGLES = {"x": 0.0, "y": 90.0}  #: degrees from grooves along x
 
 
 class Grooves(NamedTuple):
@@ -21,11 +21,6 @@ class Grooves(NamedTuple):
     n_p: int
     n_s2: int
     n_p2: int
-
-
-def angle(direction: str) -> float:
-    """Degrees between a sliding direction and grooves along x."""
-    return float(_ANGLES.get(direction, direction))
 
 
 def prominences(runs: Sequence[Run]) -> Array:
@@ -39,7 +34,7 @@ def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Array]]:
     Of grooves alone and grooves on pillars, of the study's material.
     """
     found = grouped(
-        (Grooves(scene.n_p, scene.n_s2, scene.n_p2), angle(scene.direction), prominences(runs))
+        (Grooves(scene.n_p, scene.n_s2, scene.n_p2), degrees(scene.direction), prominences(runs))
         for scene, runs in ensembles.items()
         if scene.n_p2 and not scene.n_p3 and not scene.varied
     )

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 from springblock.analysis.correlation import LAST, Correlation, groove_times, side_times
 from springblock.analysis.statistics import Interval
-from springblock.beyond.peaks import angle
 from springblock.beyond.question import Ensembles, grouped, number
 from springblock.beyond.resampling import FEWEST, SideLength
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
+from springblock.model.direction import degrees
 from springblock.simulation.run import Array
 
 NEEDS = "groups grooves and angles"
@@ -19,7 +19,7 @@ _FAR = 3  #: blocks, the paper's lower bound of l_c
 def by_angle(ensembles: Ensembles) -> dict[float, Sequence[Record]]:
     """Realisations by angle between sliding and grooves, of the pattern with most angles."""
     found = grouped(
-        (replace(scene, direction="x"), angle(scene.direction), runs)
+        (replace(scene, direction="x"), degrees(scene.direction), runs)
         for scene, runs in ensembles.items()
         if scene.n_p and scene.n_p2 and not scene.n_p3 and not scene.varied
     )

@@ -43,6 +43,7 @@ from springblock.claims.samples import (
     static_friction,
 )
 from springblock.io.records import Record
+from springblock.model.direction import degrees
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run, friction
 
@@ -114,10 +115,6 @@ def _prominences(
     yield found_on(scene, f"{name}, of the mean force", common, claimed, **more)
 
 
-def _degrees(direction: str) -> float:
-    return {"x": 0.0, "y": 90.0}[direction] if direction in "xy" else float(direction)
-
-
 @claim("Two load peaks only along grooves", "3.3", 9, _WAYS)
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     """The two load peaks appear only if the second level grooves are aligned with the sliding
@@ -128,9 +125,9 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     """
     for along, _ in slid_both_ways(evidence, along_x(evidence.records, 2)):
         ways = [s for s in evidence.records if replace(s, direction="x") == along]
-        for scene in sorted(ways, key=lambda s: _degrees(s.direction)):
+        for scene in sorted(ways, key=lambda s: degrees(s.direction)):
             claimed = _TWO_PEAKS if scene == along else _ONE_PEAK
-            case = {"degrees from the grooves": _degrees(scene.direction)}
+            case = {"degrees from the grooves": degrees(scene.direction)}
             yield from _prominences(evidence, scene, claimed, **case)
 
 

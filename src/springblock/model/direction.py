@@ -35,6 +35,11 @@ def normalised(direction: str | float) -> str:
     return _NAMES.get(angle, repr(angle).removesuffix(".0"))
 
 
+def degrees(direction: str) -> float:
+    """Return the angle from x, in degrees, of a direction as `normalised` writes it."""
+    return {"x": 0.0, "y": 90.0}[direction] if direction in _AXES else float(direction)
+
+
 def heading(direction: str | float) -> tuple[float, float]:
     """Unit vector (x, y) of a sliding direction: "x", "y" or an angle from x in degrees."""
     name = normalised(direction)

@@ -13,12 +13,12 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from springblock.analysis import statistics
 from springblock.io.records import Record
+from springblock.model.direction import degrees
 from springblock.plotting import curves, looks, maps, points, style
 from springblock.plotting.looks import Key
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
-_ANGLES = {"x": 0.0, "y": 90.0}  #: degrees from the grooves, which run along x
 _SPREAD = 2.0  #: degrees over which single runs are spread
 _DOT: Look = {"linestyle": "none", "marker": ".", "markersize": 2.8, "alpha": 0.5}
 _CLOSE = 0.85  #: share of the maximum from which the force on three levels is shown
@@ -61,7 +61,7 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     """
     label = "angle between sliding and grooves (°)"
     picture, panels = points.friction_and_lag(label, "lesser peak (% of force)")
-    names = {float(_ANGLES.get(name, name)): name for name in ensembles}
+    names = {degrees(name): name for name in ensembles}
     by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
     highest, lag = points.highest_and_lag(by_angle)
     lesser = {

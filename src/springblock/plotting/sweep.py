@@ -11,6 +11,7 @@ from matplotlib.ticker import NullFormatter
 
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES, SCENE, SETUP
+from springblock.model.direction import degrees
 from springblock.model.scene import LENGTHS, Scene
 from springblock.plotting import style
 from springblock.plotting.caption import sample_in_words
@@ -78,8 +79,7 @@ def drawn(rows: Iterable[Row], over: str) -> list[Row]:
 
 
 def _place(row: Row, over: str) -> float:
-    value = row[over]
-    return {"x": 0.0, "y": 90.0}[value] if value in ("x", "y") else float(value)
+    return degrees(row[over]) if over == "direction" else float(row[over])
 
 
 def _others(row: Row, over: str) -> Names:
