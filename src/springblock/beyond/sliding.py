@@ -43,15 +43,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if len(found) < 3:
         return
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "l_c (blocks)", "realisations"]
-    places = {degrees: edges(runs) for degrees, runs in found.items()}
+    places = {angle: edges(runs) for angle, runs in found.items()}
     lines = []
     for edge in ("sides", "grooves"):
-        for degrees, times in places.items():
+        for angle, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
             length = number(SideLength(times[edge], LAST).interval)
-            lines.append([edge, f"{degrees:g}°", close, far, length, str(len(found[degrees]))])
+            lines.append([edge, f"{angle:g}°", close, far, length, str(len(found[angle]))])
     for edge in ("sides", "grooves"):
-        low, high = (at(places[degrees][edge], _FAR) for degrees in (min(places), max(places)))
+        low, high = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
         apart = "below" if high.high < low.low else "not told apart from"
         yield (
             f"**Along {edge}** c({_FAR}) is {number(high)} when sliding across them, {apart} "
