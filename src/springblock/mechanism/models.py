@@ -1,0 +1,121 @@
+"""Models of the onset of sliding, from independent blocks to avalanches with inertia.
+
+Each block i in contact rests up to mu_s F_n and lets go beyond. The models differ in what follows:
+
+independent    It bears mu_d F_n from then on, and no other block notices.
+quasi_static   It bears mu_d F_n from then on. What it no longer bears, the others do: the layer is
+               in equilibrium all the time, as without inertia or with strong damping.
+overshooting   It slips as a block without damping between neighbours at rest, until
+               2 mu_d F_n - mu_s F_n is left of its force, half of the stress drop below mu_d F_n,
+               and sticks again. Slips follow one another while the slider stands still, the most
+               overloaded block first, until all blocks hold.
+
+All forces are those along x, the direction of the slider. As in the simulation, a block with
+mu_s < mu_d lets go at mu_d F_n.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.mechanism.elasticity import Layer
+
+Array = NDArray[np.float64]
+
+#: Least stress drop of an overshooting block, over its strength: without a drop, it would let go
+#: again at once.
+_LEAST_DROP = 0.01
+#: How far above its strength a force counts as too large, against rounding.
+_SLACK = 1e-9
+
+
+class Curve(NamedTuple):
+    """Friction force over the slider's displacement, at each release and right before it."""
+
+    slider: Array  #: (n,) m
+    force: Array  #: (n,) N
+
+
+def stress_variation(layer: Layer) -> float:
+    """Standard deviation over mean of |F_mot| on the blocks in contact before any slip."""
+    stress = np.hypot(*layer.pull.reshape(2, -1))
+    return float(stress.std() / stress.mean())
+
+
+def independent(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let blocks go on their own; `static` and `dynamic` are mu_s F_n and mu_d F_n, (k,) N."""
+    x, y = layer.pull.reshape(2, -1)
+    slider = np.maximum(static, dynamic) / np.hypot(x, y)
+    order = np.argsort(slider)
+    slider, x, dynamic = slider[order], x[order], dynamic[order]
+    still_held = np.cumsum(x[::-1])[::-1]
+    return Curve(slider, slider * still_held + np.cumsum(dynamic) - dynamic)
+
+
+def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let blocks go one by one in equilibrium, until all slide.
+
+    With A for the components of sliding blocks, S_AA u_A = s b_A - f_A. The Cholesky factor L of
+    S_AA grows by two rows with each block; the rows of L⁻¹ S_A, kept for all blocks, give the
+    forces on those that still hold: F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
+    """
+    strength, k = np.maximum(static, dynamic), len(static)
+    rows = np.zeros((2 * k, 2 * k))  # of L⁻¹ S_A
+    pull, push = layer.pull.copy(), np.zeros(2 * k)  # F_mot = s pull + push
+    pulled, pushed = np.zeros(2 * k), np.zeros(2 * k)  # L⁻¹ b_A and L⁻¹ f_A
+    held, s = np.arange(k), 0.0
+    found = []
+    while held.size:
+        both = np.concatenate([held, held + k])
+        reached = _slider_at(strength[held], pull[both], push[both], s)
+        s, block = float(reached.min()), held[np.argmin(reached)]
+        force = (s * pull[held] + push[held]).sum()
+        found.append((s, force + dynamic.sum() - dynamic[held].sum()))
+        n = 2 * (k - held.size)
+        for row, load in ((block, dynamic[block]), (block + k, 0.0)):
+            new = layer.stiffness[row] - rows[:n, row] @ rows[:n]
+            pivot = np.sqrt(new[row])
+            pulled[n] = (layer.pull[row] - rows[:n, row] @ pulled[:n]) / pivot
+            pushed[n] = (load - rows[:n, row] @ pushed[:n]) / pivot
+            rows[n] = new / pivot
+            pull -= rows[n] * pulled[n]
+            push += rows[n] * pushed[n]
+            n += 1
+        held = held[held != block]
+    return Curve(*np.array(found).T)
+
+
+def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let blocks slip and stick again, until each has let go once."""
+    strength, k = np.maximum(static, dynamic), len(static)
+    left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)
+    pairs = layer.stiffness.reshape(2, k, 2, k)[:, range(k), :, range(k)]
+    compliance = np.linalg.inv(pairs)  # (k, 2, 2) of each block between others at rest
+    force, slipped, s = np.zeros((2, k)), np.zeros(k, bool), 0.0
+    pull = layer.pull.reshape(2, k)
+    found = []
+    while not slipped.all():
+        reached = _slider_at(strength, layer.pull, force.ravel() - s * layer.pull, s)
+        block = int(np.argmin(reached))
+        force += (reached[block] - s) * pull
+        s = reached[block]
+        found.append((s, force[0].sum()))
+        overload = np.inf
+        while overload > 1.0 + _SLACK:
+            slipped[block] = True
+            drop = force[:, block] * (1.0 - left[block] / np.hypot(*force[:, block]))
+            slip = compliance[block] @ drop
+            force -= (slip @ layer.stiffness[[block, block + k]]).reshape(2, k)
+            overloads = np.hypot(*force) / strength
+            block = int(np.argmax(overloads))
+            overload = overloads[block]
+    return Curve(*np.array(found).T)
+
+
+def _slider_at(strength: Array, pull: Array, push: Array, s: float) -> Array:
+    """Slider's displacement, at least s, at which |s pull + push| of each block is its strength."""
+    (ax, ay), (bx, by) = pull.reshape(2, -1), push.reshape(2, -1)
+    square, half, rest = ax**2 + ay**2, ax * bx + ay * by, bx**2 + by**2 - strength**2
+    root = np.sqrt(np.maximum(half**2 - square * rest, 0.0))
+    return np.maximum((root - half) / square, s)

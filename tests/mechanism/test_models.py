@@ -1,0 +1,100 @@
+"""Models of the onset of sliding: closed forms of few blocks, and the simulation as their limit."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, draw_friction, simulate
+from springblock.mechanism.elasticity import lattice_stiffness, layer
+from springblock.mechanism.models import (
+    independent,
+    overshooting,
+    quasi_static,
+    stress_variation,
+)
+from springblock.simulation.energy import elastic_energy
+
+MATERIAL = Material()
+MODELS = [independent, quasi_static, overshooting]
+
+
+def test_energy_of_small_displacements_is_that_of_all_springs(rng):
+    shape = (5, 7)
+    u = 1e-6 * MATERIAL.spacing * rng.standard_normal((2, *shape))
+    linear = 0.5 * u.ravel() @ lattice_stiffness(shape, MATERIAL) @ u.ravel()
+    assert linear == pytest.approx(elastic_energy(u, np.zeros(2), MATERIAL), rel=1e-5)
+
+
+def test_blocks_without_contact_are_in_equilibrium(rng):
+    contact = Pattern.pillars(12, 3, 3).contact
+    reduced = layer(contact, MATERIAL)
+    k, bound = contact.sum(), np.tile(contact.ravel(), 2)
+    stiffness = lattice_stiffness(contact.shape, MATERIAL).toarray()
+    slip, s = 1e-8 * rng.standard_normal(2 * k), 2e-7
+    pulled = s * MATERIAL.k_s * np.repeat([1.0, 0.0], contact.size)
+    u = np.zeros(bound.size)
+    u[bound] = slip
+    u[~bound] = np.linalg.solve(stiffness[~bound][:, ~bound], (pulled - stiffness @ u)[~bound])
+    force = pulled - stiffness @ u
+    assert force[~bound] == pytest.approx(0.0, abs=1e-12 * abs(force).max())
+    assert force[bound] == pytest.approx(s * reduced.pull - reduced.stiffness @ slip)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("n_blocks", [1, 4])
+def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
+    """The stress is even: friction is mu_s F_n on each block until the first one lets go."""
+    flat = layer(np.ones((n_blocks, n_blocks), bool), MATERIAL)
+    static, dynamic = np.full(n_blocks**2, 3.0), np.full(n_blocks**2, 2.0)
+    curve = model(flat, static, dynamic)
+    assert curve.force.max() == pytest.approx(static.sum())
+    assert curve.slider[0] == pytest.approx(3.0 / MATERIAL.k_s)
+    assert stress_variation(flat) == pytest.approx(0.0, abs=1e-12)
+
+
+#: Stiffnesses of a spring between two blocks and of one to the slider.
+K, K_S = MATERIAL.k_int, MATERIAL.k_s
+ROW = layer(np.ones((1, 2), bool), MATERIAL)
+
+
+@pytest.mark.parametrize("second", [1.05, 1.9])
+def test_two_blocks_bear_what_the_first_one_loses(second):
+    """The first bears its mu_d F_n; K/(K + K_s) of what it loses goes to the second at once."""
+    static, dynamic = np.array([1.0, second]), np.array([0.6, 0.5])
+    curve = quasi_static(ROW, static, dynamic)
+    handed_over = K / (K + K_S) * (1.0 - 0.6)
+    # F_2 = s K_s + K u_1 with (K + K_s) u_1 = s K_s - mu_d F_n
+    later = (second + K / (K + K_S) * 0.6) / (K_S * (1.0 + K / (K + K_S)))
+    assert curve.slider == pytest.approx([1.0 / K_S, max(later, 1.0 / K_S)])
+    assert curve.force == pytest.approx([2.0, 0.6 + max(second, 1.0 + handed_over)])
+
+
+def test_a_block_that_overshoots_rests_at_half_of_its_stress():
+    """It slips by 2 (mu_s - mu_d) F_n/(K + K_s), and its neighbour is loaded by K of that."""
+    static, dynamic = np.array([1.0, 1.9]), np.array([0.8, 1.5])
+    curve = overshooting(ROW, static, dynamic)
+    left, loaded = 2.0 * 0.8 - 1.0, 1.0 + 2.0 * (1.0 - 0.8) * K / (K + K_S)
+    until_again = 1.0 - left  # of the first, which feels K_s and a neighbour at rest
+    until_second = 1.9 - loaded
+    s = 1.0 + min(until_again, until_second)
+    assert curve.slider[:2] * K_S == pytest.approx([1.0, s])
+    assert curve.force[:2] == pytest.approx([2.0, left + loaded + 2.0 * (s - 1.0)])
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_block_weaker_at_rest_than_in_motion_lets_go_at_the_larger(model):
+    one = layer(np.ones((1, 1), bool), MATERIAL)
+    curve = model(one, np.array([0.5]), np.array([0.7]))
+    assert curve.force == pytest.approx([0.7])
+
+
+@pytest.mark.parametrize("n_p", [2, 4])
+def test_without_inertia_the_simulation_redistributes_quasi_statically(n_p):
+    """Strong damping and a slow slider leave the simulation no inertia."""
+    slow = Material(gamma=2e8, slider_velocity=5e-5)
+    contact = Pattern.pillars(16, n_p, n_p).contact
+    coefficients = draw_friction(16, seed=1, material=slow)
+    load = slow.block_load * contact.size / contact.sum()
+    curve = quasi_static(layer(contact, slow), *(load * mu[contact] for mu in coefficients))
+    run = simulate(contact, *coefficients, material=slow, step=2e-8)
+    expected = curve.force.max() / (slow.block_load * contact.size)
+    assert run.static_friction == pytest.approx(expected, rel=3e-3)
