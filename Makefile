@@ -70,7 +70,7 @@ bench bench-release: setup
 
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
-	cp results/accuracy.md results/claims.md results/beyond.md results/figures/figure_6.png docs
+	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
 	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
 

@@ -18,6 +18,7 @@ include: "workflow/rules/drawn.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/correlation.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/mechanism.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
@@ -36,6 +37,7 @@ rule all:
         rules.figures.input,
         rules.report.output,
         rules.accuracy.output if config["accuracy"] else [],
+        rules.mechanism.output if config["mechanism"] else [],
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:

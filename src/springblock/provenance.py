@@ -22,8 +22,9 @@ STEPS: dict[str, tuple[str, ...]] = {
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
     "claims": ("model", "analysis", "claims"),
     "beyond": ("model", "analysis", "beyond"),
-    "plot": ("model", "analysis", "plotting"),
-    "report": ("model", "analysis", "plotting", "report"),
+    "mechanism": (*_PHYSICS, "analysis", "mechanism"),
+    "plot": ("model", "analysis", "mechanism", "plotting"),
+    "report": ("model", "analysis", "mechanism", "plotting", "report"),
 }
 #: Folders whose docstrings are part of what they make: the statements of the paper.
 _SAYING = {"claims"}

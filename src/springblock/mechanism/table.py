@@ -16,7 +16,6 @@ from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 
-SIZES = (2, 3, 4, 5, 6, 7, 8, 9, 10, 15, 20, 30)  #: n_p, with gaps n_s as wide
 SEEDS = 10
 _LEAST = 40  #: blocks along a side, at least: the models take the cube of their number
 

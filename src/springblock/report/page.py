@@ -25,6 +25,7 @@ FIGURES = {
     "sweeps": "Sweeps",
 }
 PAGES = {
+    "mechanism": "Why friction has a minimum",
     "claims": "What becomes of the paper's statements",
     "accuracy": "What to trust",
     "beyond": "Beyond the paper",
