@@ -20,7 +20,8 @@ FULL = {"configuration": ("config/full.yaml",)}
 FIGURES = {
     name
     for name, figure in declarations().items()
-    if figure.is_part_of(TINY["scenes"]) and figure.category not in ("Accuracy", "Beyond")
+    if figure.is_part_of(TINY["scenes"])
+    and figure.category not in ("Mechanism", "Accuracy", "Beyond")
 }
 
 

@@ -34,6 +34,21 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
     assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
 
 
+def test_models_on_two_sizes_become_a_table_and_a_page(springblock, tmp_path, monkeypatch):
+    monkeypatch.setattr("springblock.mechanism.table.SEEDS", 2)
+    two, four, table, page = (tmp_path / name for name in ("2", "4", "table", "page"))
+    springblock("make", "mechanism-2", "--output", two)
+    springblock("make", "mechanism-4", "--output", four)
+    springblock("make", "collect", two, four, "--output", table)
+    springblock("make", "mechanism", table, "--output", page)
+    rows = pq.read_table(four).to_pylist()
+    assert [row["seed"] for row in rows] == [0, 1]
+    for row in rows:  # inertia lowers friction, and overshoot of single blocks is most of it
+        assert row["overshooting"] == pytest.approx(row["simulation"], rel=0.02)
+        assert row["simulation"] < 0.96 * row["quasi_static"]
+    assert "lowest on pillars of 4 blocks" in page.read_text()
+
+
 @pytest.fixture
 def collect(springblock, tmp_path):
     """Collect parts of these versions; return what is said, and the table."""

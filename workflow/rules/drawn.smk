@@ -14,6 +14,7 @@ FIGURES = {
     for name, figure in declarations().items()
     if figure.is_part_of(SCENES)
     and (figure.category != "Accuracy" or config["accuracy"])
+    and (figure.category != "Mechanism" or config["mechanism"])
     and (figure.category != "Beyond" or GROUPS_BEYOND)
     and (not figure.upon_request or config["production"])
 }

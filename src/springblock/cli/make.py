@@ -1,7 +1,6 @@
-"""springblock make: tables of the error study, tables joined in one, and pages in Markdown."""
+"""springblock make: tables of accuracy and mechanism, tables joined, and pages in Markdown."""
 
 from pathlib import Path
-from types import ModuleType
 
 import click
 
@@ -9,9 +8,11 @@ from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
+from springblock.mechanism import SIZES
 
 MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
+MEASURED += [f"mechanism-{n_p}" for n_p in SIZES]
 #: Inputs of each name: what they are, how many at least, and how many at most.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
@@ -21,6 +22,7 @@ INPUTS = {
         3,
         4,
     ),
+    "mechanism": ("the table mechanism", 1, 1),
     "beyond": ("batches of realisations", 1, None),
 }
 
@@ -34,10 +36,11 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
     """Make the table or page NAME.
 
     Tables without INPUTS: stability, of stiff and extreme cases; those of errors in one comparison
-    on one scene; and production, of errors with N = 120. From INPUTS: collect joins tables of
-    equal columns, made by the same code; accuracy writes the page on errors from the tables
-    work_precision, stability, realisations and, if there is one, production; beyond answers
-    questions beyond the paper from batches of realisations, where they suffice.
+    on one scene; production, of errors with N = 120; and mechanism-N_P, of simpler models on
+    pillars of one size. From INPUTS: collect joins tables of equal columns, made by the same code;
+    accuracy writes the page on errors from the tables work_precision, stability, realisations and,
+    if there is one, production; mechanism explains the lowest friction; beyond answers questions
+    beyond the paper from batches of realisations, where they suffice.
     """
     with one_sentence():
         wanted, least, most = INPUTS[name]
@@ -53,19 +56,22 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 
 
 def _measure(name: str, output: Path) -> None:
-    """Write a table of the error study, in which there is nothing to configure."""
+    """Write a table in which there is nothing to configure."""
     from springblock.accuracy import production, stability, work_precision
+    from springblock.mechanism import table as mechanism
 
     kind, _, scene = name.partition("-")
-    module: ModuleType = work_precision
+    step, schema = "accuracy", work_precision.SCHEMA
     if kind == "stability":
-        module, rows = stability, stability.stability_rows()
+        schema, rows = stability.SCHEMA, stability.stability_rows()
     elif kind == "production":
-        module, rows = production, list(production.production_rows(scene))
+        schema, rows = production.SCHEMA, list(production.production_rows(scene))
+    elif kind == "mechanism":
+        step, schema = "mechanism", mechanism.SCHEMA
+        rows = list(mechanism.mechanism_rows(int(scene)))
     else:
         rows = list(work_precision.ROWS[kind](scene))
-    table = rows_to_table(rows, module.SCHEMA)
-    write(table, output, {"code_version": code_version("accuracy")})
+    write(rows_to_table(rows, schema), output, {"code_version": code_version(step)})
 
 
 def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) -> None:
@@ -78,7 +84,11 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
-    """Write one of the two pages."""
+    """Write one of the pages."""
+    if name == "mechanism":
+        from springblock.mechanism.page import page as mechanism
+
+        return mechanism(load(files[0]).to_pylist())
     if name == "accuracy":
         from springblock.accuracy.page import page
 

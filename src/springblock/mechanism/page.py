@@ -21,18 +21,18 @@ Static friction is lowest on pillars of {lowest} blocks because the elastic laye
 most unevenly: the edges let go early and hand their load to the rest. Uneven stress alone explains
 the friction of the smallest pillars. On larger ones the redistribution of load lowers friction, and
 the inertia of single blocks, which overshoot as they slip, lowers it further. A model of these
-three, without waves, agrees with the full simulation to {small_error:.1%} up to n_p = {small} and to
-{worst_error:.1%} on all sizes.
+three, without waves, agrees with the full simulation to {small_error:.1%} up to n_p = {small} and
+to {worst_error:.1%} on all sizes.
 
 ## Four models
 
 All start from the linear elasticity of the lattice, reduced to the blocks in contact
 (`mechanism/elasticity.py`), and use the same friction coefficients, seed by seed.
 
-1. **Stress before any slip.** Blocks at the edges of a pillar bear more than those in its middle,
-   because the free layer beside it pulls at them as well. The standard deviation of the stress over
-   its mean is largest, {largest_variation:.2f}, at n_p = {most_uneven}: on pillars of two blocks all
-   blocks are corners, and on wide pillars most blocks are far from any edge.
+1. **Stress before any slip.** Blocks inside a pillar are pulled by the slider alone; those at its
+   edges bear the free layer beside it as well. The standard deviation of the stress over its mean
+   is largest, {largest_variation:.2f}, at n_p = {most_uneven}: on pillars of two blocks all blocks
+   are corners, and on wide pillars most blocks lie inside.
 2. **Stress alone** (independent blocks). Each block lets go where its stress reaches $\\mu_s F_n$
    and bears $\\mu_d F_n$ from then on; no other block notices.
 3. **Load transfer** (quasi-static). The layer stays in equilibrium: what a block no longer bears,
@@ -57,8 +57,8 @@ Over the sizes, the unevenness of the stress and the friction of the full model 
 
 ## Limits
 
-- The models know no waves and no time. From n_p = 8 on, the full model has less friction than the
-  last of them: slips of several blocks at once overshoot further than those of single blocks.
+- The models know no waves and no time. On the larger pillars the full model has less friction
+  than the last of them: slips of several blocks at once overshoot further than those of one.
 - Surfaces are smaller than those of the study, which changes friction: compare the models with the
   full model of the same row, not with the numbers of the other pages.
 - Edges are free, the slider moves along x, and all constants are the paper's.

@@ -17,12 +17,13 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
 
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
-Category = Literal["Figures", "Supplement", "Accuracy", "Beyond"]
+Category = Literal["Figures", "Supplement", "Mechanism", "Accuracy", "Beyond"]
 #: Category of the figures in each module of `plotting`.
 _CATEGORIES: dict[str, Category] = {
     "paper_surfaces": "Figures",
     "paper_results": "Figures",
     "supplement": "Supplement",
+    "mechanism": "Mechanism",
     "accuracy_errors": "Accuracy",
     "accuracy_cases": "Accuracy",
     "beyond": "Beyond",

@@ -266,6 +266,18 @@ FIGURES: dict[str, Declaration] = {
         the stability limit; failing ones end in an exception.""",
         source=TableSource("stability"),
     ),
+    "mechanism": Declaration(
+        title="Stress, load transfer and overshoot",
+        module="mechanism",
+        caption=f"""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
+        pulled along x; on surfaces of 40 to 48 blocks a side with gaps as wide as the pillars.
+        e) Its standard deviation over its mean for all blocks in contact; no error bars, as chance
+        plays no part. f) Static friction over the size of pillars: of independent blocks under this
+        stress, with load transfer between them in equilibrium, with blocks that overshoot and
+        stick again, and of the full model, on the same surfaces and the same 10 seeds each. Means
+        with {INTERVALS.replace("realisations", "seeds")}.""",
+        source=TableSource("mechanism"),
+    ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
         module="beyond",

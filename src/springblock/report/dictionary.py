@@ -38,6 +38,7 @@ def tables() -> list[Described]:
     """Every kind of table that a study writes."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
+    from springblock.mechanism import table as mechanism
 
     kinds = [
         ("realisations", "a realisation", SUMMARY),
@@ -46,6 +47,7 @@ def tables() -> list[Described]:
         ("claims", "a finding on a statement of the paper", claims.SCHEMA),
         ("work_precision", "an error at one step", work_precision.SCHEMA),
         ("production", "an error at full size at one step", production.SCHEMA),
+        ("mechanism", "a seed on pillars of one size", mechanism.SCHEMA),
         ("stability", "a stiff or extreme case", stability.SCHEMA),
     ]
     batches = "realisations/SCENE/batch-NUMBER.parquet"

@@ -22,6 +22,8 @@ _MADE_BY = {
     "surfaces/*.npy": "mask",
     "correlations/**/*.parquet": "analyse",
     "accuracy/**/*.parquet": "accuracy",
+    "mechanism/*.parquet": "mechanism",
+    "tables/mechanism.parquet": "mechanism",
     "tables/correlation*.parquet": "analyse",
     "tables/realisations.parquet": "simulate",
     "tables/claims.parquet": "claims",
