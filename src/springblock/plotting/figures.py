@@ -266,7 +266,7 @@ FIGURES: dict[str, Declaration] = {
         the stability limit; failing ones end in an exception.""",
         source=TableSource("stability"),
     ),
-    "mechanism": Declaration(
+    "mechanism_friction": Declaration(
         title="Stress, load transfer and overshoot",
         module="mechanism",
         caption=f"""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer

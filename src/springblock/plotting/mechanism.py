@@ -27,7 +27,7 @@ _LOOKS: dict[str, Look] = {
 }
 
 
-def mechanism(table: pd.DataFrame) -> Figure:
+def mechanism_friction(table: pd.DataFrame) -> Figure:
     """Draw a-d) stress on pillars, e) how uneven it is, and f) friction by model, over n_p."""
     picture, panels = style.panels(style.DOUBLE, 118.0, "abcd|eeff", height_ratios=(45, 73))
     _draw_stress(panels[:4])
