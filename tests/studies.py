@@ -21,6 +21,7 @@ TINY = {
     "n_blocks": 12,
     "realisations_per_job": 2,
     "accuracy": False,
+    "mechanism": False,
     "material": {**PAPER["material"], "slider_velocity": 5e-3},  # so that runs are short
     "scenes": dict.fromkeys(PAPER["scenes"])
     | {

@@ -1,0 +1,40 @@
+"""The figure of the mechanism shows the table, and stress as the elastic layer has it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from springblock.plotting import drawing
+from springblock.plotting.mechanism import _pillar_stress
+
+MODELS = ("independent", "quasi_static", "overshooting", "simulation")
+TABLE = pd.DataFrame(
+    [
+        {"n_p": n_p, "seed": seed, "stress_variation": 0.1 * n_p}
+        | {name: 0.6 + 0.1 * i + 0.01 * seed * n_p for i, name in enumerate(MODELS)}
+        for n_p in (2, 6, 20)
+        for seed in (-1, 0, 1)
+    ]
+)
+DRAWINGS = {"mechanism_friction": lambda: drawing("mechanism_friction")(TABLE)}
+
+
+def test_each_model_is_drawn_with_its_mean_by_size():
+    panels = DRAWINGS["mechanism_friction"]().axes
+    (friction,) = (ax for ax in panels if ax.get_ylabel() == "static friction")
+    lines = {line.get_label(): line for line in friction.containers}
+    assert list(lines) == ["stress alone", "load transfer", "overshoot", "full model"]
+    for i, bars in enumerate(lines.values()):
+        places, means = bars.lines[0].get_data()
+        assert list(places) == [2, 6, 20]
+        assert means == pytest.approx(0.6 + 0.1 * i)
+
+
+def test_edges_bear_more_than_the_inside_which_the_slider_pulls_alone():
+    """Inside, F_mot is K_s s on each block, since no neighbour has moved."""
+    stress = _pillar_stress(6)
+    inside = stress[1:-1, 1:-1]
+    assert inside == pytest.approx(np.full_like(inside, inside[0, 0]))
+    assert stress[0].min() > inside.max()
+    assert stress[:, 0].min() > inside.max()
+    assert stress.mean() == pytest.approx(1.0, rel=1e-3)  # other pillars lie nearer to the middle
