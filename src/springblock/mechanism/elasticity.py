@@ -33,16 +33,26 @@ class Layer(NamedTuple):
 
 def layer(contact: NDArray[np.bool_], material: Material) -> Layer:
     """Reduce a layer with free edges to its blocks in `contact`, (N_y, N_x), pulled along x."""
-    stiffness = lattice_stiffness(contact.shape, material)
-    bound = np.tile(contact.ravel(), 2)
-    pull = material.k_s * np.repeat([1.0, 0.0], contact.size)
-    reduced, b = stiffness[bound][:, bound].toarray(), pull[bound]
+    stiffness, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
+    reduced = stiffness[bound][:, bound].toarray()
     if not contact.all():
         coupling = stiffness[~bound][:, bound]
-        solve = splu(stiffness[~bound][:, ~bound]).solve
-        reduced -= coupling.T @ solve(coupling.toarray())
-        b = b - coupling.T @ solve(pull[~bound])
-    return Layer(reduced, b)
+        edge = np.flatnonzero(np.diff(coupling.indptr))  # blocks beside one without contact
+        near = coupling[:, edge]
+        reduced[np.ix_(edge, edge)] -= near.T @ splu(stiffness[~bound][:, ~bound]).solve(
+            near.toarray()
+        )
+    return Layer(reduced, pull(contact, material))
+
+
+def pull(contact: NDArray[np.bool_], material: Material) -> Array:
+    """Return b of a layer, (2k,) N/m: the stress on blocks in contact before any slip, over s."""
+    stiffness, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
+    load = material.k_s * np.repeat([1.0, 0.0], contact.size)
+    if contact.all():
+        return load
+    free = splu(stiffness[~bound][:, ~bound]).solve(load[~bound])
+    return load[bound] - stiffness[bound][:, ~bound] @ free
 
 
 def lattice_stiffness(shape: tuple[int, int], material: Material) -> csc_array:

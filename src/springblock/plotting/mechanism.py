@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from springblock.mechanism.elasticity import layer
+from springblock.mechanism.elasticity import pull
 from springblock.mechanism.page import NAMES
 from springblock.mechanism.table import scene
 from springblock.model.material import Material
@@ -60,7 +60,7 @@ def _draw_stress(panels: Sequence[Axes]) -> None:
 def _pillar_stress(n_p: int) -> Array:
     """Return |F_mot| on the blocks of the first pillar before any slip, over the mean of all."""
     pattern = scene(n_p).pattern
-    pulled = np.hypot(*layer(pattern.contact, Material()).pull.reshape(2, -1))
+    pulled = np.hypot(*pull(pattern.contact, Material()).reshape(2, -1))
     stress = np.zeros(pattern.shape)
     stress[pattern.contact] = pulled / pulled.mean()
     y, x = pattern.origins[0]
