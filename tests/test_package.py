@@ -27,11 +27,12 @@ sys.meta_path.insert(0, Withhold())
 import click
 
 from springblock import Pattern, draw_friction, plot, simulate
-from springblock.cli import main
+from springblock.cli import COMMANDS, main
 
 run = simulate(Pattern.pillars(6, 2, 1).contact, *draw_friction(6, seed=0), duration=4e-6)
 plot(run).savefig({folder!r} + "/run.png")
 for command in (
+    *(f"{{command}} --help" for command in COMMANDS),
     "simulate --n-blocks 6 --duration 4e-6 --output {folder}/run.parquet",
     "info {folder}/run.parquet",
     "plot {folder}/run.parquet --output {folder}/a.pdf",

@@ -60,10 +60,3 @@ def test_stress_is_that_of_preludes(springblock, pillars, outputs, tmp_path):
         judged[given] = verdicts(tmp_path / "a")
     name = "Edges across the sliding direction bear more"
     assert [found[name] for found in judged.values()] == ["not tested", "reproduced"]
-
-
-def test_what_is_no_table_is_refused(springblock, batch, outputs, tmp_path):
-    (text := tmp_path / "text").write_text("text")
-    refusal = springblock("claims", batch(0, 2), "--realisations", text, *outputs, refused=True)
-    assert "Parquet" in refusal
-    assert list(tmp_path.iterdir()) == [text]

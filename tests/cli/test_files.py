@@ -10,6 +10,9 @@ from springblock.analysis.comparison import compare
 from springblock.io.parquet import write
 from springblock.report.dictionary import tables
 
+CONFIGURATION = ("--configuration", "0123")
+PAGE = ("--output", "{here}/a", "--page", "{here}/a.md")
+
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
     said = springblock("info", batch(0, 2))
@@ -26,9 +29,23 @@ def test_info_says_what_a_prelude_holds(springblock, tmp_path):
     assert "slider_velocity=0.0005" in said
 
 
-def test_info_refuses_what_is_neither(springblock, tmp_path):
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("info", "{file}"),
+        ("aggregate", "{file}", *CONFIGURATION, "--output", "{here}/a"),
+        ("plot", "{file}", "--output", "{here}/a.png"),
+        ("animate", "{file}", "--output", "{here}/a.gif"),
+        ("make", "beyond", "{file}", "--output", "{here}/a.md"),
+        ("claims", "{batch}", "--realisations", "{file}", *CONFIGURATION, *PAGE),
+    ],
+    ids=lambda words: words[0],
+)
+def test_what_is_no_table_is_refused(springblock, batch, tmp_path, words):
     (text := tmp_path / "text").write_text("text")
-    assert "Parquet" in springblock("info", text, refused=True)
+    words = [word.format(file=text, here=tmp_path, batch=batch(0, 2)) for word in words]
+    assert "Parquet" in springblock(*words, refused=True)
+    assert list(tmp_path.iterdir()) == [text]
 
 
 def changed(file, to, **columns):

@@ -55,17 +55,13 @@ def test_a_material_does_not_change():
 
 
 @pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("value", ["1", None, True, 1j])
-def test_what_is_no_number_is_refused_by_name(name, value):
-    with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
-        replace(PAPER, **{name: value})
-
-
-@pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
-def test_impossible_numbers_are_refused_by_name(name, value):
-    with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
-        replace(PAPER, **{name: value})
+def test_what_is_no_number_and_impossible_numbers_are_refused_by_name(name):
+    for value in ("1", None, True, 1j):
+        with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
+            replace(PAPER, **{name: value})
+    for value in (-1.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
+            replace(PAPER, **{name: value})
 
 
 @pytest.mark.parametrize("name", NUMBERS)
