@@ -127,14 +127,6 @@ def test_a_torn_image_is_refused(saved, rng):
         BlockMap.mask(file)
 
 
-@pytest.mark.parametrize("limit", [4, 2])
-def test_an_image_of_too_many_pixels_is_refused(saved, monkeypatch, limit):
-    """Pillow warns of those beyond its limit, and refuses those of twice as many."""
-    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", limit)
-    with pytest.raises(ValueError, match="is larger than the 4096 x 4096 blocks that"):
-        BlockMap.mask(saved(CORNER, "large.png"))
-
-
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [

@@ -78,25 +78,6 @@ def test_a_law_may_be_an_axis_with_its_constant():
     assert scenes[1] == Scene(9, varied={"law": "slip_weakening", "slip_distance": 1e-7})
 
 
-@pytest.mark.parametrize(
-    ("axes", "sentence"),
-    [
-        ({"law": ["slip_weakening"]}, "slip_distance must be positive with slip_weakening"),
-        ({"slip_distance": [1e-7]}, "slip_distance must be zero with coulomb, not 1e-07"),
-        ({"speed_scale": [-1.0]}, "speed_scale must be finite and zero or positive, not -1.0"),
-    ],
-)
-def test_a_group_whose_law_lacks_its_constant_is_refused_by_name(axes, sentence):
-    grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}
-    with pytest.raises(ValueError, match=rf"^scenes\.weak: Material\.{sentence}"):
-        check(changed("scenes", "weak", to=grid), SCHEMA)
-
-
-def test_there_is_no_other_law():
-    with pytest.raises(ValueError, match=r"^material\.law is not valid: 'stribeck' is not one of"):
-        check(changed("material", "law", to="stribeck"), SCHEMA)
-
-
 def test_gaps_may_follow_the_pillars():
     halved = changed("scenes", "pillars", "n_s", to=["n_p/2"])
     assert [e.scene.n_s for e in ensembles(halved)["pillars"]] == [1, 1, 3, 5, 10, 15, 30]
@@ -406,6 +387,27 @@ def test_any_change_changes_the_digest():
         ),
         (("figures", "figure_7", "n_p"), 3, "figure_7.n_p is not valid: 3.*at least 6"),
         (("scenes", "flat"), {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
+        (("stepp",), 1e-8, "the configuration has the unknown key 'stepp'"),
+        (("sample_interval",), 2.5e-8, "sample_interval must be a multiple of step"),
+        (("material", "density"), -1.0, "material.density is not valid: -1.0"),
+        (("material", "law"), "stribeck", "^material.law is not valid: 'stribeck' is not one of"),
+        (("scenes", "spacing", 0, "n_p"), [5, 5], "spacing.0.n_p is not valid.*non-unique"),
+        (("scenes", "flat", "seeds"), "many", "flat.seeds is not valid: 'many' is not .*'integer'"),
+        (
+            ("scenes", "flat", "material"),
+            {"law": ["slip_weakening"]},
+            "^scenes.flat: Material.slip_distance must be positive with slip_weakening",
+        ),
+        (
+            ("scenes", "flat", "material"),
+            {"slip_distance": [1e-7]},
+            "^scenes.flat: Material.slip_distance must be zero with coulomb, not 1e-07",
+        ),
+        (
+            ("scenes", "flat", "material"),
+            {"speed_scale": [-1.0]},
+            "^scenes.flat: Material.speed_scale must be finite and zero or positive, not -1.0",
+        ),
     ],
 )
 def test_one_sentence_says_what_is_wrong(path, value, sentence):
