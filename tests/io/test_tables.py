@@ -5,8 +5,8 @@ import pyarrow as pa
 import pytest
 
 from springblock.files import whole_file
-from springblock.io.parquet import read, rows_to_table, write
-from springblock.io.schemas import BATCH, SUMMARY
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.schemas import BATCH
 
 
 def test_an_interrupted_file_leaves_nothing_behind(tmp_path):
@@ -26,13 +26,6 @@ def test_an_interrupted_file_does_not_harm_the_one_before(tmp_path):
     with pytest.raises(ValueError, match="nothing to write"):
         write(rows_to_table([], BATCH), file, {})
     assert file.read_text() == "before"
-
-
-def test_a_file_without_a_column_is_named(tmp_path):
-    file = tmp_path / "a.parquet"
-    write(pa.table({"level": [1]}), file, {})
-    with pytest.raises(ValueError, match=r"a.parquet lacks the column 'n_p'"):
-        read([file], SUMMARY)
 
 
 def test_columns_are_those_that_arrow_itself_would_make():

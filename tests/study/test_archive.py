@@ -1,13 +1,11 @@
 """One file to deposit: what is in it, what it says of itself, and that nobody contradicts it."""
 
 import hashlib
-import json
 import shutil
 import subprocess
 import zipfile
 
 import pytest
-import yaml
 from click.testing import CliRunner
 from rocrate.rocrate import ROCrate
 
@@ -129,22 +127,3 @@ def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path)
     again = {file: file.read_bytes() for file in before if file.exists()}
     assert {file.stem for file in again} == {*some, "claims"}
     assert again.items() <= before.items()
-
-
-def test_every_description_of_the_software_says_the_same():
-    read = {
-        "citation": yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8")),
-        "codemeta": json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8")),
-        "zenodo": json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8")),
-    }
-    assert len({each["version"] for each in read.values()}) == 1
-    assert len({each["license"].rsplit("/", 1)[-1] for each in read.values()}) == 1
-    paper = read["citation"]["references"][0]
-    assert read["codemeta"]["referencePublication"]["@id"].endswith(paper["doi"])
-    assert read["codemeta"]["referencePublication"]["name"] == paper["title"]
-    assert read["zenodo"]["related_identifiers"][0]["identifier"] == paper["doi"]
-    names = [
-        [each["name"] for each in read[kind][key]]
-        for kind, key in (("citation", "authors"), ("codemeta", "author"), ("zenodo", "creators"))
-    ]
-    assert names[0] == names[1] == names[2]
