@@ -34,33 +34,22 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
     assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
 
 
-@pytest.fixture
-def collect(springblock, tmp_path):
-    """Collect parts of these versions; return what is said, and the table."""
-
-    def collected(*versions, refused=False):
-        parts, output = [], tmp_path / "table.parquet"
-        for number, version in enumerate(versions):
-            errors = {"t_max": np.array([3.0, 4.0])}
-            rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
-            parts.append(tmp_path / f"{number}.parquet")
-            write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})
-        return springblock("make", "collect", *parts, "--output", output, refused=refused), output
-
-    return collected
-
-
-def test_a_table_of_parts_says_which_code_made_them(collect):
-    _, output = collect("1+a", "1+a")
-    table = pq.read_table(output)
-    assert table.schema.metadata[b"code_version"] == b"1+a"
-    assert table["error"].to_pylist() == 2 * [pytest.approx(12.5**0.5)]
-
-
-def test_parts_of_different_code_are_refused(collect):
-    said, output = collect("1+a", "1+b", refused=True)
-    assert "were made by different code, a and b" in said
-    assert not output.exists()
+@pytest.mark.parametrize("other", ["1+a", "1+b"])
+def test_a_table_of_parts_says_which_code_made_all_of_them(springblock, tmp_path, other):
+    parts, output = [], tmp_path / "table.parquet"
+    for version in ("1+a", other):
+        errors = {"t_max": np.array([3.0, 4.0])}
+        rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
+        parts.append(tmp_path / f"{len(parts)}.parquet")
+        write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})
+    said = springblock("make", "collect", *parts, "--output", output, refused=other != "1+a")
+    if other == "1+a":
+        table = pq.read_table(output)
+        assert table.schema.metadata[b"code_version"] == b"1+a"
+        assert table["error"].to_pylist() == 2 * [pytest.approx(12.5**0.5)]
+    else:
+        assert "were made by different code, a and b" in said
+        assert not output.exists()
 
 
 @pytest.fixture

@@ -38,14 +38,11 @@ def same(a: Realisation, b: Realisation, samples=None):
 # --- what a run answers
 
 
-def test_a_curve_starts_at_rest_and_has_one_entry_per_interval(run):
+def test_curves_start_at_rest_and_have_one_entry_per_interval_and_fields_one_per_block(run):
     assert run.time.shape == run.force.shape == run.detachments.shape == run.switches.shape
     assert (run.time[0], run.force[0], run.detachments[0], run.switches[0]) == (0, 0, 0, 0)
     np.testing.assert_allclose(np.diff(run.time), 2e-7, rtol=1e-10)  # differences of 1e-4
     assert run.steps == round(2e-7 / STEP) * (len(run.time) - 1)
-
-
-def test_fields_have_one_entry_per_block(run):
     assert run.t_det.shape == (N, N)
     assert run.displacement.shape == run.velocity.shape == (2, N, N)
     assert run.snapshots.shape == (0, 2, N, N)
