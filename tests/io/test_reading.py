@@ -51,13 +51,9 @@ def test_runs_are_in_order_of_their_seeds_and_have_their_snapshots(runs, tmp_pat
         assert run.snapshots.shape == (2, 2, 6, 6)
 
 
-def test_a_file_without_snapshots_is_one_of_none(runs, tmp_path):
+def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(runs, tmp_path):
     (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
     assert len(run.snapshots) == len(run.snapshot_times) == 0
-
-
-def test_a_run_says_in_one_line_which_it_is(runs, tmp_path):
-    (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
     scene = "n_blocks = 6, level = 1, n_p = 2, n_s = 1, direction = x, seed = 3"
     assert repr(run).startswith(f"<{scene}: static friction ")
     assert "\n" not in repr(run)
