@@ -138,16 +138,12 @@ def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own, words, se
     assert re.search(sentence, refusal)
 
 
-def test_one_run_needs_no_seeds(springblock, tmp_path):
-    springblock("simulate", *FLAT, "--output", tmp_path / "a")
-    springblock("simulate", *FLAT, "--first-seed", 3, "--output", tmp_path / "b")
+def test_one_run_needs_no_seeds_and_counts_samples_while_a_batch_counts_runs(springblock, tmp_path):
+    short = (*FLAT, "--duration", 4e-6, "--output")
+    assert "20/20" in springblock("simulate", *short, tmp_path / "a")
+    assert "20/20" in springblock("simulate", *short, tmp_path / "b", "--first-seed", 3)
     assert [pq.read_table(tmp_path / name)["seed"].to_pylist() for name in "ab"] == [[0], [3]]
-
-
-def test_a_single_run_counts_samples_and_a_batch_its_runs(springblock, tmp_path):
-    short = ("--duration", 4e-6, "--output", tmp_path / "a")
-    assert "20/20" in springblock("simulate", *FLAT, *short)
-    said = springblock("simulate", *FLAT, *short, "--last-seed", 2)
+    said = springblock("simulate", *short, tmp_path / "c", "--last-seed", 2)
     assert "3/3" in said
     assert "20/20" not in said
 
