@@ -1,7 +1,9 @@
 """A tiny study from end to end, and when the workflow runs what again."""
 
 import re
+import shutil
 import subprocess
+import zipfile
 
 import pyarrow.parquet as pq
 import pytest
@@ -11,7 +13,8 @@ from springblock import Material
 from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.plotting import declarations
 from springblock.solver.integrators import INTEGRATORS
-from studies import PAPER, ROOT, TINY
+from springblock.study.archive import archive
+from studies import PAPER, ROOT, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
 FULL = {"configuration": ("config/full.yaml",)}
@@ -137,6 +140,33 @@ def test_a_printed_command_runs_by_hand(study):
 
 def test_a_finished_study_has_nothing_to_do(study):
     assert study.planned() == {}
+
+
+def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
+    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
+    folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
+    for name in ("CITATION.cff", "environment.lock"):
+        shutil.copy(ROOT / name, folder)
+    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
+    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
+    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
+    with zipfile.ZipFile(tmp_path / "study.zip") as file:
+        file.extractall(tmp_path / "unpacked")
+    results = tmp_path / "unpacked/results"
+    pages = [*results.glob("figures/*"), results / "claims.md"]
+    before = {file: file.read_bytes() for file in pages}
+    assert len(before) > 20
+    unpacked = Study(tmp_path / "unpacked")
+    unpacked.run("--touch")
+    for file in before:
+        file.unlink()
+    names = sorted({file.stem for file in before if file.suffix == ".png"})
+    assert set(unpacked.planned("--", *names, "claims")) == {*names, "claims"}
+    some = ("figure_1", "figure_3", "figure_7")  # of patterns, realisations and correlations
+    unpacked.run("--", *some, "claims")
+    again = {file: file.read_bytes() for file in before if file.exists()}
+    assert {file.stem for file in again} == {*some, "claims"}
+    assert again.items() <= before.items()
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,6 @@
 """One file to deposit: what is in it, what it says of itself, and that nobody contradicts it."""
 
 import hashlib
-import shutil
 import subprocess
 import zipfile
 
@@ -11,7 +10,7 @@ from rocrate.rocrate import ROCrate
 
 from springblock.cli import main
 from springblock.study.archive import CRATE, archive
-from studies import ROOT, Study
+from studies import ROOT
 
 CODE = {
     "Snakefile": "rule all:\n",
@@ -100,30 +99,3 @@ def test_what_is_no_finished_study_is_refused(clone, monkeypatch, missing, sente
     assert outcome.exit_code == 1
     assert sentence in outcome.output
     assert not (clone / "study.zip").exists()
-
-
-def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
-    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
-    folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
-    for name in ("CITATION.cff", "environment.lock"):
-        shutil.copy(ROOT / name, folder)
-    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
-    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
-    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
-    with zipfile.ZipFile(tmp_path / "study.zip") as file:
-        file.extractall(tmp_path / "unpacked")
-    results = tmp_path / "unpacked/results"
-    pages = [*results.glob("figures/*"), results / "claims.md"]
-    before = {file: file.read_bytes() for file in pages}
-    assert len(before) > 20
-    unpacked = Study(tmp_path / "unpacked")
-    unpacked.run("--touch")
-    for file in before:
-        file.unlink()
-    names = sorted({file.stem for file in before if file.suffix == ".png"})
-    assert set(unpacked.planned("--", *names, "claims")) == {*names, "claims"}
-    some = ("figure_1", "figure_3", "figure_7")  # of patterns, realisations and correlations
-    unpacked.run("--", *some, "claims")
-    again = {file: file.read_bytes() for file in before if file.exists()}
-    assert {file.stem for file in again} == {*some, "claims"}
-    assert again.items() <= before.items()
