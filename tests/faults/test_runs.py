@@ -225,15 +225,12 @@ def test_touch_does_not_bless_results_of_another_configuration(study):
     assert {"prelude", "simulate_batch", "aggregate"} <= study.planned().keys()
 
 
-def test_results_without_their_record_are_refused(study):
-    (study.results / "study.json").unlink()
-    assert "without study.json" in study.run("--dry-run", refused=True)
-
-
-def test_batches_of_another_size_are_refused(study):
+def test_batches_of_another_size_and_results_without_their_record_are_refused(study):
     study.configure(realisations_per_job=3)
     said = study.run("--dry-run", refused=True)
     assert "realisations_per_job: results was made with 2" in said
+    (study.results / "study.json").unlink()
+    assert "without study.json" in study.run("--dry-run", refused=True)
 
 
 def test_a_growing_study_has_each_seed_once(study):

@@ -112,10 +112,6 @@ def test_a_mask_takes_the_place_of_the_pattern():
         _ = OWN.pattern
 
 
-def test_jobs_read_the_files_of_a_scene():
-    assert STRONG.files == {"mu_static_field": Path("strong.npy")}
-
-
 def test_a_table_knows_a_mask_by_its_name():
     known = Scene.from_row(OWN.row)
     assert known == OWN
@@ -139,7 +135,8 @@ def test_rectangles_hold_the_same_patterns():
     assert wide.contact.shape == wide.shape == (12, 24)
 
 
-def test_coefficients_matter_in_contact_alone():
+def test_coefficients_are_read_from_their_file_and_matter_in_contact_alone():
+    assert STRONG.files == {"mu_static_field": Path("strong.npy")}
     mask = replace(CORNER, values=np.array([[True, False]]))
     Scene(mask=mask, mu_static_field=field([[1.0, np.nan]]))
     with pytest.raises(ValueError, match="strong-00000000 must be finite and not negative"):
