@@ -4,7 +4,9 @@ import shutil
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from springblock.cli import main
 from studies import ROOT, Study
 
 
@@ -12,6 +14,19 @@ from studies import ROOT, Study
 def rng():
     """Random numbers, the same in every run."""
     return np.random.default_rng(2022)
+
+
+@pytest.fixture(scope="session")
+def springblock():
+    """Call `springblock` with these words; return what it says, or its refusal of bad input."""
+
+    def call(*words, refused=False):
+        outcome = CliRunner().invoke(main, [str(word) for word in words])
+        assert (outcome.exit_code != 0) == refused, outcome.output
+        assert outcome.exception is None or isinstance(outcome.exception, SystemExit)
+        return outcome.output.splitlines()[-1] if refused else outcome.output
+
+    return call
 
 
 @pytest.fixture(scope="session")

@@ -118,18 +118,3 @@ def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
         assert run.scene.edges == "periodic"
         coefficients = draw_friction((6, 12), run.seed, run.material, periodic=True)
         assert_same(run, np.ones((6, 12), bool), *coefficients, periodic=True)
-
-
-@pytest.mark.parametrize(
-    ("mask", "sentence"),
-    [
-        ("absent.png", "scenes.surfaces: absent.png does not exist"),
-        ("tiny.yaml", "scenes.surfaces: tiny.yaml is neither an image nor an array"),
-    ],
-)
-def test_a_file_that_is_no_mask_is_refused_before_any_job(study, mask, sentence):
-    surfaces = {"mask": mask, "direction": ["x"], "seeds": 1}
-    study.write("wrong.yaml", {"scenes": {"surfaces": surfaces}})
-    said = study.run("--dry-run", configuration=("tiny.yaml", "wrong.yaml"), refused=True)
-    assert sentence in said
-    assert "Traceback" not in said

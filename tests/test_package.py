@@ -1,5 +1,6 @@
 """What a user of the solver installs: `pip install .`, without what the study needs besides."""
 
+import json
 import re
 import subprocess
 import sys
@@ -27,11 +28,12 @@ sys.meta_path.insert(0, Withhold())
 import click
 
 from springblock import Pattern, draw_friction, plot, simulate
-from springblock.cli import main
+from springblock.cli import COMMANDS, main
 
 run = simulate(Pattern.pillars(6, 2, 1).contact, *draw_friction(6, seed=0), duration=4e-6)
 plot(run).savefig({folder!r} + "/run.png")
 for command in (
+    *(f"{{command}} --help" for command in COMMANDS),
     "simulate --n-blocks 6 --duration 4e-6 --output {folder}/run.parquet",
     "info {folder}/run.parquet",
     "plot {folder}/run.parquet --output {folder}/a.pdf",
@@ -63,10 +65,23 @@ def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
     assert {"run.png", "a.pdf", "b.pdf", "c.gif"} <= {file.name for file in tmp_path.iterdir()}
 
 
-def test_a_release_has_one_version_and_one_date():
-    """In what is installed, in what is cited, and at the head of what has changed."""
+def test_every_description_of_the_software_says_the_same():
+    """What is installed, what is cited, what is deposited, and the head of what has changed."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    codemeta, zenodo = (
+        json.loads((ROOT / name).read_text(encoding="utf-8"))
+        for name in ("codemeta.json", ".zenodo.json")
+    )
     changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     latest, date = re.findall(r"^## \[(\d+\.\d+\.\d+)\] - (\S+)$", changes, re.MULTILINE)[0]
-    assert {PROJECT["version"], cited["version"], latest} == {PROJECT["version"]}
     assert str(cited["date-released"]) == date
+    descriptions = (PROJECT, cited, codemeta, zenodo)
+    assert {each["version"] for each in descriptions} == {latest}
+    assert {each["license"].rsplit("/", 1)[-1] for each in descriptions} == {PROJECT["license"]}
+    names = [each["name"] for each in cited["authors"]]
+    assert [each["name"] for each in codemeta["author"]] == names
+    assert [each["name"] for each in zenodo["creators"]] == names
+    paper = cited["references"][0]
+    assert codemeta["referencePublication"]["@id"].endswith(paper["doi"])
+    assert codemeta["referencePublication"]["name"] == paper["title"]
+    assert zenodo["related_identifiers"][0]["identifier"] == paper["doi"]

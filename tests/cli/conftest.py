@@ -1,22 +1,6 @@
-"""The command line as a function, and batches of small surfaces for it to work on."""
+"""Batches of small surfaces for the command line to work on."""
 
 import pytest
-from click.testing import CliRunner
-
-from springblock.cli import main
-
-
-@pytest.fixture(scope="session")
-def springblock():
-    """Call `springblock` with these words; return what it says, or its refusal of bad input."""
-
-    def call(*words, refused=False):
-        outcome = CliRunner().invoke(main, [str(word) for word in words])
-        assert (outcome.exit_code != 0) == refused, outcome.output
-        assert outcome.exception is None or isinstance(outcome.exception, SystemExit)
-        return outcome.output.splitlines()[-1] if refused else outcome.output
-
-    return call
 
 
 @pytest.fixture(scope="session")

@@ -33,15 +33,3 @@ def test_a_large_energy_residual_is_reported(springblock, batch, tmp_path):
     output = ("--output", tmp_path / "a")
     said = springblock("aggregate", tmp_path / "bad", *CONFIGURATION, *output)
     assert said.startswith("warning: energy residual 2.5e-01 at n_blocks = 12, level = 0")
-
-
-def test_what_is_no_batch_is_refused(springblock, batch, tmp_path):
-    (text := tmp_path / "text").write_text("text")
-    narrow = tmp_path / "narrow"
-    write(pq.read_table(batch(0, 0), columns=["level"]), narrow, {})
-    output = (*CONFIGURATION, "--output", tmp_path / "a")
-    assert "Parquet" in springblock("aggregate", text, *output, refused=True)
-    assert f"{narrow} lacks the column 'n_p'" in springblock(
-        "aggregate", narrow, *output, refused=True
-    )
-    assert "Missing argument 'BATCHES...'" in springblock("aggregate", *output, refused=True)

@@ -48,22 +48,3 @@ def test_surfaces_are_judged_by_enough_realisations(springblock, batch, outputs,
 
     assert counted(few, "few") == [0]  # not tested
     assert counted(many, "few", "many") == counted(many, "few", "others") == [ENOUGH]
-
-
-def test_stress_is_that_of_preludes(springblock, pillars, outputs, tmp_path):
-    prelude, table = tmp_path / "prelude.npz", tmp_path / "realisations"
-    springblock("aggregate", *pillars, "--configuration", "0123", "--output", table)
-    springblock("prelude", "--n-blocks", 12, "--n-p", 6, "--n-s", 6, "--output", prelude)
-    judged = {}
-    for given in ((), ("--prelude", prelude)):
-        springblock("claims", *pillars, "--realisations", table, *given, *outputs)
-        judged[given] = verdicts(tmp_path / "a")
-    name = "Edges across the sliding direction bear more"
-    assert [found[name] for found in judged.values()] == ["not tested", "reproduced"]
-
-
-def test_what_is_no_table_is_refused(springblock, batch, outputs, tmp_path):
-    (text := tmp_path / "text").write_text("text")
-    refusal = springblock("claims", batch(0, 2), "--realisations", text, *outputs, refused=True)
-    assert "Parquet" in refusal
-    assert list(tmp_path.iterdir()) == [text]

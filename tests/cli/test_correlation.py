@@ -25,13 +25,13 @@ def test_sides_along_both_axes_are_correlated_and_collected(
         assert set(table["realisations"].to_pylist()) == {3}
 
 
-def test_surfaces_without_sides_are_refused(springblock, batch, outputs):
-    refusal = springblock("correlation", batch(0, 0), *outputs, refused=True)
+def test_surfaces_without_sides_and_two_scenes_are_refused(
+    springblock, batch, pillars, outputs, tmp_path
+):
+    flat = batch(0, 0)
+    refusal = springblock("correlation", flat, *outputs, refused=True)
     assert "n_blocks-12/level-0/direction-x has no whole sides of 6 blocks or more" in refusal
-
-
-def test_two_scenes_are_refused(springblock, batch, pillars, outputs, tmp_path):
-    refusal = springblock("correlation", *pillars, batch(0, 0), *outputs, refused=True)
+    refusal = springblock("correlation", *pillars, flat, *outputs, refused=True)
     assert "one scene is correlated, not " in refusal
     assert list(tmp_path.iterdir()) == []
 

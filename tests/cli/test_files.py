@@ -1,6 +1,7 @@
 """springblock info, compare and dictionary."""
 
 import os
+import shutil
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -9,6 +10,9 @@ import pytest
 from springblock.analysis.comparison import compare
 from springblock.io.parquet import write
 from springblock.report.dictionary import tables
+
+CONFIGURATION = ("--configuration", "0123")
+PAGE = ("--output", "{here}/a", "--page", "{here}/a.md")
 
 
 def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
@@ -26,9 +30,23 @@ def test_info_says_what_a_prelude_holds(springblock, tmp_path):
     assert "slider_velocity=0.0005" in said
 
 
-def test_info_refuses_what_is_neither(springblock, tmp_path):
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("info", "{file}"),
+        ("aggregate", "{file}", *CONFIGURATION, "--output", "{here}/a"),
+        ("plot", "{file}", "--output", "{here}/a.png"),
+        ("animate", "{file}", "--output", "{here}/a.gif"),
+        ("make", "beyond", "{file}", "--output", "{here}/a.md"),
+        ("claims", "{batch}", "--realisations", "{file}", *CONFIGURATION, *PAGE),
+    ],
+    ids=lambda words: words[0],
+)
+def test_what_is_no_table_is_refused(springblock, batch, tmp_path, words):
     (text := tmp_path / "text").write_text("text")
-    assert "Parquet" in springblock("info", text, refused=True)
+    words = [word.format(file=text, here=tmp_path, batch=batch(0, 2)) for word in words]
+    assert "Parquet" in springblock(*words, refused=True)
+    assert list(tmp_path.iterdir()) == [text]
 
 
 def changed(file, to, **columns):
@@ -41,11 +59,6 @@ def changed(file, to, **columns):
         )
     write(table.take(list(range(table.num_rows))[::-1]), to, {})
     return to
-
-
-def test_equal_tables_are_the_same_in_any_order(springblock, batch, tmp_path):
-    said = springblock("compare", batch(0, 2), changed(batch(0, 2), tmp_path / "b"))
-    assert "the same 3 rows, to the bit" in said
 
 
 def test_a_difference_is_named_with_its_size(springblock, batch, tmp_path):
@@ -76,10 +89,13 @@ def test_tables_without_a_common_row_say_so(springblock, batch):
 
 
 def test_folders_are_compared_table_by_table(springblock, batch, tmp_path):
+    """And equal tables are the same in any order of their rows."""
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
-        changed(batch(0, 2), tmp_path / folder / "some.parquet")
-    assert "some.parquet: the same 3 rows" in springblock("compare", tmp_path / "a", tmp_path / "b")
+    shutil.copy(batch(0, 2), tmp_path / "a/some.parquet")
+    changed(batch(0, 2), tmp_path / "b/some.parquet")
+    said = springblock("compare", tmp_path / "a", tmp_path / "b")
+    assert "some.parquet: the same 3 rows, to the bit" in said
     (tmp_path / "a/some.parquet").rename(tmp_path / "a/other.parquet")
     refusal = springblock("compare", tmp_path / "a", tmp_path / "b", refused=True)
     assert "do not hold the same tables: other.parquet, some.parquet" in refusal

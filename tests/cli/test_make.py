@@ -125,10 +125,3 @@ def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(
     text = page.read_text(encoding="utf-8")
     assert "**Not answered**: this needs the groups lattice, disorder and layer." in text
     assert "| flat | " in text  # clusters of precursors
-
-
-def test_a_file_that_is_no_batch_is_refused(springblock, tmp_path):
-    (text := tmp_path / "text").write_text("text")
-    refusal = springblock("make", "beyond", text, "--output", tmp_path / "page.md", refused=True)
-    assert "Parquet" in refusal
-    assert list(tmp_path.iterdir()) == [text]

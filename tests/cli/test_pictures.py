@@ -1,10 +1,8 @@
 """springblock plot, animate and show."""
 
-import pyarrow.parquet as pq
 import pytest
 from PIL import Image
 
-from springblock.io.parquet import write
 from springblock.plotting import film, style
 
 
@@ -60,15 +58,6 @@ def test_other_formats_are_refused(springblock, batch, tmp_path, words, sentence
         *words, batch(0, 1), "--output", tmp_path / "run.avi", refused=True
     )
     assert list(tmp_path.iterdir()) == []
-
-
-def test_what_holds_no_runs_is_refused(springblock, batch, tmp_path):
-    (text := tmp_path / "text").write_text("text")
-    assert "Parquet" in springblock("plot", text, "--output", tmp_path / "a.png", refused=True)
-    narrow = tmp_path / "narrow"
-    write(pq.read_table(batch(0, 1), columns=["level"]), narrow, {})
-    refusal = springblock("animate", narrow, "--output", tmp_path / "a.gif", refused=True)
-    assert f"{narrow} lacks the column 'n_p'" in refusal
 
 
 def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path):

@@ -23,10 +23,6 @@ def truncated(file, study):
     file.write_bytes(content[: len(content) // 8])
 
 
-def emptied(file, study):
-    file.write_bytes(b"")
-
-
 def flipped(file, study):
     content = bytearray(file.read_bytes())
     place = len(content) // 3

@@ -4,12 +4,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import yaml
-
 import studies
-from studies import GROOVES, PAPER, ROOT, TINY
-
-__all__ = ["GROOVES", "PAPER", "ROOT", "TINY", "Study", "copy"]
 
 TARGETS = ("aggregate", "correlations")
 
@@ -20,17 +15,6 @@ class Study(studies.Study):
     @property
     def results(self) -> Path:
         return self / "results"
-
-    @property
-    def configuration(self) -> dict:
-        return yaml.safe_load((self / "tiny.yaml").read_text())
-
-    @property
-    def tables(self) -> dict[str, str]:
-        return self.numbers()
-
-    def tables_in(self, results: str) -> dict[str, str]:
-        return self.numbers(results)
 
     def command(self, *options: str, **how) -> list[str]:
         return super().command("--cores", "1", *options, **how)

@@ -42,21 +42,18 @@ def test_runs_are_in_order_of_their_seeds_and_have_their_snapshots(runs, tmp_pat
     for run in read_back:
         told = runs[run.seed]
         assert run.scene == SCENE
-        np.testing.assert_array_equal(run.force, told.force)
-        np.testing.assert_array_equal(run.t_det, told.t_det)
-        np.testing.assert_array_equal(run.contact, told.contact)
+        for name in ("force", "detachments", "switches", "t_det", "contact"):
+            np.testing.assert_array_equal(getattr(run, name), getattr(told, name))
+        assert run.time == pytest.approx(told.time, rel=1e-15)
+        assert (run.t_max, run.static_friction) == (told.t_max, told.static_friction)
         assert run.snapshot_times.tobytes() == told.snapshot_times.tobytes()
         assert run.snapshots.tobytes() == told.snapshots.tobytes()
         assert run.snapshots.shape == (2, 2, 6, 6)
 
 
-def test_a_file_without_snapshots_is_one_of_none(runs, tmp_path):
+def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(runs, tmp_path):
     (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
     assert len(run.snapshots) == len(run.snapshot_times) == 0
-
-
-def test_a_run_says_in_one_line_which_it_is(runs, tmp_path):
-    (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
     scene = "n_blocks = 6, level = 1, n_p = 2, n_s = 1, direction = x, seed = 3"
     assert repr(run).startswith(f"<{scene}: static friction ")
     assert "\n" not in repr(run)

@@ -55,17 +55,13 @@ def test_a_material_does_not_change():
 
 
 @pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("value", ["1", None, True, 1j])
-def test_what_is_no_number_is_refused_by_name(name, value):
-    with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
-        replace(PAPER, **{name: value})
-
-
-@pytest.mark.parametrize("name", NUMBERS)
-@pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
-def test_impossible_numbers_are_refused_by_name(name, value):
-    with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
-        replace(PAPER, **{name: value})
+def test_what_is_no_number_and_impossible_numbers_are_refused_by_name(name):
+    for value in ("1", None, True, 1j):
+        with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
+            replace(PAPER, **{name: value})
+    for value in (-1.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match=rf"Material\.{name} must be finite"):
+            replace(PAPER, **{name: value})
 
 
 @pytest.mark.parametrize("name", NUMBERS)
@@ -75,12 +71,6 @@ def test_only_damping_and_friction_may_vanish(name):
     else:
         with pytest.raises(ValueError, match=rf"Material\.{name} must be finite and positive"):
             replace(PAPER, **{name: 0})
-
-
-@pytest.mark.parametrize("value", ["gauss", "Normal", None, 1.0])
-def test_a_distribution_is_one_of_four(value):
-    with pytest.raises(ValueError, match=r"distribution must be one of normal, .* uniform, not"):
-        replace(PAPER, distribution=value)
 
 
 @pytest.mark.parametrize(
@@ -100,6 +90,8 @@ def test_constants_that_overflow_together_are_refused(constants, derived):
 @pytest.mark.parametrize(
     ("constants", "sentence"),
     [
+        ({"distribution": "gauss"}, "distribution must be one of normal, .* uniform, not 'gauss'"),
+        ({"distribution": None}, "distribution must be one of normal, .* uniform, not None"),
         ({"law": "stribeck"}, "law must be one of coulomb, slip_weakening, velocity_weakening"),
         ({"law": 1.0}, "law must be one of .*, not 1.0"),
         ({"law": "slip_weakening"}, "slip_distance must be positive with slip_weakening, not 0.0"),
@@ -111,6 +103,6 @@ def test_constants_that_overflow_together_are_refused(constants, derived):
         ),
     ],
 )
-def test_a_law_comes_with_its_own_constant_and_no_other(constants, sentence):
+def test_words_are_known_and_a_law_comes_with_its_own_constant_alone(constants, sentence):
     with pytest.raises(ValueError, match=rf"^Material\.{sentence}"):
         Material(**constants)

@@ -30,37 +30,21 @@ def test_a_rectangle_is_cut_as_a_square_is():
     assert Pattern(9, n_rows=9) == Pattern(9)
 
 
-def test_each_side_of_a_rectangle_must_hold_whole_periods():
-    with pytest.raises(ValueError, match=r"4 \+ 2 = 6 must divide N_y = 13; it leaves 1"):
-        Pattern.pillars(24, 4, 2, n_rows=13)
-    with pytest.raises(ValueError, match=r"4 \+ 2 = 6 must divide N_x = 25; it leaves 1"):
-        Pattern.pillars(25, 4, 2, n_rows=12)
-    with pytest.raises(ValueError, match="n_rows must be at least 1 block, not 0"):
-        Pattern.flat(4, n_rows=0)
+@pytest.mark.parametrize(
+    ("n", "n_p", "n_s"),
+    [(120, 2, 2), (120, 6, 6), (120, 20, 20), (120, 60, 60), (12, 4, 2), (20, 3, 2), (14, 4, 3)],
+)
+def test_pillars_and_gaps_take_turns(n, n_p, n_s):
+    """Half a gap remains at every edge, of an odd one its larger half at the far edge.
 
-
-@pytest.mark.parametrize("n_p", [2, 6, 20, 60])
-def test_pillars_of_the_paper_bear_on_a_quarter_of_the_surface(n_p):
-    """With n_s = n_p, pillars and gaps take turns, and half a gap remains at every edge."""
-    contact = Pattern.pillars(120, n_p, n_p).contact
-    expected = [(start, n_p) for start in range(n_p // 2, 120, 2 * n_p)]
-    for line in (contact[n_p // 2], contact[:, n_p // 2]):
+    The paper's pillars, with n_s = n_p, bear on a quarter of the surface.
+    """
+    contact = Pattern.pillars(n, n_p, n_s).contact
+    expected = [(start, n_p) for start in range(n_s // 2, n, n_p + n_s)]
+    for line in (contact[n_s // 2], contact[:, n_s // 2]):
         assert segments(line) == expected
     assert not contact[0].any()
-    assert contact.mean() == 0.25
-
-
-@pytest.mark.parametrize(("n", "n_p", "n_s"), [(12, 4, 2), (12, 2, 4), (20, 3, 2), (15, 4, 1)])
-def test_pillars_repeat_with_their_period_and_cover_its_square(n, n_p, n_s):
-    period = n_p + n_s
-    contact = Pattern.pillars(n, n_p, n_s).contact
-    np.testing.assert_array_equal(contact, np.roll(contact, period, axis=0))
-    np.testing.assert_array_equal(contact, np.roll(contact, period, axis=1))
-    assert contact.sum() == (n // period * n_p) ** 2
-
-
-def test_an_odd_gap_leaves_its_larger_half_at_the_far_edge():
-    assert segments(Pattern.pillars(14, 4, 3).contact[2]) == [(1, 4), (8, 4)]
+    assert contact.sum() == (n // (n_p + n_s) * n_p) ** 2
 
 
 @pytest.mark.parametrize(
@@ -122,6 +106,9 @@ def test_contact_is_read_only():
     ("build", "message"),
     [
         (lambda: Pattern.pillars(120, 7, 4), r"n_p \+ n_s = 7 \+ 4 = 11 must divide N = 120"),
+        (lambda: Pattern.pillars(24, 4, 2, n_rows=13), "6 must divide N_y = 13; it leaves 1"),
+        (lambda: Pattern.pillars(25, 4, 2, n_rows=12), "6 must divide N_x = 25; it leaves 1"),
+        (lambda: Pattern.flat(4, n_rows=0), "n_rows must be at least 1 block, not 0"),
         (lambda: Pattern.pillars(12, 4, 2).grooved(1, 4), "groove of 4 .* pillar of 4 blocks"),
         (lambda: Pattern.pillars(12, 4, 2).grooved(2, 1), "do not fill a pillar of 4 blocks"),
         (lambda: Pattern.flat(0), "N must be at least 1"),

@@ -53,17 +53,6 @@ def test_elastic_energy_keeps_its_digits_at_any_strain(strain, rng):
     )
 
 
-def test_a_spring_between_two_blocks_stores_half_its_stiffness_times_the_stretch_squared():
-    """Two of four blocks move apart by s: two axial springs, two diagonals at 45 degrees."""
-    stretch = 1e-6 * PAPER.spacing
-    u = np.zeros((2, 2, 2))
-    u[0, :, 1] = stretch
-    axial, diagonal = 0.5 * PAPER.k_int * stretch**2, 0.25 * PAPER.k_int * stretch**2 / 2.0
-    hung = 0.5 * PAPER.k_s * stretch**2
-    energy = elastic_energy(u, np.zeros(2), PAPER)
-    assert energy == pytest.approx(2 * (axial + diagonal + hung), rel=2e-6, abs=0)  # strain 1e-6
-
-
 def test_the_force_is_the_gradient_of_the_energy(rng):
     """dE/ds along a random direction d, by central differences: -ΣF·d, error of order s²."""
     u, d = rng.uniform(-1.0, 1.0, (2, 2, 5, 5))

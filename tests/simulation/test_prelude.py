@@ -113,6 +113,7 @@ def test_a_prelude_survives_its_file(prelude, tmp_path):
 @pytest.mark.parametrize(
     "change",
     [
+        {"pattern": Pattern.flat(12)},
         {"direction": "y"},
         {"integrator": "rk4"},
         {"step": 1e-8},
@@ -121,13 +122,10 @@ def test_a_prelude_survives_its_file(prelude, tmp_path):
     ],
 )
 def test_a_prelude_of_another_scene_is_refused(prelude, change):
+    scene = {"pattern": PILLARS, **change}
+    surface = drawn(scene.pop("pattern"), seed=1)
     with pytest.raises(ValueError, match="prelude belongs to another scene"):
-        simulate(*drawn(PILLARS, seed=1), prelude=prelude, **change)
-
-
-def test_a_prelude_of_another_pattern_is_refused(prelude):
-    with pytest.raises(ValueError, match="prelude belongs to another scene"):
-        simulate(*drawn(Pattern.flat(12), seed=1), prelude=prelude)
+        simulate(*surface, prelude=prelude, **scene)
 
 
 @pytest.mark.parametrize(

@@ -1,19 +1,16 @@
 """One file to deposit: what is in it, what it says of itself, and that nobody contradicts it."""
 
 import hashlib
-import json
-import shutil
 import subprocess
 import zipfile
 
 import pytest
-import yaml
 from click.testing import CliRunner
 from rocrate.rocrate import ROCrate
 
 from springblock.cli import main
 from springblock.study.archive import CRATE, archive
-from studies import ROOT, Study
+from studies import ROOT
 
 CODE = {
     "Snakefile": "rule all:\n",
@@ -102,47 +99,3 @@ def test_what_is_no_finished_study_is_refused(clone, monkeypatch, missing, sente
     assert outcome.exit_code == 1
     assert sentence in outcome.output
     assert not (clone / "study.zip").exists()
-
-
-def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
-    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
-    folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
-    for name in ("CITATION.cff", "environment.lock"):
-        shutil.copy(ROOT / name, folder)
-    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
-    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
-    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
-    with zipfile.ZipFile(tmp_path / "study.zip") as file:
-        file.extractall(tmp_path / "unpacked")
-    results = tmp_path / "unpacked/results"
-    before = {
-        file: file.read_bytes() for file in [*results.glob("figures/*"), results / "claims.md"]
-    }
-    assert len(before) > 20
-    unpacked = Study(tmp_path / "unpacked")
-    unpacked.run("--touch")
-    for file in before:
-        file.unlink()
-    names = sorted({file.stem for file in before if file.suffix == ".png"})
-    assert set(unpacked.planned("--", *names, "claims")) == {*names, "claims"}
-    unpacked.run("--", *names, "claims")
-    assert {file: file.read_bytes() for file in before} == before
-
-
-def test_every_description_of_the_software_says_the_same():
-    read = {
-        "citation": yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8")),
-        "codemeta": json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8")),
-        "zenodo": json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8")),
-    }
-    assert len({each["version"] for each in read.values()}) == 1
-    assert len({each["license"].rsplit("/", 1)[-1] for each in read.values()}) == 1
-    paper = read["citation"]["references"][0]
-    assert read["codemeta"]["referencePublication"]["@id"].endswith(paper["doi"])
-    assert read["codemeta"]["referencePublication"]["name"] == paper["title"]
-    assert read["zenodo"]["related_identifiers"][0]["identifier"] == paper["doi"]
-    names = [
-        [each["name"] for each in read[kind][key]]
-        for kind, key in (("citation", "authors"), ("codemeta", "author"), ("zenodo", "creators"))
-    ]
-    assert names[0] == names[1] == names[2]
