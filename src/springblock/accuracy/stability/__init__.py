@@ -21,7 +21,7 @@ from collections.abc import Iterator
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.accuracy.stability import one_block, surfaces
+from springblock.accuracy.stability import limits, one_block, surfaces
 from springblock.accuracy.stability.cases import Case
 from springblock.io.rows import Row
 from springblock.io.schemas import numbers, texts
@@ -58,7 +58,7 @@ SCHEMA = pa.schema(
 
 #: In the order of the table.
 FAMILIES = (
-    surfaces.steps,
+    limits.steps,
     one_block.frictions,
     surfaces.stiffnesses,
     one_block.weakenings,
@@ -71,7 +71,7 @@ FAMILIES = (
 
 def all_cases() -> Iterator[Case]:
     """Return every case, by both integrators."""
-    yield surfaces.HIGHEST_MODE
+    yield limits.HIGHEST_MODE
     for cases in FAMILIES:
         for integrator in INTEGRATORS:
             yield from cases(integrator)

@@ -28,7 +28,7 @@ from springblock.accuracy.stability.cases import (
     Pull,
     pulled_at,
 )
-from springblock.accuracy.stability.surfaces import beyond_the_limit
+from springblock.accuracy.stability.limits import beyond_the_limit
 from springblock.model.material import LAWS, Material
 from springblock.simulation.run import Realisation
 
