@@ -5,10 +5,10 @@ Each block i in contact rests up to mu_s F_n and lets go beyond. The models diff
 independent    It bears mu_d F_n from then on, and no other block notices.
 quasi_static   It bears mu_d F_n from then on. What it no longer bears, the others do: the layer is
                in equilibrium all the time, as without inertia or with strong damping.
-overshooting   It slips as a block without damping between neighbours at rest, until
-               2 mu_d F_n - mu_s F_n is left of its force, half of the stress drop below mu_d F_n,
-               and sticks again. Slips follow one another while the slider stands still, the most
-               overloaded block first, until all blocks hold.
+overshooting   It slips as a block without damping between neighbours at rest, until its force is
+               as far below mu_d F_n as it was above, (2 mu_d - mu_s) F_n, and sticks again. Slips
+               follow one another while the slider stands still, the most overloaded block first,
+               until all blocks hold.
 
 All forces are those along x, the direction of the slider. As in the simulation, a block with
 mu_s < mu_d lets go at mu_d F_n.
@@ -31,14 +31,14 @@ _SLACK = 1e-9
 
 
 class Curve(NamedTuple):
-    """Friction force over the slider's displacement, at each release and right before it."""
+    """Friction force and displacement of the slider right before each release."""
 
     slider: Array  #: (n,) m
     force: Array  #: (n,) N
 
 
 def stress_variation(layer: Layer) -> float:
-    """Standard deviation over mean of |F_mot| on the blocks in contact before any slip."""
+    """Return standard deviation over mean of |F_mot| on the blocks in contact before any slip."""
     stress = np.hypot(*layer.pull.reshape(2, -1))
     return float(stress.std() / stress.mean())
 

@@ -38,8 +38,9 @@ All start from the linear elasticity of the lattice, reduced to the blocks in co
 3. **Load transfer** (quasi-static). The layer stays in equilibrium: what a block no longer bears,
    its neighbours do. This is the limit of the simulation for strong damping and a slow slider.
 4. **Overshoot.** A block that lets go accelerates and comes to rest at $(2\\mu_d - \\mu_s) F_n$, as
-   one without damping between neighbours at rest. There it sticks again, and its neighbours bear
-   twice what it lost by friction. Slips follow one another while the slider stands still.
+   one without damping between neighbours at rest. There it sticks again: its force has fallen by
+   $2(\\mu_s - \\mu_d) F_n$, twice the drop of friction, most of which its neighbours bear. Slips
+   follow one another while the slider stands still.
 
 Static friction, means over {seeds} seeds with 95 % t intervals, on the smallest surfaces of
 {blocks} blocks a side or more with gaps as wide as the pillars:
