@@ -47,3 +47,9 @@ class _LazyGroup(click.Group):
 @click.option("--code", hidden=True, help="Digest of the code, where the workflow has taken it.")
 def main(code: str | None) -> None:
     """Spring-block model of the onset of sliding on patterned surfaces."""
+
+
+@main.result_callback()
+def _end(result: object, code: str | None) -> None:
+    """Leave memory to the end of the process, which would be searched for garbage once more."""
+    gc.freeze()
