@@ -1,5 +1,6 @@
 """The command line. Commands are imported when they are called: a job loads what it needs."""
 
+import atexit
 import gc
 import os
 from pkgutil import resolve_name
@@ -36,7 +37,8 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        gc.set_threshold(100_000)  # imports leave nothing to collect
+        gc.set_threshold(100_000)  # imports leave nothing to collect,
+        atexit.register(gc.freeze)  # and the end of a process need not look for it once more
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would wait by counting
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
@@ -47,9 +49,3 @@ class _LazyGroup(click.Group):
 @click.option("--code", hidden=True, help="Digest of the code, where the workflow has taken it.")
 def main(code: str | None) -> None:
     """Spring-block model of the onset of sliding on patterned surfaces."""
-
-
-@main.result_callback()
-def _end(result: object, code: str | None) -> None:
-    """Leave memory to the end of the process, which would be searched for garbage once more."""
-    gc.freeze()
