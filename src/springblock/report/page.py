@@ -25,8 +25,8 @@ FIGURES = {
     "sweeps": "Sweeps",
 }
 PAGES = {
-    "mechanism": "Why friction has a minimum",
     "claims": "What becomes of the paper's statements",
+    "mechanism": "Why friction has a minimum",
     "accuracy": "What to trust",
     "beyond": "Beyond the paper",
     "benchmark": "How fast",
