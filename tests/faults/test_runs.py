@@ -216,7 +216,8 @@ def test_results_of_another_configuration_are_refused_without_memory(study):
 def test_results_of_other_code_are_refused_without_memory(study):
     forget(study)
     study.edit("solver/friction.py", "0.0", "0.5")
-    assert "another code (compile, simulate, accuracy, mechanism)" in study.run("--dry-run", refused=True)
+    said = study.run("--dry-run", refused=True)
+    assert "another code (compile, simulate, accuracy, mechanism)" in said
 
 
 def test_touch_does_not_bless_results_of_another_configuration(study):

@@ -75,7 +75,7 @@ def choices(rows: Iterable[Row], bias: str = "estimate") -> list[Choice]:
     """Steps of one scene and quantity, finest first; biases are estimates or ends of intervals.
 
     `rows` are those of the table `production`, `bias` names a field of `Bias`. The bias of the
-    finest step is not known: it counts as none.
+    finest step is unknown, and neglected.
     """
     return [
         Choice(

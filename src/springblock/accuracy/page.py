@@ -65,7 +65,7 @@ horizon no step makes single runs agree, and ensembles are compared instead.
 
 Bias of the mean at the default with its 95 % interval over {n_paired} or more paired seeds
 ({n_ensemble} x {n_ensemble} blocks, against a step of {fine:.1e} s); in brackets the standard error
-of a mean over {ensemble} seeds, which it must stay under. All in percent:
+of a mean over {ensemble} seeds; the bias must be smaller. All in percent:
 
 {paired}
 
@@ -114,8 +114,8 @@ Student's, and of l_c bootstrap percentiles. In brackets the standard error of a
 The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
 or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for l_c
 {length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
-it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s, which is not known,
-counts as none. Errors in percent:
+it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s, which is unknown,
+is neglected. Errors in percent:
 
 {budgets}
 

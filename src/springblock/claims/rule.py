@@ -150,8 +150,8 @@ def _comparable(first: Finding, second: Finding) -> bool:
 def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
     """Judge a claim by its findings; return the verdict and what it depends on.
 
-    All findings of a case must hold for the case to hold, one that fails makes it fail, and one
-    that is underpowered leaves it so. The claim is made of all its cases:
+    All findings of a case must hold for the case to hold, one that fails makes it fail, and an
+    underpowered one leaves it undecided. The claim is made of all its cases:
 
     - it "depends on" what differs between cases where some hold and some fail;
     - it is "not reproduced" where some fail and none holds: no open case could save it, but one

@@ -52,7 +52,7 @@ class Checkpoint:
     """
 
     path: Path
-    interval: float  #: s of the clock on the wall
+    interval: float  #: wall-clock seconds between two checkpoints
     belongs: dict[str, str]  #: see `belonging`
     written: float = field(default_factory=monotonic)  #: s, the last time
 

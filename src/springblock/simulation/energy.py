@@ -11,7 +11,7 @@ from springblock.model.material import Material
 
 @dataclass(frozen=True)
 class Energy:
-    """Work of the slider and its whereabouts at the end of a run, in J."""
+    """Work of the slider and where it has gone by the end of a run, in J."""
 
     work_in: float  #: done by the slider
     elastic: float  #: stored in all springs

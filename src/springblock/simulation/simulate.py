@@ -102,7 +102,7 @@ def simulate(
         File that keeps the run while it is not finished. Where it is there, the run goes on from
         it, to the bit; it is removed at the end.
     checkpoint_interval : s
-        Of the clock on the wall, between two times that it is written.
+        Wall-clock seconds between two checkpoints.
 
     Raises
     ------
@@ -161,7 +161,7 @@ def simulate(
 
 @dataclass
 class _Motion:
-    """Blocks on their way, between two calls of the compiled loop."""
+    """State of a run between two calls of the compiled time loop."""
 
     setup: Setup
     advance: Advance

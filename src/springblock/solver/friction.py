@@ -15,7 +15,7 @@ from springblock.solver.laws import keep_way, resistance, way_of
 
 @njit(inline="always")
 def slow_down(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
-    """Return what `coulomb` does of block b, where the law says what sliding takes from it."""
+    """Apply the Coulomb step to block `b`, with the resistance given by its friction law."""
     mean_x, mean_y = (wx + vx, wy + vy) if wx * vx + wy * vy > 0.0 else (wx, wy)
     speed, way = 0.5 * math.sqrt(mean_x * mean_x + mean_y * mean_y), way_of(law, b)
     taken = resistance(law, way, speed, -0.5, static, dynamic)
@@ -42,7 +42,7 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     back and is not held has no mean to speak of; friction opposes w.
 
     A block at rest therefore needs more than both coefficients to move: one with
-    mu_s < mu_d lets go at mu_d, once, without a flicker.
+    mu_s < mu_d lets go at mu_d, and only once.
     """
     along = wx * vx + wy * vy
     held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)

@@ -37,7 +37,7 @@ WORK, RUBBED, SQUARES = range(3)
 
 
 class Blocks(NamedTuple):
-    """What is known of each block; every array has N_y rows of `pitch` numbers.
+    """Fields of all blocks, each with N_y rows of `pitch` numbers.
 
     With periodic edges there is one more, an image of the first as `close_rows` leaves it.
     """
@@ -52,7 +52,7 @@ class Blocks(NamedTuple):
 
 
 class State(NamedTuple):
-    """State of the lattice, and the room that an integrator works in."""
+    """State of the lattice, and the work arrays of an integrator."""
 
     blocks: Blocks
     scratch: Array  #: springs and forces of a band of rows, see `springs`
@@ -96,12 +96,12 @@ class Samples(NamedTuple):
 
     @classmethod
     def empty(cls, count: int) -> "Samples":
-        """Room for `count` samples."""
+        """Return zeroed arrays for `count` samples."""
         return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
 
 
 class Advance(Protocol):
-    """How an integrator takes steps."""
+    """Function by which an integrator takes steps."""
 
     def __call__(
         self,
@@ -119,7 +119,7 @@ class Advance(Protocol):
 
 
 class Integrator(Protocol):
-    """A way to follow the blocks through time: a module of this package.
+    """Integration scheme: a module of this package.
 
     CONTRIBUTING.md says how to add one.
     """
@@ -138,7 +138,7 @@ class Integrator(Protocol):
         """Velocity, (2, lattice), after `steps` steps, and friction's heat until then."""
 
 
-#: Threshold of a contact block whose mu_s is zero: it lets go at once, and is seen to.
+#: Threshold of a contact block whose mu_s is zero: it detaches in the first step, and is counted.
 _NO_THRESHOLD = 1e-300
 
 
@@ -239,7 +239,7 @@ def close_edge(ux, uy, row, grid):
 
 @kernel
 def close_edges(ux, uy, grid):
-    """Do so for all rows."""
+    """Apply `close_edge` to every row."""
     for row in range(grid.n_y):
         close_edge(ux, uy, row, grid)
 

@@ -51,7 +51,7 @@ Law = SlipWeakening | VelocityWeakening | None
 
 #: Beyond these, in the kernels' units, d_c and v_c are no different from zero or infinity.
 _LEAST, _MOST = 1e-100, 1e100
-#: Share of what a block moves in a step that its way before counts as none.
+#: Slip before a step counts as zero below this share of the slip within it.
 _NOTHING = 1e-12
 
 
@@ -154,5 +154,5 @@ resistance = _for_each_law(_resistance_dynamic, _resistance_after_way, _resistan
 heat = _for_each_law(_heat_dynamic, _heat_along_way, _heat_at_speed)
 #: (law, b) -> way of block b since it let go, where the law asks for it.
 way_of = _for_each_law(_no_way, _way_so_far, _no_way)
-#: (law, b, way): keep it.
+#: (law, b, way): store the slip of block b.
 keep_way = _for_each_law(_keep_none, _keep_way, _keep_none)

@@ -41,7 +41,7 @@ WORK_FIELDS = 0
 _SLACK = 1e-9
 #: Share of F_mot by which a block's velocity may differ from what F_mot alone has left it.
 _SAME = 1e-12
-#: Steps, more than any run has.
+#: Effectively infinite number of steps.
 _FOREVER = 1e15
 
 
@@ -60,7 +60,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
 
 
 class Rows(NamedTuple):
-    """What is kept of each row."""
+    """State of each row of blocks."""
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether it holds any block in contact
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether it is looked at in this step
@@ -76,7 +76,7 @@ class Rows(NamedTuple):
 
 
 def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
-    """Rows as if every one moved."""
+    """Return the state of rows of which every one is awake."""
     n = len(in_contact)
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = periodic
@@ -238,7 +238,7 @@ def _look_around(blocks, law, released, row, x, constants, slider):
                 continue
             fx, fy = force_in(now, j + 1, i + 1, constants.springs, slider)
             wx, wy = blocks.wx[b], blocks.wy[b]
-            # Friction has opposed the mean velocity, whose line this is, and whose side that of w.
+            # Friction acted along this vector, on the same side as w.
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
             size, forwards = math.hypot(mean_x, mean_y), mean_x * wx + mean_y * wy
             way = max(way_of(law, b) - math.hypot(wx, wy), 0.0)
@@ -295,7 +295,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
 
 @kernel
 def _note_detachments(blocks, i, n, now):
-    """Note the time for blocks of one row that slide for the first time; are others yet to?"""
+    """Record first detachments in one row; return whether any of its blocks is still stuck."""
     wx, wy, static, t_det = blocks.wx, blocks.wy, blocks.static, blocks.t_det
     remaining = np.int64(0)
     for x in range(ONE, n + ONE):
@@ -322,7 +322,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 @kernel
 def _settle(blocks, law, rows, released, count, band, s, pull, now):
-    """See to what rows of a band have done; returns what `move_band` does."""
+    """Record switches, releases and detachments in a band; return what `move_band` returns."""
     n, switches = band.grid.n_x, np.int64(0)
     for row in range(band.start, band.stop):
         i = row * band.grid.pitch

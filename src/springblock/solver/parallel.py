@@ -83,7 +83,7 @@ def _last_band(share, constants):
 
 @kernel
 def _move(blocks, law, peak, rows, share, constants, slider, now):
-    """Take a share through a step.
+    """Advance the rows of a share by one step.
 
     Returns switches and releases, and row and column of a broken spring; column 0 if none is.
     """

@@ -37,7 +37,7 @@ class Released(NamedTuple):
 
 
 def room(blocks: int) -> Released:
-    """Room for this many blocks; as long as it is not touched it takes no memory."""
+    """Return work arrays for this many blocks; untouched, they take no memory."""
     return Released(
         np.empty(blocks, np.int64),
         np.empty(blocks, np.int64),
