@@ -1,8 +1,8 @@
 """The quick study, killed ten times at a random moment and taken up again: `make soak`.
 
 Each round begins from nothing, is killed with all its jobs (SIGKILL) at a moment drawn uniformly
-from the time that an undisturbed study took, goes on with the same command, and must end in the
-same tables to the bit. It takes ten times as long as `make quick`.
+from the time that an undisturbed study took, is unlocked, goes on with the same command, and must
+end in the same tables to the bit. It takes ten times as long as `make quick`.
 """
 
 import os
@@ -41,6 +41,7 @@ def killed(study: Study, after: float) -> bool:
     except subprocess.TimeoutExpired:
         os.killpg(run.pid, signal.SIGKILL)
         run.wait()
+        subprocess.run(study.command("--unlock"), cwd=study, env=study.environment, check=True)
         return True
     return False
 
