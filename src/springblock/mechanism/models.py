@@ -10,7 +10,8 @@ overshooting   It slips as a block without damping between neighbours at rest, u
                follow one another while the slider stands still, the most overloaded block first,
                until all blocks hold.
 
-All forces are those along x, the direction of the slider. As in the simulation, a block with
+Blocks let go by the size of F_mot; the friction force is its component along x, the direction of
+the slider, and so is that of sliding blocks. As in the simulation, a block with
 mu_s < mu_d lets go at mu_d F_n.
 """
 

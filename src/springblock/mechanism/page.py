@@ -17,8 +17,8 @@ NAMES = {
 }
 _PAGE = """# Why static friction depends on the size of pillars
 
-Static friction is lowest on pillars of {lowest} blocks because the elastic layer loads their blocks
-most unevenly: the edges let go early and hand their load to the rest. Uneven stress alone explains
+Static friction is lowest on pillars of {lowest} blocks; the elastic layer loads the blocks most
+unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest. Uneven stress alone explains
 the friction of the smallest pillars. On larger ones the redistribution of load lowers friction, and
 the inertia of single blocks, which overshoot as they slip, lowers it further. A model of these
 three, without waves, agrees with the full simulation to {small_error:.1%} up to n_p = {small} and
@@ -59,7 +59,8 @@ Over the sizes, the unevenness of the stress and the friction of the full model 
 ## Limits
 
 - The models know no waves and no time. On the larger pillars the full model has less friction
-  than the last of them: slips of several blocks at once overshoot further than those of one.
+  than the last of them. Slips of several blocks at once may overshoot further than those of one;
+  that was not tested.
 - Surfaces are smaller than those of the study, which changes friction: compare the models with the
   full model of the same row, not with the numbers of the other pages.
 - Edges are free, the slider moves along x, and all constants are the paper's.
