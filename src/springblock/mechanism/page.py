@@ -18,11 +18,11 @@ NAMES = {
 _PAGE = """# Why static friction depends on the size of pillars
 
 Static friction is lowest on pillars of {lowest} blocks; the elastic layer loads the blocks most
-unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest. Uneven stress alone explains
-the friction of the smallest pillars. On larger ones the redistribution of load lowers friction, and
-the inertia of single blocks, which overshoot as they slip, lowers it further. A model of these
-three, without waves, agrees with the full simulation to {small_error:.1%} up to n_p = {small} and
-to {worst_error:.1%} on all sizes.
+unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest.
+Uneven stress alone explains the friction of the smallest pillars. On larger ones the redistribution
+of load lowers friction, and the inertia of single blocks, which overshoot as they slip, lowers it
+further. A model of these three, without waves, agrees with the full simulation to
+{small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes.
 
 ## Four models
 
