@@ -20,7 +20,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "simulate": _PHYSICS,
     "analyse": ("model", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
-    "claims": ("model", "analysis", "claims"),
+    "claims": ("model", "analysis", "mechanism", "claims"),
     "beyond": ("model", "analysis", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
     "plot": ("model", "analysis", "mechanism", "plotting"),

@@ -14,12 +14,12 @@ from springblock.analysis.statistics import (
     cut,
     difference_interval,
     half_widths,
-    lesser_prominence,
     load_peaks,
     mean_interval,
     mean_of_rest,
     pillar_map,
     pillar_ring,
+    prominence,
     proportion_interval,
     repeatability,
     standard_error,
@@ -148,9 +148,9 @@ def test_a_mean_goes_on_over_the_runs_that_are_left(rng):
 
 
 def test_the_lesser_peak_is_measured_from_the_valley():
-    assert lesser_prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
-    assert lesser_prominence(np.array([0.0, 10.0, 0.0])) == 0.0
-    assert lesser_prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+    assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
+    assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
+    assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
 
 
 def test_bins_hold_whole_samples_and_every_detachment_once():

@@ -12,6 +12,7 @@ from claims import paper
 from claims.paper import (
     ACROSS,
     ALONG,
+    BARE_ACROSS,
     BARE_ALONG,
     DEEP_ALONG,
     FEW,
@@ -19,13 +20,15 @@ from claims.paper import (
     MANY,
     PILLARS,
     SHORTER,
+    SQUARE,
     STIFF,
     UNDAMPED,
 )
 from springblock.analysis.estimate import Estimate
 from springblock.claims import CLAIMS
 from springblock.claims.flat import lonely
-from springblock.claims.grooves import both_peaks, edge, grooved_parts, valley
+from springblock.claims.grooves import edge, grooved_parts
+from springblock.claims.load_peaks import both_peaks, valley
 from springblock.claims.rule import Claim, Evidence, verdict
 from springblock.claims.samples import difference, first_patch, isolated, position, rates
 from springblock.claims.sides import events, mixed, paired_difference, unpaired_difference
@@ -58,7 +61,7 @@ def made_for(name: str) -> list[Record]:
 
 
 def judge(claim: Claim, evidence: Evidence) -> str:
-    return verdict(list(claim.test(evidence)))[0]
+    return verdict(claim.form, list(claim.test(evidence)))[0]
 
 
 Change = Callable[[Record], dict[str, Any]]  #: what to replace of a realisation
@@ -112,8 +115,8 @@ def steady(run: Record) -> dict[str, Any]:
 
 
 def calm(run: Record) -> dict[str, Any]:
-    """The force hardly swings while the surface slides."""
-    return {"force": np.where(run.time > 1.1 * run.t_max, 0.3 + 1e-4 * np.sin(run.time), run.force)}
+    """Blocks that slide do not stop."""
+    return {"switches": run.detachments}
 
 
 two_peaks = peaks((220.0, 0.60), (300.0, 0.65))
@@ -126,63 +129,68 @@ at_once = moved(lambda run: np.where(np.isfinite(run.t_det), run.t_avg, np.nan))
 delayed = moved(lambda run: run.t_det + 1e-4)
 without_fronts = moved(lambda run: np.maximum(run.t_det, 1.02 * run.t_max))
 
+REFUTED, PARTLY = "not reproduced", "reproduced in part"
+
 #: Claim, scenes whose realisations are changed, how, and the verdict then.
 CHANGES = [
-    ("isolated_precursors", [FLAT], patch, "not reproduced"),
-    ("not_all_nucleate", [FLAT], patch, "not reproduced"),
-    ("peak_before_average", [FLAT], shifted(9), "not reproduced"),
-    ("weakest_first", [FLAT], elsewhere, "not reproduced"),
-    ("onset", [FLAT], shifted(9), "not reproduced"),
-    ("avalanche_follows", [FLAT], shifted(9), "not reproduced"),
-    ("peaks_apart", [FLAT], shifted(3), "not reproduced"),
-    ("nucleation_anywhere", [FLAT], cornered, "not reproduced"),
-    ("uniform", [FLAT], tilted, "depends on"),
-    ("pillars_alike", PILLARS, tilted, "not reproduced"),
-    ("small_pillars", PILLARS[:1], peaks((200.0, 0.78), width=40.0), "depends on"),
-    ("detachment_order", PILLARS, mirrored, "not reproduced"),
-    ("detachment_order", PILLARS[1:2], mirrored, "depends on"),
-    ("always_in_order", PILLARS, mirrored, "not reproduced"),
-    ("edges_before_peak", PILLARS, shifted(-200), "not reproduced"),
-    ("region_of_precursors", PILLARS, shifted(100), "not reproduced"),
-    ("nucleation_near_edge", PILLARS, mirrored, "not reproduced"),
-    ("centre_last", PILLARS, mirrored, "not reproduced"),
-    ("larger_events", PILLARS, turned, "not reproduced"),
-    ("whole_sides", PILLARS, at_once, "not reproduced"),
-    ("most_precursors", PILLARS[1:2], shifted(-250), "not reproduced"),
-    ("roundest_peak", PILLARS[1:2], peaks((300.0, 0.60), width=1.0), "not reproduced"),
-    ("longest_transition", PILLARS[1:2], at_once, "not reproduced"),
-    ("peak_after_average", PILLARS, shifted(-100), "depends on"),
-    ("peak_after_average", PILLARS[2:], shifted(-100), "depends on"),
-    ("many_precursors", PILLARS, shifted(-250), "not reproduced"),
-    ("rounded_peak", PILLARS, peaks((300.0, 0.70), width=2.0), "not reproduced"),
-    ("rounded_peak", [FLAT], peaks((100.0, 0.80), width=15.0), "depends on"),
-    ("intermediate_size", PILLARS[2:], sticking(0.50), "depends on"),
-    ("sharper_again", PILLARS[2:], peaks((300.0, 0.70), width=90.0), "not reproduced"),
-    ("two_peaks", [ALONG], peaks((300.0, 0.65)), "depends on"),
-    ("two_peaks", [ACROSS], peaks((200.0, 0.65), (300.0, 0.70)), "depends on"),
-    ("further_levels", [DEEP_ALONG], peaks((300.0, 0.65)), "depends on"),
-    ("hierarchy_needed", [*PILLARS, BARE_ALONG], two_peaks, "not reproduced"),
-    ("hierarchy_needed", [BARE_ALONG], two_peaks, "depends on"),
-    ("quiet_between_peaks", [ALONG], steady, "not reproduced"),
-    ("edges_make_first_peak", [ALONG], mirrored, "not reproduced"),
-    ("equal_parts", [ALONG], delayed, "not reproduced"),
-    ("stick_slip", [ALONG], lambda run: {"switches": run.detachments}, "not reproduced"),
-    ("second_peak_decides", [ALONG], peaks((220.0, 0.65), (300.0, 0.60)), "not reproduced"),
-    ("rest_between_peaks", [ALONG], mirrored, "not reproduced"),
-    ("edges_before_core", [ALONG, ACROSS], mirrored, "not reproduced"),
-    ("edges_before_core", [ACROSS], mirrored, "depends on"),
-    ("grooved_order", [ALONG], mirrored, "not reproduced"),
-    ("across_sticks_better", [ALONG, BARE_ALONG], sticking(0.80), "not reproduced"),
-    ("across_sticks_better", [ALONG], sticking(0.75), "depends on"),
-    ("number_of_fronts", [*FEW, *MANY], without_fronts, "not reproduced"),
-    ("number_of_fronts", [FEW[0], MANY[0]], without_fronts, "depends on"),
-    ("onset_in_any_case", [*FEW, *MANY], delayed, "not reproduced"),
-    ("onset_in_any_case", MANY[1:2], delayed, "depends on"),
-    ("damping", [UNDAMPED], calm, "not reproduced"),
-    ("same_ratio", [STIFF], sticking(0.70), "not reproduced"),
-    ("same_ratio", [STIFF], shifted(9), "not reproduced"),
-    ("interval_follows_lengths", SHORTER[1:], far_apart, "not reproduced"),
-    ("pillar_length_matters", SHORTER, sticking(0.644), "not reproduced"),
+    ("isolated_precursors", [FLAT], patch, REFUTED),
+    ("not_all_nucleate", [FLAT], patch, REFUTED),
+    ("peak_before_average", [FLAT], shifted(9), REFUTED),
+    ("weakest_first", [FLAT], elsewhere, REFUTED),
+    ("onset", [FLAT], shifted(9), REFUTED),
+    ("avalanche_follows", [FLAT], shifted(9), REFUTED),
+    ("peaks_apart", [FLAT], shifted(3), REFUTED),
+    ("nucleation_anywhere", [FLAT], cornered, REFUTED),
+    ("uniform", [FLAT], tilted, REFUTED),
+    ("pillars_alike", PILLARS, tilted, REFUTED),
+    ("small_pillars", PILLARS[:1], peaks((200.0, 0.78), width=40.0), REFUTED),
+    ("detachment_order", PILLARS, mirrored, REFUTED),
+    ("detachment_order", PILLARS[1:2], mirrored, PARTLY),
+    ("order_of_stress", PILLARS, mirrored, REFUTED),
+    ("order_of_stress", PILLARS[1:2], mirrored, PARTLY),
+    ("always_in_order", PILLARS[1:2], mirrored, REFUTED),
+    ("edges_before_peak", PILLARS, shifted(-200), REFUTED),
+    ("region_of_precursors", PILLARS, shifted(100), REFUTED),
+    ("nucleation_near_edge", PILLARS, mirrored, REFUTED),
+    ("centre_last", PILLARS, mirrored, REFUTED),
+    ("larger_events", PILLARS, turned, REFUTED),
+    ("same_mean_time", PILLARS, tilted, REFUTED),
+    ("whole_sides", PILLARS, at_once, REFUTED),
+    ("most_precursors", PILLARS[1:2], shifted(-250), REFUTED),
+    ("roundest_peak", PILLARS[1:2], peaks((300.0, 0.60), width=1.0), REFUTED),
+    ("longest_transition", PILLARS[1:2], at_once, REFUTED),
+    ("peak_after_average", PILLARS[2:], shifted(-100), REFUTED),
+    ("many_precursors", PILLARS, shifted(-250), REFUTED),
+    ("rounded_peak", PILLARS, peaks((300.0, 0.70), width=2.0), REFUTED),
+    ("rounded_peak", [FLAT], peaks((100.0, 0.80), width=15.0), PARTLY),
+    ("intermediate_size", PILLARS[2:], sticking(0.50), REFUTED),
+    ("sharper_again", PILLARS[2:], peaks((300.0, 0.70), width=90.0), REFUTED),
+    ("two_peaks", [ALONG], peaks((300.0, 0.65)), REFUTED),
+    ("only_along", [ACROSS], peaks((200.0, 0.65), (300.0, 0.70)), REFUTED),
+    ("further_levels", [DEEP_ALONG], peaks((300.0, 0.65)), REFUTED),
+    ("peak_for_every_level", [DEEP_ALONG], two_peaks, REFUTED),
+    ("hierarchy_needed", [BARE_ALONG], two_peaks, REFUTED),
+    ("anisotropy_needed", [SQUARE], two_peaks, REFUTED),
+    ("quiet_between_peaks", [ALONG], steady, REFUTED),
+    ("edges_make_first_peak", [ALONG], mirrored, REFUTED),
+    ("stick_slip", [ALONG], lambda run: {"switches": run.detachments}, REFUTED),
+    ("second_peak_decides", [ALONG], peaks((220.0, 0.65), (300.0, 0.60)), REFUTED),
+    ("rest_between_peaks", [ALONG], mirrored, REFUTED),
+    ("stressed_between_peaks", [ALONG], two_peaks, REFUTED),
+    ("small_force_suffices", [ALONG], two_peaks, REFUTED),
+    ("rapid_but_smooth", [ALONG], peaks((300.0, 0.60), width=1.0), PARTLY),
+    ("edges_before_core", [ALONG, ACROSS], mirrored, REFUTED),
+    ("edges_before_core", [ACROSS], mirrored, PARTLY),
+    ("grooved_order", [ALONG], mirrored, REFUTED),
+    ("across_sticks_better", [BARE_ALONG], sticking(0.80), REFUTED),
+    ("faster_along", [BARE_ACROSS], at_once, REFUTED),
+    ("number_of_fronts", [FEW[0], MANY[0]], without_fronts, REFUTED),
+    ("onset_in_any_case", MANY[1:2], delayed, REFUTED),
+    ("damping", [UNDAMPED], calm, "not settled"),
+    ("same_ratio", [STIFF], sticking(0.70), REFUTED),
+    ("same_ratio", [STIFF], shifted(9), REFUTED),
+    ("interval_follows_lengths", SHORTER[1:], far_apart, REFUTED),
+    ("pillar_length_matters", SHORTER, sticking(0.678), REFUTED),
 ]
 
 
@@ -201,34 +209,40 @@ def multiplied(table: Any, factor: float, **wanted: Any) -> dict[Scene, list[Row
 
 #: Claim, the factor for l_c or c in some rows of the tables, and the verdict then.
 FACTORS = [
-    ("long_along_short_across", -0.5, {"side": "x"}, "not reproduced"),
-    ("long_along_short_across", 9.0, {"side": "y", "r": 1}, "not reproduced"),
-    ("exponential", 20.0, {"r": 4}, "not reproduced"),
-    ("exponential", 20.0, {"r": 4, "n_p": 20}, "depends on"),
-    ("three_blocks", 0.5, {}, "not reproduced"),
-    ("three_blocks", 0.5, {"n_p": 20}, "depends on"),
-    ("three_blocks", 0.75, {"n_p": 20}, "not settled"),
-    ("growing_length", 0.5, {"n_p": 60}, "not reproduced"),
-    ("size_like_length", 0.3, {"n_p": 60}, "not reproduced"),
-    ("same_length", 0.4, {"n_p": 58}, "not reproduced"),
-    ("same_shape", 0.2, {"n_p": 58, "r": 4}, "not reproduced"),
-    ("same_shape", 0.2, {"n_p": 58, "r": 4, "side": "x"}, "depends on"),
-    ("uncorrelated_across", 9.0, {"r": 1, "direction": "y"}, "not reproduced"),
+    ("long_along_short_across", -0.5, {"side": "x"}, REFUTED),
+    ("long_along_short_across", 9.0, {"side": "y", "r": 1}, REFUTED),
+    ("three_blocks", 0.5, {}, REFUTED),
+    ("three_blocks", 0.5, {"n_p": 20}, PARTLY),
+    ("three_blocks", 0.88, {"n_p": 20}, "not settled"),
+    ("growing_length", 0.5, {"n_p": 60}, REFUTED),
+    ("same_length", 0.4, {"n_p": 58}, REFUTED),
+    ("same_shape", 0.2, {"n_p": 58, "r": 4}, REFUTED),
+    ("same_shape", 0.2, {"n_p": 58, "r": 4, "side": "x"}, PARTLY),
+    ("uncorrelated_across", 9.0, {"r": 1, "direction": "y"}, REFUTED),
 ]
 
 #: Claim, and what makes another stress of that before the first detachment on each scene.
 STRESS = [
-    ("larger_across", lambda scene, field: field.T),
+    ("trivial_stress", lambda scene, field: field * np.linspace(0.5, 1.5, paper.N)),
+    ("larger_across", lambda scene, field: field.transpose(0, 2, 1)),
     ("same_stress", lambda scene, field: field * np.linspace(0.5, 1.5, paper.N)),
-    ("more_uniform", lambda scene, field: field ** (9.0 if scene.level == 2 else 1.0)),
-    ("external_bear_more", lambda scene, field: 1.0 / field),
+    ("more_uniform", lambda scene, field: field ** (9.0 if scene.n_p2 else 1.0)),
+    ("external_bear_more", lambda scene, field: np.stack([1.0 / field[0], field[1]])),
     ("edges_bear_more_across", lambda scene, field: field * (2.0 if scene == ALONG else 1.0)),
 ]
-#: What the paper says of very large pillars leaves no room for two rings of precursors on others.
-_APART = "negligible_edges"
+#: Tested by themselves: algebra, geometry, errors, very large pillars, and scatter.
+_APART = {
+    "shear_springs",
+    "equal_parts",
+    "step_suffices",
+    "negligible_edges",
+    "front_after_peak",
+    "size_like_length",
+    "exponential",
+}
 
 
-@pytest.mark.parametrize("name", sorted(set(BY_NAME) - {_APART}))
+@pytest.mark.parametrize("name", sorted(set(BY_NAME) - _APART | {"step_suffices", "equal_parts"}))
 def test_data_as_the_paper_has_them_reproduce_it(name):
     assert judge(BY_NAME[name], paper.evidence(made_for(name))) == "reproduced"
 
@@ -255,23 +269,72 @@ def test_another_stress_changes_the_verdict(name, change):
     assert judge(BY_NAME[name], replace(judged, stress=stress)) == "not reproduced"
 
 
-@pytest.mark.parametrize(("share", "expected"), [(0.05, "reproduced"), (0.2, "not reproduced")])
-def test_precursors_of_very_large_pillars_are_negligible_below_a_tenth(share, expected):
+@pytest.mark.parametrize(("share", "expected"), [(0.05, "reproduced"), (0.2, REFUTED)])
+@pytest.mark.parametrize("name", ["negligible_edges", "front_after_peak"])
+def test_few_blocks_of_very_large_pillars_detach_early(name, share, expected):
     times = np.full((120, 120), np.nan)
-    times[30:90, 30:90] = np.where(np.arange(3600) < 3600 * share, 0.9, 1.1).reshape(60, 60)
-    runs = [replace(records()[seed], t_det=times, **peak_at(1.0)) for seed in range(3)]
-    found = Evidence(records={Scene(120, 60, 60): runs})
-    assert judge(BY_NAME[_APART], found) == expected
+    early = np.random.default_rng(0).permutation(3600) < 3600 * share
+    times[30:90, 30:90] = np.where(early, 0.9, 1.1).reshape(60, 60)
+    scene = Scene(120, 60, 60)
+    runs = [replace(records()[k], scene=scene, t_det=times, **peak_at(1.0)) for k in range(3)]
+    assert judge(BY_NAME[name], Evidence(records={scene: runs})) == expected
+
+
+def test_the_springs_of_the_slider_are_twice_those_of_shear():
+    (found,) = BY_NAME["shear_springs"].test(paper.evidence(records()[:1]))
+    assert found.estimate.value == pytest.approx(2.0)
+    assert found.outcome() == "fails"
+
+
+def test_edges_are_less_than_half_of_broad_pawls():
+    broad = [Scene(paper.N, 23, 25, 11, 1, direction=direction) for direction in "xy"]
+    stress = {scene: np.ones((2, paper.N, paper.N)) for scene in broad}
+    assert judge(BY_NAME["equal_parts"], Evidence(stress=stress)) == REFUTED
+
+
+@pytest.mark.parametrize(("lowest", "expected"), [(1, "reproduced"), (2, PARTLY)])
+def test_where_friction_is_lowest_is_compared_with_l_c_for_every_scatter(
+    lowest, expected, monkeypatch
+):
+    monkeypatch.setattr("springblock.claims.pillars._COMPARED", (2, 6, 24))
+    scattered = [replace(scene, varied={"mu_static_std": 0.2}) for scene in PILLARS]
+    runs = {scene: [r for r in records() if r.scene == scene] for scene in PILLARS}
+    others = {new: runs[old] for new, old in zip(scattered, PILLARS, strict=True)}
+    others[scattered[lowest]] = [
+        replace(run, normal_force=2.0 * run.normal_force) for run in others[scattered[lowest]]
+    ]
+    judged = Evidence(records={**runs, **others})
+    assert judge(BY_NAME["size_like_length"], judged) == expected
+
+
+def in_parts(rng: np.random.Generator) -> np.ndarray:
+    return paper.by_side(24, rng)
+
+
+def in_common(rng: np.random.Generator) -> np.ndarray:
+    """Half of what scatters is common to all blocks of a side, the rest to none."""
+    return rng.standard_normal() + rng.standard_normal((24, 24))
+
+
+@pytest.mark.parametrize(("fields", "expected"), [(in_parts, "reproduced"), (in_common, REFUTED)])
+def test_c_x_is_told_from_other_curves(fields, expected):
+    runs, place = [], PILLARS[2].pattern.origins[0]
+    for seed in range(300):
+        times = np.full((paper.N, paper.N), np.nan)
+        times[place[0] : place[0] + 24, place[1] : place[1] + 24] = fields(
+            np.random.default_rng(seed)
+        )
+        runs.append(replace(records()[0], scene=PILLARS[2], t_det=times))
+    assert judge(BY_NAME["exponential"], Evidence(records={PILLARS[2]: runs})) == expected
 
 
 def test_a_bias_beyond_the_scatter_changes_the_verdict():
     biased = Evidence(precision=paper.precision(bias=0.1))
-    assert judge(BY_NAME["step_suffices"], biased) == "not reproduced"
+    assert judge(BY_NAME["step_suffices"], biased) == REFUTED
 
 
 def test_every_verdict_is_seen_to_change():
-    seen = {name for name, *_ in [*CHANGES, *FACTORS, *STRESS]}
-    assert seen | {"step_suffices", _APART} == set(BY_NAME)
+    assert {name for name, *_ in [*CHANGES, *FACTORS, *STRESS]} | _APART == set(BY_NAME)
 
 
 @pytest.mark.parametrize("name", BY_NAME)
@@ -280,12 +343,9 @@ def test_what_was_not_simulated_is_not_tested(name):
 
 
 def test_one_realisation_settles_nothing():
-    one = [run for run in of_all_lengths() if run.seed == 0]
-    found = replace(paper.evidence(one), summaries={})
-    judged = {name: judge(BY_NAME[name], found) for name, *_ in CHANGES}
-    from_table = {name for name, found in judged.items() if found == "not tested"}
-    assert from_table == {"peak_before_average", "peak_after_average", "intermediate_size"}
-    assert {found for name, found in judged.items() if name not in from_table} == {"not settled"}
+    one = paper.evidence([run for run in of_all_lengths() if run.seed == 0])
+    found = {name: judge(BY_NAME[name], one) for name, *_ in CHANGES}
+    assert set(found.values()) == {"not settled"}
 
 
 def test_a_block_is_isolated_while_its_neighbours_rest():

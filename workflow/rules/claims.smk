@@ -2,20 +2,22 @@
 
 #: Groups whose realisations and preludes claims rest on.
 GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
-GROUPS_CLAIMED += ["loading", "repetitions", "groove_lengths", "one_level"]
+GROUPS_CLAIMED += [
+    "loading",
+    "scatter",
+    "repetitions",
+    "groove_lengths",
+    "one_level",
+    "square",
+    "ungrooved",
+]
 
 
 rule claims:
     input:
         batches=batches(ensembles(GROUPS_CLAIMED)),
-        realisations=rules.aggregate.output,
         correlations=rules.correlations.input,
         precision=rules.precision_table.output if config["accuracy"] else [],
-        preludes=[
-            f"{RESULTS}/preludes/{ensemble.scene.folder}.npz"
-            for ensemble in ensembles(GROUPS_CLAIMED)
-            if not ensemble.scene.varied
-        ],
     output:
         table=f"{RESULTS}/tables/claims.parquet",
         page=f"{RESULTS}/claims.md",
@@ -31,16 +33,13 @@ rule claims:
         configuration=CONFIGURATION,
         tables=lambda wildcards, input: " ".join(
             f"--{Path(table).stem.replace('_', '-')} {quote(table)}"
-            for table in chain(input.realisations, input.correlations, input.precision)
-        ),
-        preludes=lambda wildcards, input: " ".join(
-            f"--prelude {quote(file)}" for file in input.preludes
+            for table in chain(input.correlations, input.precision)
         ),
     message:
         "Testing the paper's statements"
     shell:
         "springblock --code {params.code} claims {input.batches:q} {params.tables} "
-        "{params.preludes} --configuration {params.configuration} --output {output.table:q} "
+        "--configuration {params.configuration} --output {output.table:q} "
         "--page {output.page:q} > {log:q} 2>&1"
 
 

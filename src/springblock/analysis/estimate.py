@@ -16,6 +16,7 @@ class Estimate:
     ci_low: float
     ci_high: float
     n: int = 0  #: realisations of the smallest sample; 0 where chance plays no part
+    bounds: tuple[float, float] = (-math.inf, math.inf)  #: of what the statistic can be
 
     @classmethod
     def of(cls, interval: Interval, n: int) -> "Estimate":
@@ -35,7 +36,8 @@ class Estimate:
         now, then = students_t(self.n - 1), students_t(n - 1, 1.0 - _MISS / together)
         wider = float(then / now) * math.sqrt(self.n / n)
         below, above = self.value - self.ci_low, self.ci_high - self.value
-        return self.value - wider * below, self.value + wider * above
+        lowest, highest = self.bounds
+        return max(lowest, self.value - wider * below), min(highest, self.value + wider * above)
 
 
 class Proportion(Estimate):

@@ -322,14 +322,15 @@ def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 
-def lesser_prominence(curve: Array) -> float:
+def prominence(curve: Array, rank: int = 2) -> float:
     """Prominence of the second most prominent peak under load, (n,), over the largest force.
 
-    How far the force falls between two load peaks, from the lower of them; 0 with one alone.
+    How far the force falls between two load peaks, from the lower of them; 0 with one alone. With
+    another `rank` that of the most prominent, third most prominent, ... peak.
     """
     from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
 
     highest = float(curve.max())
     _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
     prominences = np.sort(found["prominences"])
-    return float(prominences[-2]) / highest if len(prominences) > 1 else 0.0
+    return float(prominences[-rank]) / highest if len(prominences) >= rank else 0.0

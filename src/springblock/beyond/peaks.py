@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval, lesser_prominence, mean_interval
+from springblock.analysis.statistics import Interval, mean_interval, prominence
 from springblock.beyond.question import Ensembles, grouped, number
 from springblock.beyond.resampling import difference
 from springblock.io.rows import markdown_table
@@ -25,7 +25,7 @@ class Grooves(NamedTuple):
 
 def prominences(runs: Sequence[Run]) -> Array:
     """Prominence of the lesser load peak of each realisation, % of its largest force, (k,)."""
-    return np.array([100.0 * lesser_prominence(friction(run)) for run in runs])
+    return np.array([100.0 * prominence(friction(run)) for run in runs])
 
 
 def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Array]]:

@@ -6,12 +6,11 @@ words ("similar", "uniform", "the same"), the claimed range says how close is cl
 
 from operator import attrgetter
 
-from springblock.claims import flat, grooves, pillars, sides, stress
+from springblock.claims import flat, grooves, load_peaks, pillars, sides, stress
 from springblock.claims.rule import Claim
 
-_MADE = [
-    made for chapter in (stress, flat, pillars, sides, grooves) for made in vars(chapter).values()
-]
+_CHAPTERS = stress, flat, pillars, sides, grooves, load_peaks
+_MADE = [made for chapter in _CHAPTERS for made in vars(chapter).values()]
 
 #: By the section of the paper that makes them, in the order of the chapters.
 CLAIMS = sorted((made for made in _MADE if isinstance(made, Claim)), key=attrgetter("section"))

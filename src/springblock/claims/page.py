@@ -1,14 +1,13 @@
 """The page of claims, written from their table."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from springblock.claims import register
 from springblock.io.rows import Row, markdown_table
-
-_LINE = 160  #: characters of a verdict in the list of statements
 
 _SECTIONS = {
     "1": "Introduction",
@@ -31,6 +30,7 @@ def page(table: Sequence[Row]) -> str:
     numbered = numbered_parts(table)
     return _PAGE.read_text(encoding="utf-8").format(
         summary="\n\n".join(_contents(numbered)),
+        changes=register.changes(table),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
 
@@ -43,21 +43,21 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
-    parts = []
+    earlier, parts = register.verdicts(), []
+    header = ["statement", "form", "verdict", "earlier seeds", "1.0.0", "what decided it"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
-        lines = [_in_contents(*part) for part in group]
-        heading = f"### Section {section}: {_SECTIONS[section]}"
-        parts += [heading, markdown_table(["statement", "verdict", "what decided it"], lines)]
+        lines = [_in_contents(*part, earlier) for part in group]
+        parts += [f"### Section {section}: {_SECTIONS[section]}", markdown_table(header, lines)]
     return parts
 
 
-def _in_contents(number: int, part: Sequence[Row]) -> list[str]:
-    """A statement with a link to its rows, its verdict and what decided it."""
-    heading = f"{number}. {part[0]['claim']}"
-    verdict = _verdict(part[0])
-    if len(verdict) > _LINE:
-        verdict = verdict.split(":")[0]  # a list of cases would not fit a line
-    return [f"[{heading}](#{anchor(heading)})", verdict, decided(part)]
+def _in_contents(number: int, part: Sequence[Row], earlier: Mapping[str, Row]) -> list[str]:
+    """A statement with a link to its rows, its verdicts and what decided the last one."""
+    first, heading = part[0], f"{number}. {part[0]['claim']}"
+    before = earlier.get(first["claim"], {})
+    link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
+    old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
+    return [link, first["form"], verdict, *old, decided(part)]
 
 
 def anchor(heading: str) -> str:
@@ -66,33 +66,30 @@ def anchor(heading: str) -> str:
     return kept.replace(" ", "-")
 
 
-def _verdict(row: Row) -> str:
-    return f"**{row['verdict']}** {row['depends_on']}".strip()
-
-
 def decided(part: Sequence[Row]) -> str:
-    """One sentence: the finding that comes closest to changing the verdict, or settles it."""
-    judged = part[0]["verdict"]
-    if judged == "not tested":
-        return f"{part[0]['rests_on'].capitalize()}."
-    if judged == "not settled":
-        least = max(part, key=_wanted)
-        return f"{_in_words(least, part)}; {_needed(least)}."
-    kinds = {"reproduced": ["holds"], "not reproduced": ["fails"], "depends on": ["holds", "fails"]}
-    words = []
-    for kind in kinds[judged]:
-        found = [row for row in part if row["outcome"] == kind]
-        choose, how = (max, "most clearly") if kind == "fails" else (min, "most narrowly")
-        decided = _in_words(choose(found, key=_clearness), part)
-        if found[1:]:
-            decided = f"{len(found)} of {len(part)} {kind.removesuffix('s')}, {how} {decided}"
-        words.append(decided)
-    return f"{'; '.join(words)}."
+    """Where a statement holds and fails, and the finding that decided its verdict.
+
+    That is the one nearest to failing, the one that fails most clearly, or the open one that needs
+    the most realisations.
+    """
+    first = part[0]
+    if first["verdict"] == "not tested":
+        return f"{first['rests_on'].capitalize()}."
+    kind, choose, key = {
+        "reproduced": ("holds", min, _clearness),
+        "reproduced in part": ("fails", max, _clearness),
+        "not reproduced": ("fails", max, _clearness),
+        "not settled": ("open", max, _wanted),
+    }[first["verdict"]]
+    found = choose((row for row in part if row["outcome"] == kind), key=key)
+    sentence = _in_words(found, part)
+    if first["verdict"] == "not settled":
+        sentence += f"; {_needed(found)}"
+    return f"{first['boundary']} {sentence}.".strip()
 
 
 def _wanted(row: Row) -> float:
-    wanted = row["settled_by"]
-    return -1.0 if math.isnan(wanted) else wanted
+    return -1.0 if math.isnan(row["needed"]) else float(row["needed"])
 
 
 def _clearness(row: Row) -> float:
@@ -111,12 +108,14 @@ def _in_words(row: Row, part: Sequence[Row]) -> str:
     common = set.intersection(*(set(other["case"].split(", ")) for other in part))
     case = ", ".join(key for key in row["case"].split(", ") if key not in common)
     told_apart = f" ({case})" if case else ""
-    return f"{row['statistic']} is {_value(row)}, claimed {_range(row)}{told_apart}"
+    first, *rest = row["statistic"].split(" ")
+    statistic = " ".join([first.capitalize() if first.isalpha() else first, *rest])
+    return f"{statistic}{told_apart} is {_value(row)}, claimed {_range(row)}"
 
 
 def _needed(row: Row) -> str:
     """How many realisations would settle an open finding."""
-    wanted = row["settled_by"]
+    wanted = row["needed"]
     if math.isnan(wanted):
         return "no interval"
     if math.isinf(wanted):
@@ -130,10 +129,10 @@ def _section(number: int, part: Sequence[Row]) -> str:
     lines = [
         f"## {number}. {first['claim']}",
         f"{first['statement']} (section {first['section']})",
-        f"Verdict: {_verdict(first)}.",
+        f"Verdict on this {first['form']} statement: **{first['verdict']}**. {first['boundary']}",
     ]
     if first["verdict"] == "not tested":
-        lines[-1] += f" {first['rests_on'].capitalize()}."
+        lines[-1] += f"{first['rests_on'].capitalize()}."
     else:
         together = f" together, {100.0 - 5.0 / len(part):.4g} % alone" if part[1:] else ""
         value = f"value [95 % interval{together}]"
@@ -146,7 +145,7 @@ def _section(number: int, part: Sequence[Row]) -> str:
 
 def _cells(row: Row) -> list[str]:
     outcome = row["outcome"]
-    if outcome in ("open", "underpowered"):
+    if outcome == "open":
         outcome += f": {_needed(row)}"
     return [row["case"], row["statistic"], _value(row), _range(row), outcome]
 

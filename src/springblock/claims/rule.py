@@ -4,8 +4,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from statistics import median
-from typing import Any
+from typing import Any, Literal
 
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import students_t
@@ -18,9 +17,11 @@ Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
+#: universal: always, only, all, a superlative; existential: can; general: all others.
+Form = Literal["universal", "general", "existential"]
 
 ENOUGH = 20  #: realisations from which on a surface is looked at by itself
-_POWER = 0.84  #: standard errors that four in five estimates stay below
+_POWER = 1.28  #: standard errors that nine in ten estimates stay below
 _MANY = 10**6  #: realisations beyond which nobody would go
 
 
@@ -29,10 +30,9 @@ class Evidence:
     """What claims are tested on, by scene. What was not simulated or measured is absent."""
 
     records: Records = field(default_factory=dict)
-    summaries: RowsByScene = field(default_factory=dict)  #: the table `realisations`
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)
-    #: Tangential force on each block before the first lets go, over its mean; NaN off contact.
+    #: Tangential force on each block before the first detaches, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
 
@@ -59,40 +59,38 @@ class Finding:
     rests_on: str  #: separated by "; "
     unit: str = "1"
 
-    def outcome(self, together: int = 1, n: int | None = None) -> str:
+    def outcome(self, together: int = 1) -> str:
         """Whether the claim "holds", "fails" or stays "open" here, as one of several findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
-        outside, and is open where it does neither or there is no interval. With another `n` it
-        is the outcome to expect of so many realisations with the same value.
+        outside, and is open where it does neither or there is no interval.
         """
-        (low, high), (lowest, highest) = self.estimate.limits(together, n), self.claimed
+        return self._outcome(*self.estimate.limits(together))
+
+    def _outcome(self, low: float, high: float) -> str:
+        lowest, highest = self.claimed
         if lowest < low and high < highest:
             return "holds"
         return "fails" if high <= lowest or low >= highest else "open"
 
-    def settled_by(self, together: int = 1) -> float:
-        """Realisations that would decide an open finding, were its value the true one.
+    def needed(self, together: int = 1) -> float:
+        """Realisations that decide nine times in ten, if value and scatter are the true ones.
 
-        To 2 %; infinite if a million would not do, NaN where it is decided or has no interval.
+        To 2 %; infinite if a million would not do, NaN where chance plays no part or there is no
+        interval.
         """
-        n = self.estimate.n
-        if self.outcome(together) != "open" or n < 2:
+        if self.estimate.n < 2 or math.isnan(self.estimate.ci_low):
             return math.nan
-        while n < _MANY:
-            n = math.ceil(1.02 * n)
-            if self.outcome(together, n) != "open":
-                return n
-        return math.inf
-
-    def had_power_at(self, value: float, together: int) -> bool:
-        """Whether it would hold four times in five if this were the true value."""
-        low, high = self.estimate.limits(together)
         alone = self.estimate.limits(1)
         error = (alone[1] - alone[0]) / 2.0 / float(students_t(self.estimate.n - 1))
-        shift, (lowest, highest) = value - self.estimate.value, self.claimed
-        spare = _POWER * error
-        return lowest < low + shift - spare and high + shift + spare < highest
+        n = 2
+        while n < _MANY:
+            low, high = self.estimate.limits(together, n)
+            spare = _POWER * error * math.sqrt(self.estimate.n / n)
+            if self._outcome(low - spare, high + spare) != "open":
+                return n
+            n = math.ceil(1.02 * n)
+        return math.inf
 
 
 Test = Callable[[Evidence], Iterable[Finding]]
@@ -104,13 +102,16 @@ class Claim:
 
     name: str
     section: str
+    form: Form
     statement: str
     figure: int  #: of the paper, which shows what the statement speaks of
     needs: str  #: what must have been simulated or measured
     test: Test
 
 
-def claim(name: str, section: str, figure: int, needs: str) -> Callable[[Test], Claim]:
+def claim(
+    name: str, section: str, figure: int, needs: str, form: Form = "general"
+) -> Callable[[Test], Claim]:
     """Make a claim of a test, which yields findings from evidence.
 
     Its docstring is the statement: what the paper says and, after "Tested:", what number a word
@@ -118,108 +119,95 @@ def claim(name: str, section: str, figure: int, needs: str) -> Callable[[Test], 
     """
 
     def made(test: Test) -> Claim:
-        return Claim(name, section, " ".join((test.__doc__ or "").split()), figure, needs, test)
+        statement = " ".join((test.__doc__ or "").split())
+        return Claim(name, section, form, statement, figure, needs, test)
 
     return made
 
 
-def outcomes(findings: Sequence[Finding]) -> list[str]:
-    """Outcome of each finding of a claim: "holds", "fails", "open" or "underpowered".
+def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
+    """Judge a claim by its findings; return the verdict and where the claim holds and fails.
 
-    The intervals of all findings hold together. An open finding is underpowered where it would
-    hold less than four times in five if its true value were the median of those that hold in other
-    cases.
-    """
-    together = len(findings)
-    found = [finding.outcome(together) for finding in findings]
-    holds = [each for each, outcome in zip(findings, found, strict=True) if outcome == "holds"]
-    for i, finding in enumerate(findings):
-        values = [other.estimate.value for other in holds if _comparable(other, finding)]
-        if found[i] == "open" and values and finding.estimate.n:
-            powerful = finding.had_power_at(median(values), together)
-            found[i] = "open" if powerful else "underpowered"
-    return found
+    All findings of a case must hold for the case to hold, and one that fails makes it fail.
 
-
-def _comparable(first: Finding, second: Finding) -> bool:
-    """The same is claimed of the same statistic in another case."""
-    same = (first.statistic, first.claimed) == (second.statistic, second.claimed)
-    return same and first.case != second.case
-
-
-def verdict(findings: Sequence[Finding]) -> tuple[str, str]:
-    """Judge a claim by its findings; return the verdict and what it depends on.
-
-    All findings of a case must hold for the case to hold, one that fails makes it fail, and an
-    underpowered one leaves it undecided. The claim is made of all its cases:
-
-    - it "depends on" what differs between cases where some hold and some fail;
-    - it is "not reproduced" where some fail and none holds: no open case could save it, but one
-      may yet show that it depends on something, and these are named;
-    - it is "reproduced" where some hold, none fails and none is open but for lack of power, and
-      those are fewer than the ones that hold;
-    - it is "not settled" otherwise, and "not tested" without any finding.
+    - One case refutes a universal claim, and one suffices for an existential one.
+    - A claim with cases that hold and cases that fail is "reproduced in part".
+    - Without one that fails it is "not settled" while any case is open, else "reproduced".
+    - It is "not reproduced" where cases fail and none holds, and "not tested" without findings.
     """
     if not findings:
         return "not tested", ""
-    judged = zip(findings, outcomes(findings), strict=True)
-    cases = groupby(judged, key=lambda pair: pair[0].case)
-    decided = [(case, _together({outcome for _, outcome in group})) for case, group in cases]
-    found = [outcome for _, outcome in decided]
-    if {"holds", "fails"} <= set(found):
-        return "depends on", _difference(decided)
-    if "fails" in found:
-        return "not reproduced", _cases(decided, _varied(decided)) if set(found) & _OPEN else ""
-    settled = "open" not in found and found.count("holds") > found.count("underpowered")
-    return "reproduced" if settled else "not settled", ""
+    cases = [
+        (case, _together({finding.outcome(len(findings)) for finding in group}))
+        for case, group in groupby(findings, key=lambda finding: finding.case)
+    ]
+    found = {outcome for _, outcome in cases}
+    if form == "existential" and "holds" in found:
+        return "reproduced", boundary(cases, "holds")
+    if form == "universal" and "fails" in found:
+        return "not reproduced", boundary(cases, "fails")
+    if {"holds", "fails"} <= found:
+        return "reproduced in part", boundary(cases, "holds", "fails", "open")
+    if "fails" in found and form == "general":
+        return "not reproduced", boundary(cases, "fails")
+    if "open" in found:
+        return "not settled", boundary(cases, "open")
+    return ("reproduced" if "holds" in found else "not reproduced"), ""
 
 
 def _together(found: Collection[str]) -> str:
-    return next(kind for kind in ("fails", "underpowered", "open", "holds") if kind in found)
+    return next(kind for kind in ("fails", "open", "holds") if kind in found)
 
 
-_OPEN = {"open", "underpowered"}
+#: How a case is called by the value of a key, in a sentence.
+_WORDS = {
+    "n_p": "on pillars of {} blocks",
+    "n_p2": "with pawls of {} blocks",
+    "degrees": "at {}° from the grooves",
+    "t/t_max below": "for blocks that detach before {} t_max",
+    "mu_static_std": "where thresholds scatter by {}",
+}
 
 
-def _difference(decided: Sequence[tuple[Case, str]]) -> str:
-    """Say by which keys the cases that hold differ from those that fail, and which are which.
+def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
+    """Say in words which cases have these outcomes; nothing where all cases have the same.
 
-    These are the keys that tell them apart by themselves; without such a key, all whose values
-    differ.
+    Cases are told apart by the keys that differ between them. Values of a single key that follow
+    one another among those tested make a range.
     """
-    keys = dict.fromkeys(key for case, _ in decided for key in case)
-    holds, fails = (
-        {key: {case.get(key) for case, found in decided if found == which} for key in keys}
-        for which in ("holds", "fails")
-    )
-    telling = [key for key in keys if not holds[key] & fails[key]]
-    telling = telling or [key for key in keys if holds[key] != fails[key]]
-    names = {(_name(case, telling), found) for case, found in decided}
-    if len({name for name, _ in names}) < len(names):  # no key tells them apart without the others
-        telling = _varied(decided)
-    return _cases(decided, telling)
+    keys = dict.fromkeys(key for case, _ in cases for key in case)
+    telling = [key for key in keys if len({case.get(key) for case, _ in cases}) > 1]
+    if len({outcome for _, outcome in cases}) < 2 or not telling:
+        return ""
+    parts = []
+    for outcome in outcomes:
+        chosen = [found == outcome for _, found in cases]
+        if not any(chosen):
+            continue
+        if len(telling) == 1:
+            names = _runs_of([case.get(telling[0]) for case, _ in cases], chosen)
+        else:
+            shown = [case for case, found in cases if found == outcome]
+            short = [{key: case[key] for key in telling if key in case} for case in shown]
+            names = list(dict.fromkeys(map(describe, short)))
+        words = _WORDS.get(telling[0], "for {}") if len(telling) == 1 else "for {}"
+        verb = "is open" if outcome == "open" else outcome
+        parts.append(f"{verb} {words.format(_listed(names))}")
+    return f"It {'; it '.join(parts)}."
 
 
-def _varied(decided: Sequence[tuple[Case, str]]) -> list[str]:
-    """Keys that differ between cases."""
-    keys = dict.fromkeys(key for case, _ in decided for key in case)
-    return [key for key in keys if len({case.get(key) for case, _ in decided}) > 1]
+def _runs_of(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
+    """Values that are chosen, in order; numbers next to one another among all as "a to b"."""
+    if not all(isinstance(value, int | float) for value in values):
+        return [str(value) for value, taken in zip(values, chosen, strict=True) if taken]
+    ordered = sorted(zip(values, chosen, strict=True))
+    runs = [list(run) for taken, run in groupby(ordered, key=lambda pair: pair[1]) if taken]
+    ends = [(run[0][0], run[-1][0]) for run in runs]
+    return [f"{a:g}" if a == b else f"{a:g} to {b:g}" for a, b in ends]
 
 
-def _cases(decided: Sequence[tuple[Case, str]], telling: Sequence[str]) -> str:
-    """Say which cases hold, fail and are open, told apart by these keys."""
-    lists = []
-    for words, kinds in (("holds", {"holds"}), ("fails", {"fails"}), ("open", _OPEN)):
-        cases = [_name(case, telling) for case, found in decided if found in kinds]
-        if cases:
-            lists.append(f"{words} for {' and '.join(dict.fromkeys(cases))}")
-    return f"{', '.join(telling)}: {'; '.join(lists)}"
-
-
-def _name(case: Case, keys: Sequence[str]) -> str:
-    """Name a case by a few of its keys; a single one goes without saying."""
-    shown = {key: case[key] for key in keys if key in case}
-    return str(case[keys[0]]) if len(keys) == 1 else describe(shown)
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
 def describe(case: Case) -> str:

@@ -1,8 +1,8 @@
 """Scenes that claims are about, samples of one number per realisation, and findings from them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from fractions import Fraction
-from itertools import groupby, pairwise
+from dataclasses import replace
+from itertools import pairwise
 from operator import attrgetter
 from typing import Any, TypeVar
 
@@ -28,40 +28,48 @@ Mask = NDArray[np.bool_]
 Quantity = Callable[[Record], float]  #: of a realisation
 
 SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
+_HIGH = 0.95  #: of the largest force, where the width of its peak is taken
 ALONG = "x"  #: the paper's sliding direction
 static_friction: Quantity = attrgetter("static_friction")
 
 
-def along_x(table: Mapping[Scene, T], level: int, smallest: int = 0) -> dict[Scene, T]:
-    """Scenes of so many levels, the first pillars, that slide along x, by N, n_s/n_p and n_p.
-
-    Those with constants of their own are left out.
-    """
-    found = [s for s in table if s.level == level and s.n_p >= smallest and not s.varied]
-    along = [s for s in found if s.direction == ALONG and (s.n_p > 0) == (level > 0)]
-    along.sort(key=lambda s: (s.n_blocks, ratio(s), s.n_p, s.n_p2, s.n_s2))
-    return {scene: table[scene] for scene in along}
+def flat_surfaces(table: Iterable[Scene]) -> list[Scene]:
+    """Return the flat surface with the study's constants, if it is there."""
+    return [scene for scene in table if not scene.level and not scene.varied][:1]
 
 
-def ratio(scene: Scene) -> Fraction:
-    """n_s/n_p; 0 for a flat surface."""
-    return Fraction(scene.n_s, scene.n_p) if scene.n_p else Fraction(0)
+def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T]:
+    """Scenes of square pillars with n_s = n_p, with the study's constants, by n_p."""
+    equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0 and not s.varied]
+    found = [s for s in equal if s.n_p >= smallest]
+    return {scene: table[scene] for scene in sorted(found, key=attrgetter("n_p"))}
 
 
-def families(table: Mapping[Scene, Any], smallest: int = 0) -> Iterator[list[Scene]]:
-    """Pillars of all sizes on surfaces of one size, as far apart in proportion to their own."""
-    groups = groupby(along_x(table, 1, smallest), key=family_place)
-    return (list(family) for _, family in groups)
+def grooved(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
+    """Scenes of grooved pillars of so many levels that slide along x, by their lengths."""
+    found = [s for s in table if s.level == level and s.n_p and s.direction == ALONG]
+    found.sort(key=lambda s: (s.n_blocks, s.n_p, s.n_p2, s.n_s2, s.n_p3))
+    return {scene: table[scene] for scene in found}
 
 
-def place(scene: Scene) -> dict[str, int | str]:
-    """Return what tells this scene from others, but for its direction and constants."""
-    return {"N": scene.n_blocks, **scene.names}
+def across(scene: Scene) -> Scene:
+    """Return the same surface, slid along y."""
+    return replace(scene, direction="y")
 
 
-def family_place(scene: Scene) -> dict[str, int | str]:
-    """Return what the pillars of a family have in common."""
-    return {"N": scene.n_blocks, "n_s/n_p": str(ratio(scene))}
+def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> list[Scene]:
+    """Scenes along x of grooved pillars that were slid across their grooves, too."""
+    return [scene for scene in grooved(table, level) if across(scene) in table]
+
+
+def size(scene: Scene) -> dict[str, int | str]:
+    """Case of pillars of one level."""
+    return {"n_p": scene.n_p}
+
+
+def pawls(scene: Scene) -> dict[str, int | str]:
+    """Case of grooves, which are all equally wide."""
+    return {"n_p2": scene.n_p2}
 
 
 def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
@@ -75,14 +83,9 @@ def in_files(*scenes: Scene, folder: str = "realisations") -> str:
     return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
 
 
-def in_table(*scenes: Scene) -> str:
-    """Name the rows of the table of realisations that hold these scenes."""
-    return "; ".join(f"tables/realisations: {scene.folder}" for scene in scenes)
-
-
 def in_rows(table: str, scene: Scene, **more: str | int) -> str:
     """Name rows of a table of correlations of this scene."""
-    keys = {**place(scene), "direction": scene.direction, **more}
+    keys = {"N": scene.n_blocks, **scene.names, "direction": scene.direction, **more}
     return f"tables/{table}: {describe(keys)}"
 
 
@@ -90,11 +93,6 @@ def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
     """A number per realisation, (k,), without those in which it is not defined, NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
-
-
-def lags(rows: Iterable[Row]) -> Array:
-    """t_max - t_avg of each realisation, (k,) s, from rows of the table `realisations`."""
-    return np.array([row["t_max"] - row["t_avg"] for row in rows])
 
 
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
@@ -109,18 +107,29 @@ def mean(sample: ArrayLike) -> Estimate:
     return Estimate.of(mean_interval(values), len(values)) if len(values) else UNKNOWN
 
 
+def share(sample: ArrayLike) -> Estimate:
+    """Mean of a sample of shares, (k,), whose interval stays between 0 and 1."""
+    return replace(mean(sample), bounds=(0.0, 1.0))
+
+
 def proportion(flags: NDArray[np.bool_]) -> Estimate:
     """Proportion of the realisations, (k,), in which something is so, with its exact interval."""
     return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
 def difference(first: Array, second: Array) -> Estimate:
-    """Mean of a sample minus that of one of another surface: both are independent (Welch).
-
-    The same seeds do not help: realisations of different surfaces are hardly correlated.
-    """
+    """Mean of a sample minus that of one of another surface: both are independent (Welch)."""
     fewest = min(len(first), len(second))
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
+
+
+def paired(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene) -> Estimate:
+    """Mean difference of a quantity between two scenes of one surface, seed by seed.
+
+    Equal seeds give both the same friction coefficients.
+    """
+    samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
+    return mean([samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]])
 
 
 def compared(
@@ -171,38 +180,42 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
 
 def found_on(
     scene: Scene,
+    case: Case,
     statistic: str,
     estimate: Estimate,
     claimed: Range,
     unit: str = "1",
-    /,
-    **more: Any,
 ) -> Finding:
-    """Finding that rests on the realisations of a scene; `more` says which part of it."""
-    return Finding(place(scene) | more, statistic, estimate, claimed, in_files(scene), unit)
+    """Finding that rests on the realisations of a scene."""
+    return Finding(case, statistic, estimate, claimed, in_files(scene), unit)
 
 
-def means_of_runs(
-    records: Records, statistic: str, quantity: Quantity, claimed: Range, unit: str = "1"
+def shares_of_runs(
+    records: Records, statistic: str, quantity: Quantity, claimed: Range
 ) -> Iterator[Finding]:
-    """Mean of a quantity over the realisations of each scene."""
+    """Mean of a share over the realisations of each scene of pillars."""
     for scene, runs in records.items():
-        yield found_on(scene, statistic, mean(over_runs(quantity, runs)), claimed, unit)
+        yield found_on(scene, size(scene), statistic, share(over_runs(quantity, runs)), claimed)
 
 
 def in_order(
-    scene: Scene, parts: Mapping[str, Array], time: str = "t_max", /, **more: Any
+    scene: Scene, case: Case, parts: Mapping[str, Array], time: str = "t_max"
 ) -> Iterator[Finding]:
     """Each part of a pillar detaches before the next; mean t_det over `time` of each, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
         statistic = f"t_det/{time} of the {late} minus that of the {early}"
-        yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE, **more)
+        yield found_on(scene, case, statistic, mean(after - before), ranges.POSITIVE)
 
 
 def before_peak(run: Run) -> float:
     """Share of all detaching blocks that detach before t_max."""
     times = run.t_det[np.isfinite(run.t_det)]
     return float(np.mean(times < run.t_max))
+
+
+def lag(run: Run) -> float:
+    """t_max - t_avg, s."""
+    return run.t_max - run.t_avg
 
 
 def relative_lag(run: Run) -> float:
@@ -215,6 +228,18 @@ def neighbours(field: Array, outside: float) -> Array:
     padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
     shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
     return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
+
+
+def width(run: Run) -> float:
+    """Time during which the force exceeds 95 % of its maximum, over t_max."""
+    samples = np.count_nonzero(run.force > _HIGH * run.force.max())
+    return float(samples * (run.time[1] - run.time[0]) / run.t_max)
+
+
+def lasting(run: Run) -> float:
+    """Time between a tenth and nine tenths of the first detachments, over t_max."""
+    early, late = np.nanquantile(run.t_det, (0.1, 0.9))
+    return float(late - early) / run.t_max
 
 
 def isolated(run: Run, until: float = 1.0) -> float:

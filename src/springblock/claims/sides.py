@@ -1,44 +1,42 @@
 """Correlation of detachment times along the sides of pillars, sections 3.2 and 3.3.
 
-All lengths are those of A exp(-r/l_c) fitted over the same distances, r = 1 to 6 blocks, on sides
+l_c is that of exp(-r/l_c), the paper's, fitted over the same distances, r = 1 to 6 blocks, on sides
 of 20 blocks or more: on shorter ones the paper finds l_c difficult to estimate.
 """
 
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.analysis.correlation import LAST, side_times
+from springblock.analysis.correlation import LAST, Correlation, side_times
 from springblock.analysis.estimate import Estimate
+from springblock.analysis.statistics import Interval, bootstrap_interval, repeatability
 from springblock.claims import ranges
 from springblock.claims.ranges import INF, within
 from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
 from springblock.claims.samples import (
     ALONG,
-    SMALLEST,
-    along_x,
-    families,
-    family_place,
+    across,
     found_on,
     in_rows,
     interval,
     mean,
-    place,
+    pawls,
+    pillars,
+    size,
+    slid_both_ways,
 )
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
 _FAR = 3  #: blocks, the paper's lower bound of the correlation length
-_ABOUT_THREE_OR_MORE = (2.5, INF)  #: blocks
+_THREE_OR_MORE = (3.0, INF)  #: blocks
 _DECAYED = (-INF, float(np.exp(-1.0)))
-#: Realisations from which on correlations of grooved pillars, one on a surface, are compared: as
-#: many as figure 7 has on n_p = 60, where they make intervals 0.1 wide.
-_MANY = 220
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
 _CLOSE = 0.1  #: difference between correlation functions that look the same
+_EXACT = 0.05  #: distance of c(r) from a curve that describes it, half of that
 _BLOCK = 1.0  #: difference between correlation lengths that are the same, blocks
 #: Of t_max, between detachments of neighbours in one event: in this time the slider adds as
 #: little to the load, and what lets a block go is its neighbour.
@@ -47,9 +45,10 @@ _SHORT = 10  #: n_p, sides no longer than a few l_c
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 _TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
 _LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
-_WITH_GROOVES = f"{_LENGTHS}, with grooves and without, from 220 realisations or more"
+_WITH_GROOVES = f"{_LENGTHS}, with grooves and without"
 _ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
@@ -75,8 +74,8 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
 
 
 def _length(row: Row) -> Estimate:
-    """l_c of A exp(-r/l_c)."""
-    return interval(row, "tail", "tail")
+    """l_c of exp(-r/l_c)."""
+    return interval(row, "l_c")
 
 
 def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
@@ -94,17 +93,17 @@ def _fitted(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range."""
     name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
-    for scene, rows in along_x(evidence.correlation, 1, SMALLEST).items():
+    for scene, rows in pillars(evidence.correlation).items():
         far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
         near = select(rows, side="y", r=1)
         if len(far) < 2 or not near:
             continue
         apart = paired_difference(*(interval(row, "correlation") for row in far))
         source = in_rows("correlation", scene, r=_FAR)
-        yield Finding(place(scene), name, apart, ranges.POSITIVE, source)
+        yield Finding(size(scene), name, apart, ranges.POSITIVE, source)
         c_y = interval(near[0], "correlation")
         source = in_rows("correlation", scene, side="y", r=1)
-        yield Finding(place(scene), "c_y(r = 1)", c_y, _DECAYED, source)
+        yield Finding(size(scene), "c_y(r = 1)", c_y, _DECAYED, source)
 
 
 def events(times: Array) -> NDArray[np.intp]:
@@ -145,61 +144,113 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         "blocks per event on sides along x minus those on sides along y, each beyond those of "
         "sides whose blocks come from different realisations"
     )
-    for scene in along_x(evidence.records, 1, SMALLEST):
+    for scene in pillars(evidence.records):
         sizes = {}
         for side in "xy":
             number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
             sizes[side] = (scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1]
-        yield found_on(scene, name, mean(sizes["x"] - sizes["y"]), ranges.POSITIVE, "blocks")
+        larger = mean(sizes["x"] - sizes["y"])
+        yield found_on(scene, size(scene), name, larger, ranges.POSITIVE, "blocks")
 
 
-@claim("Exponential decay of c_x", "3.2", 7, _LENGTHS)
+@claim("All blocks of a side detach at the same time on average", "3.2", 7, _BROAD_PILLARS)
+def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
+    """Two points on the same pillar side have the same average value of their detachment times.
+
+    Tested: place explains less than a fifth of the variance along a side, without the corners,
+    which detach before.
+    """
+    for scene, runs in pillars(evidence.records, _BROAD).items():
+        for side, name in (("x", "along"), ("y", "across")):
+            times = side_times(runs, scene.pattern, side)[:, 0, 0, 1:-1]  # of the first pillar
+            found = Estimate.of(repeatability(times), len(runs))
+            statistic = f"share of the variance of t_det that place explains on edges {name}"
+            yield found_on(scene, size(scene), statistic, found, ranges.ALIKE)
+
+
+def misfits(correlation: Array) -> dict[str, Array]:
+    """Root mean square distance of c(r), (b, r) from r = 1 on, from curves of one length.
+
+    The best curve of each shape through c(0) = 1, on a grid of lengths; (b,) each.
+    """
+    r = np.arange(1.0, correlation.shape[-1] + 1.0)
+    lengths = np.geomspace(0.1, 100.0, 200)[:, None]
+    shapes = {
+        "an exponential": np.exp(-r / lengths),
+        "a power law": (1.0 + r) ** (-1.0 / lengths),
+        "a straight line": np.maximum(0.0, 1.0 - r / lengths),
+    }
+    return {
+        name: np.sqrt(((correlation[:, None] - curves) ** 2).mean(axis=-1).min(axis=-1))
+        for name, curves in shapes.items()
+    }
+
+
+@claim("Exponential decay of c_x", "3.2", 7, _BROAD_PILLARS)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c).
 
-    Tested: within 0.1 of A exp(-r/l_c), r = 1 to 6, on sides of 20 blocks or more.
+    Tested: at r = 1 to 6, c_x lies within 0.05 of exp(-r/l_c), and further from a power law and
+    from a straight line through c(0) = 1.
     """
-    for scene in along_x(evidence.correlation, 1, _BROAD):
-        source = in_rows("correlation", scene, side=ALONG)
-        for row in _fitted(evidence, scene):
-            name, apart = (
-                f"c_x(r) - A exp(-r/l_c) at r = {row['r']}",
-                interval(row, "residual", "residual"),
-            )
-            yield Finding(place(scene), name, apart, within(_CLOSE), source)
+    for scene, runs in pillars(evidence.records, _BROAD).items():
+        found = Correlation(side_times(runs, scene.pattern, ALONG))
+        span = slice(1, LAST + 1)
+
+        def distances(weights: Array, found: Correlation = found, span: slice = span) -> Array:
+            exponential, *others = misfits(found.weighted(weights)[:, span]).values()
+            return np.column_stack([exponential, *(exponential - other for other in others)])
+
+        intervals = bootstrap_interval(distances, len(runs))
+        names = ("", " minus that from a power law", " minus that from a straight line")
+        claims = ((-INF, _EXACT), ranges.NEGATIVE, ranges.NEGATIVE)
+        for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
+            apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
+            statistic = f"root mean square distance of c_x from the best exponential{more}"
+            yield found_on(scene, size(scene), statistic, apart, claimed)
 
 
 @claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more.
 
-    Tested: more than 2.5, on sides of 20 blocks or more.
+    Tested: more than 3, on sides of 20 blocks or more.
     """
-    for scene in along_x(evidence.correlation_length, 1, _BROAD):
+    for scene in pillars(evidence.correlation_length, _BROAD):
         for fit in _fits(evidence, scene):
-            source, l_c = in_rows("correlation_length", scene, side="x"), _length(fit)
-            yield Finding(place(scene), "l_c of c_x", l_c, _ABOUT_THREE_OR_MORE, source, "blocks")
+            source = in_rows("correlation_length", scene, side="x")
+            length = _length(fit)
+            yield Finding(size(scene), "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
 
 
 @claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """l_c is slightly increasing with n_p."""
-    for family in families(evidence.correlation_length, _BROAD):
-        fits = [fit for scene in family for fit in _fits(evidence, scene)]
-        if len(fits) < 2:
-            continue
-        n, first, last = family[0].n_blocks, fits[0], fits[-1]
-        yield Finding(
-            family_place(family[0]),
-            f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-            unpaired_difference(_length(last), _length(first)),
-            ranges.POSITIVE,
-            f"tables/correlation_length: N = {n}, n_p = {first['n_p']} and {last['n_p']}, side = x",
-            "blocks",
-        )
+    """l_c is slightly increasing with n_p.
+
+    Tested: from n_p = 20 to the largest pillars.
+    """
+    scenes = pillars(evidence.correlation_length, _BROAD)
+    fits = [fit for scene in scenes for fit in _fits(evidence, scene)]
+    if len(fits) < 2:
+        return
+    first, last = fits[0], fits[-1]
+    yield Finding(
+        {},
+        f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
+        unpaired_difference(_length(last), _length(first)),
+        ranges.POSITIVE,
+        f"tables/correlation_length: n_p = {first['n_p']} and {last['n_p']}, side = x",
+        "blocks",
+    )
 
 
-@claim("One event can detach a whole side", "3.2", 7, "realisations of pillars with n_p of 4 to 10")
+@claim(
+    "One event can detach a whole side",
+    "3.2",
+    7,
+    "realisations of pillars with n_p of 4 to 10",
+    "existential",
+)
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
     detachment of the whole side.
@@ -211,29 +262,19 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
         "share of the sides along x that, but for their corners, detach in one event, minus "
         "that of sides whose blocks come from different realisations"
     )
-    for scene in along_x(evidence.records, 1, SMALLEST):
+    for scene in pillars(evidence.records):
         if scene.n_p <= _SHORT:
             sides = _sides_of(evidence, scene, "x")
             once, by_chance = ((events(times) == 1).mean(axis=(1, 2)) for times in sides)
-            yield found_on(scene, name, mean(once - by_chance), ranges.POSITIVE)
+            yield found_on(scene, size(scene), name, mean(once - by_chance), ranges.POSITIVE)
 
 
-def most_like(scene: Scene, whole: Iterable[Scene]) -> Scene:
-    """The one that differs least in N, size of pillars and distance, in this order."""
-
-    def off(other: Scene) -> list[int]:
-        lengths = ("n_blocks", "n_p", "n_s")
-        return [abs(getattr(scene, name) - getattr(other, name)) for name in lengths]
-
-    return min(whole, key=off)
-
-
-def _with_whole(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
-    """Grooved pillars with many realisations, and those without grooves most like them."""
-    many = {scene: rows for scene, rows in table.items() if rows[0]["realisations"] >= _MANY}
-    whole = along_x(many, 1, _BROAD)
-    for scene in along_x(many, 2, _BROAD) if whole else ():
-        yield scene, most_like(scene, whole)
+def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
+    """The grooved pillars seen most often, and the largest pillars without grooves."""
+    both = slid_both_ways(table)
+    largest = list(pillars(table, _BROAD))[-1:]
+    if both and largest:
+        yield max(both, key=lambda scene: table[scene][0]["realisations"]), largest[0]
 
 
 @claim("Correlations keep their shape on grooved pillars", "3.3", 7, _WITH_GROOVES)
@@ -242,13 +283,13 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.
     """
-    for scene, like in _with_whole(evidence.correlation):
+    for scene, like in _with_largest(evidence.correlation):
         whole = {row["r"]: row for row in _fitted(evidence, like)}
         for side, name in _SIDES.items():
             for row in _fitted(evidence, scene, side):
                 values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
                 yield Finding(
-                    place(scene) | {"side": name},
+                    {"side": name},
                     f"c(r) minus c_x(r) on n_p = {like.n_p} without grooves, at r = {row['r']} "
                     "(from both intervals)",
                     unpaired_difference(*values),
@@ -263,14 +304,14 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: within a block, on external sides and along the grooves.
     """
-    for scene, like in _with_whole(evidence.correlation_length):
+    for scene, like in _with_largest(evidence.correlation_length):
         whole = _fits(evidence, like)
         for side, name in _SIDES.items():
             for fit in _fits(evidence, scene, side) if whole else []:
                 yield Finding(
-                    place(scene) | {"side": name},
-                    "l_c on grooved pillars minus l_c on sides of "
-                    f"n_p = {whole[0]['n_p']} without grooves (from both intervals)",
+                    {"side": name},
+                    f"l_c on grooved pillars minus l_c on sides of n_p = {like.n_p} without "
+                    "grooves (from both intervals)",
                     unpaired_difference(_length(fit), _length(whole[0])),
                     within(_BLOCK),
                     in_rows("correlation_length", scene, side=side),
@@ -284,14 +325,13 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: correlation below 1/e one block away, on external sides and along the grooves.
     """
-    for scene in along_x(evidence.records, 2, SMALLEST):
-        across = replace(scene, direction="y")
+    for scene in slid_both_ways(evidence.correlation):
         for side, name in _SIDES.items():
-            for row in select(evidence.correlation.get(across, ()), side=side, r=1):
+            for row in select(evidence.correlation[across(scene)], side=side, r=1):
                 yield Finding(
-                    place(scene) | {"side": name},
-                    "c(r = 1) when sliding across the grooves",
+                    pawls(scene),
+                    f"c(r = 1) on {name} when sliding across the grooves",
                     interval(row, "correlation"),
                     _DECAYED,
-                    in_rows("correlation", across, side=side, r=1),
+                    in_rows("correlation", across(scene), side=side, r=1),
                 )

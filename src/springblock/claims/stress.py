@@ -1,7 +1,7 @@
 """Stress before the first detachment, when nothing random has happened (section 3 of the paper).
 
-A prelude holds the largest tangential force that has pulled at each block so far. There is no
-scatter: values are exact, and their intervals have no width.
+The layer is in equilibrium while the slider pulls at it: forces follow from its linear elasticity
+and are exact, so that their intervals have no width.
 """
 
 from collections.abc import Iterator
@@ -10,34 +10,66 @@ from dataclasses import replace
 import numpy as np
 
 from springblock.analysis.estimate import Estimate
-from springblock.analysis.statistics import pillar_ring
+from springblock.analysis.statistics import bootstrap_interval, pillar_map, pillar_ring
 from springblock.claims import ranges
 from springblock.claims.grooves import edge, grooved_parts
-from springblock.claims.rule import Evidence, Finding, Range, claim
-from springblock.claims.samples import SMALLEST, along_x, in_files, pillars_of, place
-from springblock.claims.sides import most_like
+from springblock.claims.rule import Case, Evidence, Finding, Range, claim
+from springblock.claims.samples import (
+    SMALLEST,
+    across,
+    found_on,
+    grooved,
+    in_files,
+    pawls,
+    pillars,
+    pillars_of,
+    size,
+    slid_both_ways,
+)
+from springblock.mechanism.elasticity import pull
+from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-_GROOVED = "preludes of a grooved surface"
+_GROOVED = "a grooved surface"
 _BOTH_WAYS = f"{_GROOVED} that slides along and across its grooves"
-_PILLARS = "preludes of pillars with n_p of 4 or more"
-_SEVERAL = "preludes of several pillars with n_p of 4 or more"
-_BOTH_KINDS = "preludes of pillars with grooves and without"
+_PILLARS = "pillars with n_p of 4 or more"
+_SEVERAL = "several pillars with n_p of 4 or more"
+_BOTH_KINDS = "pillars with grooves and the same without"
 _OVER_MEAN = "over the mean of the surface"
 
 
-def _exactly(statistic: str, value: float, claimed: Range, *scenes: Scene) -> Finding:
-    """Finding without scatter from the preludes of some scenes, the first of which names it."""
+def elastic_forces(scene: Scene, material: Material) -> Array:
+    """Tangential force on each block along the sliding direction and across it, (2, N_y, N_x).
+
+    Before the first detachment, over the mean of its modulus; NaN off contact. The direction is x
+    or y.
+    """
+    contact = scene.contact if scene.direction == "x" else scene.contact.T
+    forces = np.full((2, *contact.shape), np.nan)
+    forces[:, contact] = pull(contact, material).reshape(2, -1)
+    forces /= np.nanmean(np.hypot(*forces))
+    return forces if scene.direction == "x" else forces.transpose(0, 2, 1)
+
+
+def _exactly(case: Case, statistic: str, value: float, claimed: Range, *scenes: Scene) -> Finding:
+    """Finding without scatter on the surfaces of some scenes."""
     exact = Estimate(float(value), float(value), float(value))
-    return Finding(
-        place(scenes[0]), statistic, exact, claimed, in_files(*scenes, folder="preludes")
-    )
+    return Finding(case, statistic, exact, claimed, in_files(*scenes, folder="surface of"))
 
 
-def pillar_stress(evidence: Evidence, scene: Scene) -> Array:
-    """Stress on each pillar over the mean of the surface, (pillars, n_p, n_p)."""
-    return np.stack(pillars_of(evidence.stress[scene], scene))
+def _modulus(evidence: Evidence, scene: Scene) -> Array:
+    return np.hypot(*evidence.stress[scene])
+
+
+def _pillar_stress(evidence: Evidence, scene: Scene) -> Array:
+    """Modulus of the stress on each pillar over the mean, (pillars, n_p, n_p)."""
+    return np.stack(pillars_of(_modulus(evidence, scene), scene))
+
+
+def _along(evidence: Evidence, scene: Scene) -> Array:
+    """Stress along the sliding direction on the mean pillar, (n_p, n_p)."""
+    return np.mean(pillars_of(evidence.stress[scene][0], scene), axis=0)
 
 
 @claim("Edges bear more before sliding across grooves", "1", 8, _BOTH_WAYS)
@@ -47,15 +79,26 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
     cross the whole surface; here they divide pillars.
     """
     name = f"stress on the edges when sliding across the grooves minus that along, {_OVER_MEAN}"
-    for along in along_x(evidence.stress, 2):
-        across = replace(along, direction="y")
-        if across in evidence.stress:
-            edges = edge(along.pattern.contact)
-            more, less = (float(evidence.stress[s][edges].mean()) for s in (across, along))
-            yield _exactly(name, more - less, ranges.POSITIVE, across, along)
+    for along in slid_both_ways(evidence.stress):
+        scenes, edges = (across(along), along), edge(along.pattern.contact)
+        more, less = (float(_modulus(evidence, s)[edges].mean()) for s in scenes)
+        yield _exactly(pawls(along), name, more - less, ranges.POSITIVE, *scenes)
 
 
-@claim("All pillars bear the same stress", "3.2", 4, _SEVERAL)
+@claim("The smallest pillars bear a uniform stress", "3.2", 4, "pillars with n_p of 2 or 3")
+def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
+    """For n_p <= 3 the number of blocks on the pillar is too small to induce a non-trivial stress
+    distribution.
+
+    Tested: the standard deviation of the stress is below a tenth of its mean.
+    """
+    name = "standard deviation of the stress over its mean"
+    for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < SMALLEST):
+        deviation = float(np.nanstd(_modulus(evidence, scene)))
+        yield _exactly(size(scene), name, deviation, ranges.NEGLIGIBLE, scene)
+
+
+@claim("All pillars bear the same stress", "3.2", 4, _SEVERAL, "universal")
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
     """All the pillars are subject to the same stress distributions for n_p >= 4.
 
@@ -66,48 +109,100 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
         "root mean square of the stress on the pillar most unlike the mean pillar minus that "
         "on the latter, over the standard deviation on it"
     )
-    for scene in along_x(evidence.stress, 1, SMALLEST):
-        pillars = pillar_stress(evidence, scene)
-        if len(pillars) >= 2:
-            usual = pillars.mean(axis=0)
-            off = np.sqrt(((pillars - usual) ** 2).mean(axis=(1, 2))).max()
-            yield _exactly(name, off / usual.std(), ranges.ALIKE, scene)
+    for scene in pillars(evidence.stress):
+        stresses = _pillar_stress(evidence, scene)
+        if len(stresses) >= 2:
+            usual = stresses.mean(axis=0)
+            off = np.sqrt(((stresses - usual) ** 2).mean(axis=(1, 2))).max()
+            yield _exactly(size(scene), name, off / usual.std(), ranges.ALIKE, scene)
 
 
 @claim("Edges across the sliding direction bear more", "3.2", 4, _PILLARS)
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
     """The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
     along parallel ones.
+
+    Tested: forces along the sliding direction. Neighbours pull at orthogonal edges lengthwise and
+    at parallel ones by shear; what the slider adds is the same for all blocks.
     """
-    name = f"stress on the edges across minus that on the edges along, {_OVER_MEAN}"
-    for scene in along_x(evidence.stress, 1, SMALLEST):
-        ring = pillar_ring(scene.n_p, 0)
-        across, along = (pillar_stress(evidence, scene)[:, ring[side]].mean() for side in "yx")
-        yield _exactly(name, across - along, ranges.POSITIVE, scene)
+    name = f"force along x on the edges across minus that on the edges along, {_OVER_MEAN}"
+    for scene in pillars(evidence.stress):
+        ring, forces = pillar_ring(scene.n_p, 0), _along(evidence, scene)
+        more = forces[ring["y"]].mean() - forces[ring["x"]].mean()
+        yield _exactly(size(scene), name, more, ranges.POSITIVE, scene)
+
+
+def rank_correlation(field: Array, maps: Array) -> Estimate:
+    """Spearman's correlation of a field, (n,), with the mean of k maps, (k, n); BCa."""
+    from scipy.stats import rankdata  # slow to load
+
+    def of_mean(weights: Array) -> Array:
+        ranks = rankdata(weights @ maps, axis=1)
+        ranks -= ranks.mean(axis=1, keepdims=True)
+        return ranks @ own / np.sqrt((ranks**2).sum(axis=1) * (own @ own))
+
+    own = rankdata(field)
+    own -= own.mean()
+    return Estimate.of(bootstrap_interval(of_mean, len(maps)), len(maps))
+
+
+@claim("Blocks detach in the order of their stress", "3.2", 5, _PILLARS)
+def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
+    """The sequence of detachments reflects the initial stress distribution.
+
+    Tested: Spearman's correlation between stress and mean t_det, over the blocks of a pillar, is
+    below -0.5.
+    """
+    name = "rank correlation of initial stress and mean t_det on a pillar"
+    for scene, runs in pillars(evidence.records).items():
+        if scene in evidence.stress:
+            stress = _pillar_stress(evidence, scene).mean(axis=0).ravel()
+            maps = pillar_map(runs, scene.pattern).reshape(len(runs), -1)
+            found = rank_correlation(stress, maps)
+            yield found_on(scene, size(scene), name, found, (-ranges.INF, -0.5))
 
 
 @claim("Grooves make stress more uniform", "3.3", 8, _BOTH_KINDS)
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """A hierarchical configuration allows to distribute mechanical stresses more uniformly over the
     surface.
+
+    Tested: against the same pillars without grooves.
     """
-    whole = along_x(evidence.stress, 1, SMALLEST)
-    for scene in along_x(evidence.stress, 2) if whole else ():
-        like = most_like(scene, whole)
-        grooved, plain = (float(np.nanstd(evidence.stress[s])) for s in (scene, like))
-        name = f"standard deviation of the stress over its mean, minus that on n_p = {like.n_p}"
-        yield _exactly(f"{name} without grooves", grooved - plain, ranges.NEGATIVE, scene, like)
+    name = "standard deviation of the stress over its mean, with grooves minus without"
+    for scene in grooved(evidence.stress):
+        plain = replace(scene, n_p2=0, n_s2=0)
+        if plain in evidence.stress:
+            deviations = (float(np.nanstd(_modulus(evidence, s))) for s in (scene, plain))
+            less = next(deviations) - next(deviations)
+            case = size(scene) | pawls(scene)
+            yield _exactly(case, name, less, ranges.NEGATIVE, scene, plain)
 
 
 @claim("External edges bear more than those along grooves", "3.3", 8, _GROOVED)
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
     """The external edges of the pillars are subjected to larger longitudinal stresses than the
     internal ones along the second-level grooves.
+
+    Tested: forces along the sliding direction.
     """
-    for scene in along_x(evidence.stress, 2):
-        pillars = pillar_stress(evidence, scene)
-        parts = {n: float(pillars[:, mask].mean()) for n, mask in grooved_parts(scene).items()}
+    for scene in slid_both_ways(evidence.stress):
+        forces = _along(evidence, scene)
+        parts = {n: float(forces[mask].mean()) for n, mask in grooved_parts(scene).items()}
         internal = parts["sides along the grooves"]
         for part in ("transverse sides", "external longitudinal sides"):
-            name = f"stress on the {part} minus that on the sides along the grooves, {_OVER_MEAN}"
-            yield _exactly(name, parts[part] - internal, ranges.POSITIVE, scene)
+            name = f"force along x on the {part} minus that on those along grooves, {_OVER_MEAN}"
+            yield _exactly(pawls(scene), name, parts[part] - internal, ranges.POSITIVE, scene)
+
+
+@claim("The edges are half of a grooved surface", "3.3", 8, _GROOVED)
+def equal_parts(evidence: Evidence) -> Iterator[Finding]:
+    """The geometry divides the contact surface into two parts of equal size: the edge regions where
+    slip precursors originate, and the internal core of the contact structures.
+
+    Tested: four to six tenths of the contact blocks have a neighbour without contact.
+    """
+    name = "share of the contact blocks beside a groove or a gap"
+    for scene in slid_both_ways(evidence.stress):
+        share = edge(scene.contact).sum() / scene.contact.sum()
+        yield _exactly(pawls(scene), name, share, (0.4, 0.6), scene)

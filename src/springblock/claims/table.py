@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 
 from springblock.analysis.estimate import UNKNOWN
-from springblock.claims.rule import Claim, Evidence, Finding, describe, outcomes, verdict
+from springblock.claims.rule import Claim, Evidence, Finding, describe, verdict
 from springblock.io.rows import Row
 from springblock.io.schemas import column
 
@@ -14,6 +14,7 @@ SCHEMA = pa.schema(
     [
         column("claim", pa.string(), "1", "short name of the statement"),
         column("section", pa.string(), "1", "where the paper makes it"),
+        column("form", pa.string(), "1", "universal, general or existential"),
         column("statement", pa.string(), "1", "what the paper says, in short"),
         column("case", pa.string(), "1", "the surface, part or quantity looked at"),
         column("statistic", pa.string(), "1", "what the value is"),
@@ -32,15 +33,15 @@ SCHEMA = pa.schema(
         column("claimed_low", pa.float64(), "see unit", "the statement claims more than this"),
         column("claimed_high", pa.float64(), "see unit", "and less than this"),
         column("realisations", pa.int32(), "1", "behind the value; 0: chance plays no part"),
-        column("outcome", pa.string(), "1", "of this row: holds, fails, open or underpowered"),
+        column("outcome", pa.string(), "1", "of this row: holds, fails or open"),
         column(
-            "settled_by",
+            "needed",
             pa.float64(),
             "1",
-            "realisations that would decide an open row, were its value true; else NaN",
+            "realisations that decide nine times in ten, if value and scatter are the true ones",
         ),
         column("verdict", pa.string(), "1", "on the statement, from all its rows"),
-        column("depends_on", pa.string(), "1", "what tells cases that hold from those that fail"),
+        column("boundary", pa.string(), "1", "where the statement holds and where it fails"),
         column("rests_on", pa.string(), "1", "files, scenes and rows behind the value, by ';'"),
     ]
 )
@@ -51,15 +52,15 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
     table = []
     for claim in claims:
         findings = list(claim.test(evidence))
-        judged, depends_on = verdict(findings)
+        judged, where = verdict(claim.form, findings)
         missing = Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}")
-        found = zip(findings or [missing], outcomes(findings) or ["open"], strict=True)
-        for finding, outcome in found:
+        for finding in findings or [missing]:
             estimate, together = finding.estimate, max(1, len(findings))
             low, high = estimate.limits(together)
             row = {
                 "claim": claim.name,
                 "section": claim.section,
+                "form": claim.form,
                 "statement": claim.statement,
                 "case": describe(finding.case),
                 "statistic": finding.statistic,
@@ -72,10 +73,10 @@ def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
                 "claimed_low": finding.claimed[0],
                 "claimed_high": finding.claimed[1],
                 "realisations": estimate.n,
-                "outcome": outcome,
-                "settled_by": finding.settled_by(together),
+                "outcome": finding.outcome(together),
+                "needed": finding.needed(together),
                 "verdict": judged,
-                "depends_on": depends_on,
+                "boundary": where,
                 "rests_on": finding.rests_on,
             }
             table.append(row)

@@ -65,7 +65,7 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
     highest, lag = points.highest_and_lag(by_angle)
     lesser = {
-        angle: PERCENT * np.array([statistics.lesser_prominence(friction(run)) for run in runs])
+        angle: PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
         for angle, runs in by_angle.items()
     }
     for ax, samples in zip(panels, (highest, lag, lesser), strict=True):

@@ -33,7 +33,7 @@ PAGES = {
     "reliability": "How reliable",
 }
 #: Verdicts in the order in which they are listed.
-VERDICTS = ("reproduced", "depends on", "not reproduced", "not settled", "not tested")
+VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
 _FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
@@ -86,15 +86,13 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
 def statements(table: Sequence[Row]) -> list[Row]:
     """Return the first row of each statement of the table `claims`, with what the page adds to it.
 
-    That is its figure, what decided its verdict, in short what this depends on, and the anchor
-    at which the page of statements says more.
+    That is its figure, what decided its verdict, and the anchor of what the page of statements says.
     """
     return [
         {
             **part[0],
             "figure": _FIGURES.get(part[0]["claim"]),
             "decided": decided(part),
-            "depends_on": part[0]["depends_on"].split(":")[0],
             "anchor": "claims-" + anchor(f"{number}. {part[0]['claim']}"),
         }
         for number, part in numbered_parts(table)
