@@ -93,6 +93,16 @@ def peaks(*places: tuple[float, float], width: float = 15.0) -> Change:
     return change
 
 
+def late_avalanche(run: Record) -> dict[str, Any]:
+    """Most detachments are counted long after the mean one."""
+    return {"detachments": np.roll(run.detachments, 50)}
+
+
+def all_again(run: Record) -> dict[str, Any]:
+    """Every fifth block slides anew in every microsecond."""
+    return {"switches": run.detachments + run.contact.sum() // 5}
+
+
 def patch(run: Record) -> dict[str, Any]:
     """All precursors in one spot."""
     t_det = np.maximum(run.t_det, 1.01 * run.t_max)
@@ -140,6 +150,8 @@ CHANGES = [
     ("onset", [FLAT], shifted(9), REFUTED),
     ("avalanche_follows", [FLAT], shifted(9), REFUTED),
     ("peaks_apart", [FLAT], shifted(3), REFUTED),
+    ("average_is_propagation", [FLAT], late_avalanche, REFUTED),
+    ("localized_stick_slip", [FLAT], all_again, REFUTED),
     ("nucleation_anywhere", [FLAT], cornered, REFUTED),
     ("uniform", [FLAT], tilted, REFUTED),
     ("pillars_alike", PILLARS, tilted, REFUTED),

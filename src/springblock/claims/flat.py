@@ -41,7 +41,7 @@ from springblock.io.rows import select
 from springblock.model.asperities import draw_friction
 from springblock.model.material import Material
 from springblock.model.scene import Scene
-from springblock.simulation.run import Run
+from springblock.simulation.run import Run, first_minimum
 
 _ANY = Material()  #: the ratio of stiffnesses is the same for every material
 _STUDIED = ("static_friction", "t_max", "t_avg")
@@ -324,6 +324,43 @@ def peaks_apart(evidence: Evidence) -> Iterator[Finding]:
     """
     name = "detachments within 2 % of t_max around it, over the most in such a time"
     return _means(evidence, name, rate_at_peak, ranges.FEWER_THAN_HALF)
+
+
+def avalanche_over_average(run: Run) -> float:
+    """Time of the most detachments over t_avg."""
+    return (avalanche_lag(run) + run.t_max) / run.t_avg
+
+
+@claim("t_avg is when the fronts cross the surface", "3.1", 2, _FLAT)
+def average_is_propagation(evidence: Evidence) -> Iterator[Finding]:
+    """t_avg corresponds roughly to the propagation instant of the wave fronts over the whole
+    surface.
+
+    Tested: the time of the most detachments is within a tenth of it.
+    """
+    name = "time of the most detachments, within 2 % of t_max, over t_avg"
+    return _means(evidence, name, avalanche_over_average, within(_AFFECTS, 1.0))
+
+
+def start_again(run: Run) -> float:
+    """Share of the blocks that stop and slide again, per µs from the first force minimum on."""
+    minimum = first_minimum(run.force)
+    if minimum is None:
+        return float("nan")
+    lasting = 1e6 * (run.time[-1] - run.time[minimum])
+    blocks = np.count_nonzero(run.contact)
+    return float(run.switches[minimum:].sum() / blocks / lasting)
+
+
+@claim("Small parts of the surface stick and slip while it slides", "3.1", 2, _FLAT)
+def localized_stick_slip(evidence: Evidence) -> Iterator[Finding]:
+    """At the beginning of the dynamic phase localized stick-slip motions of small fractions of the
+    contact area take place.
+
+    Tested: after the first force minimum, less than a tenth of the blocks slide anew in 1 µs.
+    """
+    name = "share of the blocks that slide anew in 1 µs, from the first force minimum on"
+    return _means(evidence, name, start_again, ranges.NEGLIGIBLE)
 
 
 @claim("t_max < t_avg on flat surfaces", "3.1", 2, _FLAT)
