@@ -1,6 +1,6 @@
 # What becomes of the paper's statements, and what was learnt beyond them.
 
-#: Groups whose realisations and preludes claims rest on.
+#: Groups whose realisations claims rest on.
 GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
 GROUPS_CLAIMED += [
     "loading",
@@ -16,7 +16,12 @@ GROUPS_CLAIMED += [
 rule claims:
     input:
         batches=batches(ensembles(GROUPS_CLAIMED)),
-        correlations=rules.correlations.input,
+        correlations=[
+            f"{RESULTS}/correlations/{ensemble.scene.folder}/{table}.parquet"
+            for ensemble in ensembles(GROUPS_CLAIMED)
+            if ensemble.scene.folder in WITH_SIDES and not ensemble.scene.varied
+            for table in ("correlation", "correlation_length")
+        ],
         precision=rules.precision_table.output if config["accuracy"] else [],
     output:
         table=f"{RESULTS}/tables/claims.parquet",
