@@ -282,74 +282,81 @@ FIGURES: dict[str, Declaration] = {
     "stability": Declaration(
         title="Stiff and extreme cases",
         module="accuracy_cases",
-        caption="""Energy residual and error in stiff and extreme cases. Refused cases are beyond
-        the stability limit; failing ones end in an exception.""",
+        caption="""a) Energy residual against the step, over the largest stable one; b) error over
+        the accepted one in all stiff and extreme cases; c-f) error against stiffness, strain,
+        damping and speed.""",
         source=TableSource("stability"),
+        marks="""Refused cases are beyond the stability limit; failing ones end in an exception.""",
     ),
     "mechanism_friction": Declaration(
         title="Stress, load transfer and overshoot",
         module="mechanism",
-        caption=f"""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
-        pulled along x; on surfaces of 40 to 48 blocks a side with gaps as wide as the pillars. e)
-        Its standard deviation over its mean for all blocks in contact; no error bars, as chance
-        plays no part. f) Static friction over the size of pillars: of independent blocks under this
-        stress, with load transfer between them in equilibrium, with blocks that overshoot and stick
-        again, and of the full model, on the same surfaces and the same 10 seeds each. Means with
-        {INTERVALS.replace("realisations", "seeds")}.""",
+        caption="""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
+        pulled along x; e) its standard deviation over its mean for all blocks in contact; f) static
+        friction of independent blocks under this stress, with load transfer between them in
+        equilibrium, with blocks that overshoot and stick again, and of the full model; against the
+        size of pillars, on surfaces of 40 to 48 blocks a side with gaps as wide as the pillars. The
+        same 10 seeds for each.""",
         source=TableSource("mechanism"),
+        marks=f"""e) Chance plays no part: no bars. f) Means; bars:
+        {INTERVALS.replace("realisations", "seeds")}.""",
     ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
         module="beyond",
         caption="""a) Correlation of detachment times along the sides of the largest pillars,
         sliding along x, on lattices of different spacing l, with the layer's thickness l_z and all
-        sizes in metres unchanged; bands are 95 % intervals over realisations. b) Correlation length
-        of A exp(-r/l_c) on these pillars over l, over l with the same disorder per area, and over
-        l_z; grey lines have slope 0 and 1. Static friction over the size of pillars for c)
-        different l and d) different l_z; crosses at the foot: size of the friction-minimising
-        pillar. Bars are 95 % intervals over realisations.""",
+        sizes in metres unchanged. b) Correlation length of A exp(-r/l_c) on these pillars against
+        l, against l with the same disorder per area, and against l_z. Static friction against the
+        size of pillars for c) different l and d) different l_z.""",
         source=RealisationsSource(groups=("lattice", "disorder", "layer"), keys=("folder",)),
+        marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines have slopes 0 and
+        1. c), d) Crosses at the foot: size of the friction-minimising pillar.""",
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds, and of friction",
         module="beyond",
-        caption="""a) Correlation length of A exp(-r/l_c) over the standard deviation of the static
-        coefficients, for pillars of n_p blocks. b) Static friction over n_p for each standard
-        deviation. c) Variance of static friction between realisations over the number of blocks of
-        the surface; grey: as of independent blocks. Bars are 95 % intervals over realisations.""",
+        caption="""a) Correlation length of A exp(-r/l_c) against the standard deviation of the
+        static coefficients, on pillars of n_p blocks. b) Static friction against n_p for each
+        standard deviation. c) Variance of static friction between realisations against the number
+        of blocks of the surface.""",
         source=RealisationsSource(
             groups=("flat", "pillars", "scatter", "variance"), keys=("folder",)
         ),
+        marks="""Bars: 95 % intervals over realisations. c) Grey lines: as of independent
+        blocks.""",
     ),
     "beyond_friction": Declaration(
         title="Size of pillars and contact fraction",
         module="beyond",
-        caption="""Static friction at one total load. a) Over size n_p and distance n_s of pillars;
-        on grey lines the contact fraction is the same. b) Over n_p for each contact fraction, with
-        95 % intervals over realisations; dashes: the sum of a number for each size and one for each
-        contact fraction.""",
+        caption="""Static friction at one total load, a) by size n_p and distance n_s of pillars; b)
+        against n_p for each contact fraction.""",
         source=RealisationsSource(groups=("friction",), keys=("folder",)),
+        marks=f"""a) Means; the contact fraction is the same along grey lines. b) Means; bars:
+        {INTERVALS}; dashes: the sum of a number for each size and one for each contact
+        fraction.""",
     ),
     "beyond_peaks": Declaration(
         title="Load peaks over groove widths and direction",
         module="beyond",
         caption="""Prominence of the second most prominent load peak in percent of the largest
-        force, mean over realisations, over the angle between sliding direction and grooves and the
-        width of pawls n_p2: on pillars (left) and over the whole surface (right), with narrow
-        (above) and wide grooves (below). A prominence cannot be negative; what scatter alone leaves
-        is that of light cells.""",
+        force, mean over realisations, by angle between sliding direction and grooves and width of
+        pawls n_p2; on pillars (left) and over the whole surface (right), with narrow (above) and
+        wide grooves (below).""",
         source=RealisationsSource(groups=("peaks",), keys=("folder",)),
+        marks="""A prominence cannot be negative: scatter alone leaves what light cells have.""",
     ),
     "beyond_precursors": Declaration(
         title="Clusters of precursors, and correlation by direction",
         module="beyond",
         caption="""a) Share of the blocks that detach before the force maximum in clusters of a size
-        or more, 4 neighbours together: solid, observed; dashed, as many blocks anywhere in contact;
-        dotted, blocks in the same places, each from another realisation. b) Correlation of
-        detachment times along the edges of grooves within pillars, by the angle between sliding
-        direction and grooves, with 95 % intervals over realisations.""",
+        or more, 4 neighbours together. b) Correlation of detachment times along the edges of
+        grooves within pillars, by the angle between sliding direction and grooves.""",
         source=RealisationsSource(
             groups=("flat", "pillars", "grooves", "angles"), keys=("folder",)
         ),
+        marks="""a) Solid: observed; dashed: as many blocks anywhere in contact; dotted: blocks in
+        the same places, each from another realisation. b) Bands: 95 % intervals over
+        realisations.""",
     ),
 }
