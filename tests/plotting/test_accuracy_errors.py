@@ -11,13 +11,20 @@ import pytest
 from precision import production_rows
 from springblock import simulate
 from springblock.accuracy import production
-from springblock.accuracy.budget import Bias, choices, excess, study_budget
-from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, PAPER_STEP, PLAIN, SCENES
+from springblock.accuracy.budget import Bias, choices, study_budget
+from springblock.accuracy.conventions import (
+    DELAY,
+    ENSEMBLE,
+    LENGTH,
+    PAPER_STEP,
+    PLAIN,
+    SCENES,
+    half_width,
+)
 from springblock.model.defaults import STEP
 from springblock.plotting import drawing
 
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
-NUDGES = (1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3)
 SEEDS = 4 * ENSEMBLE  #: of the ensembles
 
 
@@ -56,11 +63,6 @@ def table():
             for h, integrator in product(STEPS[:3], ("leapfrog", "rk4")):
                 bias = row("paired", scene, integrator, h, 0.0, quantity, -3e4 * i * h, 5e-4)
                 rows.append(bias)
-        for nudge in NUDGES:
-            for quantity in ("t_det before peak", "static_friction"):
-                error = 0.0 if nudge < 1e-6 else 3.0 * i * nudge
-                rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, quantity, error))
-            rows.append(row("twin", scene, "leapfrog", 2.5e-9, nudge, "horizon", 1.0 - 9.0 * nudge))
     return pd.DataFrame(rows).sample(frac=1.0, random_state=1)
 
 
@@ -77,6 +79,7 @@ def production_table():
 
 DRAWINGS = {
     "work_precision": lambda: drawing("work_precision")(table()),
+    "work_precision at full size": lambda: drawing("work_precision")(table(), production_table()),
     "total_error": lambda: drawing("total_error")(production_table()),
 }
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
@@ -115,18 +118,11 @@ def check_points(ax, wanted):
         assert np.isclose(shown, point, rtol=1e-9, atol=0.0).all(axis=1).any()
 
 
-@pytest.mark.parametrize(
-    ("letters", "cost", "quantity"),
-    [
-        ("abc", "force_evaluations", "t_det before horizon"),
-        ("def", "cpu_seconds", "static_friction"),
-    ],
-)
-def test_every_single_run_is_shown(letters, cost, quantity):
-    for letter, scene in zip(letters, SCENES, strict=True):
-        wanted = chosen(table(), comparison="reference", scene=scene, quantity=quantity)
-        assert len(wanted) == 20
-        check_points(panel(letter), wanted[[cost, "error"]])
+@pytest.mark.parametrize(("letter", "scene"), list(zip("abc", SCENES, strict=True)))
+def test_every_single_run_is_shown(letter, scene):
+    wanted = chosen(table(), comparison="reference", scene=scene, quantity="t_det before horizon")
+    assert len(wanted) == 20
+    check_points(panel(letter), wanted[["force_evaluations", "error"]])
 
 
 def test_rings_mark_the_default_and_the_paper():
@@ -139,36 +135,31 @@ def test_rings_mark_the_default_and_the_paper():
         assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
 
 
-def test_orders_are_those_of_the_data():
-    texts = [text.get_text() for text in panel("b").texts]
-    assert texts.count("order 1.0") == 2
+@pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))
+def test_every_bias_is_shown_with_its_interval_and_the_scatter(letter, scene):
+    ax = panel(letter)
+    of_scene = chosen(table(), scene=scene, quantity="static_friction")
+    wanted = chosen(of_scene, comparison="paired")
+    assert sorted(points(ax)[:, 1]) == pytest.approx(sorted(100.0 * wanted.error))
+    bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
+    ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
+    assert sorted(bars[:, 1]) == pytest.approx(ends)
+    assert visible(ax, bars)
+    scatter = chosen(of_scene, comparison="scatter").ci_high.item()
+    (band,) = ax.patches
+    assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
+    assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)
 
 
-def test_every_bias_is_shown_with_its_interval_and_the_scatter():
-    panels = drawn("work_precision").axes[6:15]
-    quantities = ("static_friction", "t_max", "t_avg")
-    for ax, (quantity, scene) in zip(panels, product(quantities, SCENES), strict=True):
-        wanted = chosen(table(), comparison="paired", scene=scene, quantity=quantity)
-        assert sorted(points(ax)[:, 1]) == pytest.approx(sorted(100.0 * wanted.error))
-        bars = np.vstack([b for c in ax.collections for b in c.get_segments()])
-        ends = sorted(100.0 * pd.concat([wanted.ci_low, wanted.ci_high]))
-        assert sorted(bars[:, 1]) == pytest.approx(ends)
-        assert visible(ax, bars)
-        spread = chosen(table(), comparison="scatter", scene=scene, quantity=quantity)
-        scatter = spread.ci_high.item()
-        (band,) = ax.patches
-        assert band.get_y() == pytest.approx(-100.0 * scatter * 2.0)  # 20 seeds instead of 80
-        assert band.get_height() == pytest.approx(100.0 * scatter * 4.0)
-
-
-@pytest.mark.parametrize(
-    ("letter", "quantity"),
-    [("j", "t_det before peak"), ("k", "static_friction"), ("l", "horizon")],
-)
-def test_every_twin_is_shown_also_where_nothing_differs(letter, quantity):
-    wanted = chosen(table(), comparison="twin", quantity=quantity)
-    assert len(wanted) == 18
-    check_points(panel(letter), wanted[["nudge", "error"]])
+@pytest.mark.parametrize(("letter", "scene"), list(zip("def", SCENES, strict=True)))
+def test_biases_at_full_size_are_shown_where_a_study_has_them(letter, scene):
+    ax = panel(letter, "work_precision at full size")
+    shown = chosen(production_table(), scene=scene, quantity="static_friction").sort_values("step")
+    (full,) = (bars for bars in ax.containers if bars.lines[0].get_marker() == "D")
+    assert full.lines[0].get_xdata() == pytest.approx(1e9 * shown.step[1:])  # the finest has none
+    assert full.lines[0].get_ydata() == pytest.approx(100.0 * shown.bias[1:] / 50.0)
+    half = 100.0 * half_width(10.0 / 50.0, ENSEMBLE)
+    assert ax.patches[1].get_height() == pytest.approx(2.0 * half)
 
 
 def rows(quantity, scene):
@@ -218,15 +209,6 @@ def test_words_name_the_best_step_and_what_half_its_error_costs():
     """In 10 s, 20 % over the root of 40 seeds is what 40 ns leave; 80 ns have a bias of 4 %."""
     (words,) = (t.get_text() for t in error_panel("d").texts if "best" in t.get_text())
     assert words.startswith("best at 10 s: 40 ns, 40 seeds;\nhalf its error: 5.")
-
-
-def test_every_step_is_compared_with_the_best_in_every_case():
-    shown = [line.get_xydata() for line in error_panel("k").lines]
-    assert len(shown) == len(ERRORS)
-    for case in ERRORS.values():
-        found = excess(choices(rows(*case)), study_budget(rows(*case)))
-        wanted = [[1e9 * step, ratio] for step, ratio in found.items()]
-        assert any(np.allclose(line, wanted, equal_nan=True) for line in shown)
 
 
 def test_shades_hold_the_ends_of_the_bias_s_interval():

@@ -115,6 +115,9 @@ def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
     source = FIGURES["supplement_size"].source
     needs = source.needs(GROUPS | {"size_grooves": [large]}, {})
     assert [need.scene for need in needs][-2:] == [OTHER, large]
+    few = [Scene(126, 7, 7), Scene(120, 4, 4)]  # sizes that need another N
+    needs = FIGURES["figure_6"].source.needs(GROUPS | {"small_pillars": few}, {})
+    assert [need.scene for need in needs] == [FLAT, SMALL, LARGE, *few]
 
 
 def test_figures_need_no_more_tables_than_they_show():
@@ -122,6 +125,8 @@ def test_figures_need_no_more_tables_than_they_show():
     tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
     assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
     assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
+    small, full = FIGURES["work_precision"].source.needs(GROUPS, {})
+    assert (small, full) == (Need("work_precision"), Need("production", upon_request=True))
 
 
 @pytest.mark.parametrize(("config", "groups"), [PAPER, QUICK])
@@ -134,7 +139,7 @@ def test_captions_say_what_a_study_draws(config, groups):
         lengths = config["figures"].get(name, {})
         caption = declared.caption_in(known, lengths, material)
         assert caption.startswith(declared.caption)
-        assert caption.endswith(".")
+        assert caption.endswith(declared.marks or ".")
         assert not set("{}") & set(caption)
         for need in declared.source.needs(groups, lengths):
             for key, length in need.scene.lengths.items() if need.scene else ():
@@ -154,7 +159,7 @@ def test_a_caption_follows_the_grid():
     source = FIGURES["figure_6"].source
     assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
         "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
-        "(seeds 0 to 19). Material of the paper, but pressure = 100000."
+        "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
     assert source.in_words(ensembles, {}, weak).endswith(
@@ -165,7 +170,7 @@ def test_a_caption_follows_the_grid():
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
     assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
-        "(seeds 0 to 3). Material of the paper."
+        "(4 realisations, seeds 0 to 3). Material of the paper."
     )
 
 
@@ -233,7 +238,8 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)
 
 
-def test_a_drawn_pattern_holds_a_gap_between_two_pillars():
+def test_a_drawn_pattern_is_the_study_s_surface_or_one_pillar_and_its_gap():
     lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 240 --n-p 58")
+    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 120 --n-p 58")
+    assert FIGURES["figure_8"].source.options(60, lengths).startswith("--n-blocks 120")
     assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")

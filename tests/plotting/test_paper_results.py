@@ -12,13 +12,19 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from springblock import Pattern
-from springblock.analysis.statistics import whole_curve
+from springblock.analysis.statistics import (
+    lesser_prominence,
+    mean_interval,
+    pillar_ring,
+    whole_curve,
+)
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
 from springblock.plotting.curves import draw_single_forces
 from springblock.plotting.figures import SINGLE
 from springblock.plotting.looks import pillar_look
+from springblock.simulation.run import friction
 
 SIZE = 6
 PILLARS = Pattern.pillars(24, SIZE, SIZE)
@@ -154,10 +160,13 @@ def test_figure_3_maps_t_det_over_t_max(flat):
     shown = np.ma.filled(image.get_array(), np.nan)
     np.testing.assert_array_equal(shown, run.t_det / run.t_max)
     assert image.norm(1.0) == pytest.approx(0.5)
-    blue, red = image.cmap(0.2), image.cmap(0.8)
-    assert blue[2] > blue[0]
-    assert red[0] > red[2]
-    assert (ax.get_legend() is None) == flat
+    for place in (0.2, 0.499):  # up to t_max all are blue, from there on red
+        blue, red = image.cmap(place), image.cmap(1.0 - place)
+        assert blue[2] > blue[0]
+        assert red[0] > red[2]
+    times = (run.t_det / run.t_max)[run.contact]
+    assert (image.norm.vmin, image.norm.vmax) == pytest.approx((times.min(), times.max()))
+    assert [text.get_text() for text in ax.texts] == ["sliding direction $x$"]
 
 
 def lines(ax):
@@ -171,18 +180,24 @@ def test_figure_5_maps_the_mean_and_tells_sides_apart():
     starts = PILLARS.origins
     cut = [r.t_det[y : y + SIZE, x : x + SIZE] for r in ensemble(110e-6) for y, x in starts]
     np.testing.assert_allclose(shown, np.mean(cut, axis=0) / 110e-6)
-    bars = {bar.get_label(): bar.lines[0].get_xydata() for bar in rings.containers}
-    corners, along_y, along_x = bars.values()
+    parts = {label: xy for label, xy in lines(rings).items() if not label.startswith("_")}
+    corners, along_y, along_x = parts.values()
     names = ["corners", "sides along $y$", "sides along $x$"]
-    assert [label.split(" (")[0] for label in bars] == names
+    assert [label.split(" (")[0] for label in parts] == names
     assert [len(part) for part in (corners, along_y, along_x)] == [3, 2, 2]  # rings
     assert corners[0, 1] == pytest.approx(shown[[0, 0, -1, -1], [0, -1, 0, -1]].mean())
     assert along_y[0, 1] == pytest.approx(shown[1:-1, [0, -1]].mean())
     assert along_x[0, 1] == pytest.approx(shown[[0, -1], 1:-1].mean())
+    title = rings.get_legend().get_title().get_text()
+    of_runs = np.array(cut).reshape(4, 4, SIZE, SIZE).mean(axis=1) / 110e-6
+    rings_of = [pillar_ring(SIZE, depth).values() for depth in range(3)]
+    samples = [of_runs[:, mask].mean(axis=1) for ring in rings_of for mask in ring if mask.any()]
+    widest = max(mean_interval(each).high - mean_interval(each).mean for each in samples)
+    assert title == f"95 % intervals: up to ±{widest:.2g}"
 
 
 def test_figure_6_shows_every_size_and_marks_both_times():
-    force, friction, _, lag = drawn("figure_6").axes
+    force, highest, _, lag = drawn("figure_6").axes
     curves = lines(force)
     mean = np.mean([r.force[:691] / NORMAL_FORCE for r in ensemble(100e-6)], axis=0)
     np.testing.assert_allclose(curves["$n_p$ = 6"][:, 1], mean)
@@ -191,10 +206,21 @@ def test_figure_6_shows_every_size_and_marks_both_times():
         assert ("flat" if n_p == 0 else f"$n_p$ = {n_p}") in curves
         assert pytest.approx(1e6 * runs[0].t_max) in dots
         assert pytest.approx(1e6 * np.mean([r.t_avg for r in runs])) in dots
-    for ax in (friction, lag):
-        shown = [bar.lines[0].get_xydata()[0] for bar in ax.containers]
-        assert [x for x, _ in shown] == [2.0, 6.0, 20.0]
-    assert shown[1][1] == pytest.approx(100.0 - 1e6 * np.mean([r.t_avg for r in ensemble(100e-6)]))
+    assert [bar.lines[0].get_xdata()[0] for bar in highest.containers] == [2.0, 6.0, 20.0]
+    dots = [line for line in lag.get_lines() if line.get_marker() == "."]
+    assert [line.get_xdata()[0] for line in dots] == [2.0, 6.0, 20.0]
+    each = [100.0 - 1e6 * run.t_avg for run in ensemble(100e-6)]
+    assert dots[1].get_ydata() == pytest.approx(each)
+    medians = [line.get_ydata()[0] for line in lag.get_lines() if line.get_marker() == "_"]
+    assert medians[1] == pytest.approx(sorted(each)[1])  # one of the four
+
+
+def test_the_band_of_figure_6_is_the_spread_of_the_realisations():
+    force = drawn("figure_6").axes[0]
+    band = force.collections[2].get_paths()[0].vertices  # of n_p = 6
+    at = band[np.isclose(band[:, 0], 100.0)][:, 1]
+    forces = [run.force[500] / NORMAL_FORCE for run in ensemble(100e-6)]
+    assert (at.min(), at.max()) == pytest.approx(tuple(np.percentile(forces, (5.0, 95.0))))
 
 
 def marked(ax) -> list[float]:
@@ -205,11 +231,15 @@ def marked(ax) -> list[float]:
 def test_figure_9_marks_the_load_peaks_of_the_data():
     """A row for each configuration, in order of their pawls."""
     narrow, _, wide, _ = drawn("figure_9").axes
-    names = ["along grooves: 2 load peaks", "across grooves: 1 load peak"]
-    assert [text.get_text() for text in wide.get_legend().get_texts()] == names
+    names = ["along grooves", "across grooves", "load peak of the mean", "fewer runs"]
+    assert [text.get_text() for text in drawn("figure_9").legends[0].get_texts()] == names
+    assert wide.get_ylim()[0] == narrow.get_ylim()[0] == 0.0
     assert marked(wide) == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
     assert marked(narrow) == pytest.approx([90.0], abs=0.5)
-    assert ["8/2" in text.get_text() for text in wide.texts].count(True) == 1
+    (words,) = (text.get_text() for text in wide.texts if "8/2" in text.get_text())
+    along = [100.0 * lesser_prominence(friction(run)) for run in ensemble(80e-6, 110e-6)]
+    assert f"along grooves {np.mean(along):.1f} % [" in words
+    assert "across grooves 0.0 % [0.0, 0.0]" in words
 
 
 def test_figure_9_shows_every_single_run():
@@ -250,10 +280,11 @@ def test_curves_go_on_past_the_shortest_run():
 
 def test_pillars_look_the_same_wherever_they_are_drawn():
     """Neighbouring sizes differ in their marker, and in lightness for those who see no colour."""
-    looks = [pillar_look(n_p) for n_p in (0, 2, 3, 4, 5, 6, 10, 20, 30, 60)]
+    looks = [pillar_look(n_p) for n_p in (0, *range(2, 11), 20, 30, 60)]
     assert len({look["marker"] for look in looks}) == len(looks)
     grey = [np.dot(to_rgb(look["color"]), (0.299, 0.587, 0.114)) for look in looks]
     assert (np.diff(grey) > 0.0).all()
+    assert grey[-1] < 0.6  # readable on white
 
 
 def points(ax: Axes) -> list[np.ndarray]:
@@ -266,18 +297,23 @@ def points(ax: Axes) -> list[np.ndarray]:
 
 
 def test_curves_and_bands_are_those_of_the_table():
-    (curves,) = drawn("figure_7").axes
-    bands = [part for part in curves.collections if isinstance(part, PolyCollection)]
-    for (_, side), shown, band in zip(
-        correlation().groupby("side"), points(curves), bands, strict=True
-    ):
-        np.testing.assert_allclose(shown, side[["r", "correlation"]])
-        limits = band.get_datalim(curves.transData)
-        assert (limits.y0, limits.y1) == pytest.approx((side["ci_low"].min(), 1.05))
+    """Behind r = 0, where c is 1; the logarithmic panel ends before an interval holds zero."""
+    for ax, limit in zip(drawn("figure_7").axes, (-1.0, 0.0), strict=False):
+        bands = [part for part in ax.collections if isinstance(part, PolyCollection)]
+        for (_, side), shown, band in zip(
+            correlation().groupby("side"), points(ax), bands, strict=True
+        ):
+            part = side[(side["r"] > 0) & (side["ci_low"] > limit)]
+            np.testing.assert_allclose(shown, part[["r", "correlation"]])
+            limits = band.get_datalim(ax.transData)
+            assert (limits.x0, limits.x1) == (1.0, part["r"].max())
+            ends = part["ci_low"].min(), part["ci_high"].max()
+            assert (limits.y0, limits.y1) == pytest.approx(ends)
 
 
 def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
-    (curves,) = drawn("figure_7").axes
+    curves = drawn("figure_7").axes[1]
+    assert curves.get_yscale() == "log"
     for pattern, span in (("-", (0.0, 5.0)), (":", (5.0, 24.0))):
         drawn_so = [line for line in curves.get_lines() if line.get_linestyle() == pattern]
         lines = [line.get_xydata() for line in drawn_so if len(line.get_xydata()) > 25]
@@ -289,7 +325,7 @@ def test_the_fit_is_solid_where_it_was_fitted_and_dotted_beyond():
 
 def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
     """Its A lies on the points: here they are exp(-r/3), which any other length tilts."""
-    (curves,) = drawn("figure_7").axes
+    curves = drawn("figure_7").axes[1]
     dashed = [line.get_xydata() for line in curves.get_lines() if line.get_linestyle() == "--"]
     shown = [line for line in dashed if len(line) > 25]
     assert [(line[0, 0], line[-1, 0]) for line in shown] == [(1.0, 5.0)] * 2
@@ -297,16 +333,16 @@ def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
     c, decay = np.exp(-r / LENGTH["x"]), np.exp(-r / tail)
     best = (c @ decay) / (decay @ decay)
     np.testing.assert_allclose(shown[0][:, 1], best * np.exp(-shown[0][:, 0] / tail))
-    (smallest,) = drawn("figure_7 of the smallest pillars").axes
+    smallest = drawn("figure_7 of the smallest pillars").axes[1]
     lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
     assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
     names = [text.get_text() for text in curves.get_legend().get_texts()]
     assert names[-2:] == [r"$\exp(-r/l_c)$", r"$A\,$$\exp(-r/l_c)$"]
 
 
-def test_the_inset_shows_the_lengths_along_x_with_their_intervals():
-    (inset,) = drawn("figure_7").axes[0].child_axes
-    fitted, tail = inset.containers
+def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():
+    sizes = drawn("figure_7").axes[2]
+    fitted, tail = sizes.containers
     expected = lengths().query("side == 'x'")
     np.testing.assert_allclose(fitted.lines[0].get_ydata(orig=False), expected["l_c"])
     np.testing.assert_allclose(tail.lines[0].get_ydata(orig=False), expected["tail"])
@@ -314,10 +350,10 @@ def test_the_inset_shows_the_lengths_along_x_with_their_intervals():
     np.testing.assert_allclose(
         [segment[:, 1] for segment in bars.get_segments()], expected[["ci_low", "ci_high"]]
     )
-    assert inset.get_xscale() == "log"
+    assert sizes.get_xscale() == "log"
 
 
-def test_scenes_that_the_inset_cannot_tell_apart_are_refused():
+def test_scenes_that_figure_7_cannot_tell_apart_are_refused():
     with pytest.raises(ValueError, match="same n_p"):
         drawing("figure_7")(correlation(), pd.concat([lengths(), lengths()[-1:]]))
     with pytest.raises(ValueError, match="no correlation length for n_p = 60"):

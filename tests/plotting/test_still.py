@@ -52,7 +52,7 @@ def test_colours_tell_when_a_block_has_detached(run):
     image, detached = painted(run), np.isfinite(run.t_det)
     assert image.shape == (12, 12, 3)
     assert 0 < detached.sum() < run.contact.sum()
-    expected = BEFORE_AFTER(scale(run)(run.t_det[detached] / run.t_max))[:, :3]
+    expected = BEFORE_AFTER(scale(run.t_det / run.t_max)(run.t_det[detached] / run.t_max))[:, :3]
     np.testing.assert_array_equal(image[detached], expected)
     assert (image[run.contact & ~detached] == to_rgb(CONTACT)).all()
     assert (image[~run.contact] == to_rgb(NO_CONTACT)).all()

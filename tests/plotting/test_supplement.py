@@ -15,6 +15,7 @@ from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
 from springblock.plotting.figures import FIGURES
+from springblock.plotting.points import draw_realisations
 from springblock.plotting.supplement import let_go_again
 from springblock.study.configuration import Ensemble
 
@@ -76,32 +77,43 @@ for name in given(1):
     DRAWINGS[f"supplement_{name} of one run"] = partial(draw, name, 1)
 
 
-def lines(ax: Axes) -> list[np.ndarray]:
-    """Data of the lines through means, (n, 2), in order of their drawing."""
-    return [
-        line.get_xydata()
-        for line in ax.get_lines()
-        if line.get_linewidth() in (0.6, 0.7) and line.get_linestyle() == "-"
-    ]
+def means(ax: Axes) -> list[np.ndarray]:
+    """Data of means with bars, (n, 2), in order of their drawing."""
+    return [bars.lines[0].get_xydata() for bars in ax.containers]
 
 
 @pytest.mark.parametrize(
     ("name", "line", "expected"),
     [
         ("spacing", 1, [(3, 0.525), (6, 0.625)]),
-        ("size", 0, [(60, 0.825), (120, 0.815)]),
-        ("angle", 0, [(0, 0.725), (45, 0.625), (90, 0.825)]),
+        ("size", 0, [(60 * 2**-0.03, 0.825 / 0.815), (120 * 2**-0.03, 1.0)]),  # left of three
+        ("angle", 0, [(0, 0.725)]),
+        ("angle", 1, [(45, 0.625)]),
     ],
 )
-def test_lines_go_through_the_means(name, line, expected):
+def test_friction_is_a_mean_and_the_lag_of_every_realisation_a_dot(name, line, expected):
     friction, lag = draw(name).axes[:2]
-    np.testing.assert_allclose(lines(friction)[line], expected)
-    expected_lag = 1e6 * np.mean([run.t_max - run.t_avg for run in ensemble(0.8, 110e-6, runs=6)])
-    np.testing.assert_allclose(lines(lag)[line][:, 1], expected_lag)
+    np.testing.assert_allclose(means(friction)[line], expected)
+    each = [1e6 * (run.t_max - run.t_avg) for run in ensemble(0.8, 110e-6, runs=6)]
+    dots = [one.get_ydata() for one in lag.get_lines() if one.get_marker() == "."]
+    assert all(sorted(shown) == pytest.approx(sorted(each)) for shown in dots)
+    assert len(dots) == {"spacing": 4, "size": 4, "angle": 3}[name]
+    assert not lag.containers  # no mean, which may lie between two clusters
+
+
+def test_the_median_of_two_clusters_is_a_realisation():
+    ax = Figure().subplots()
+    draw_realisations(ax, {1.0: np.array([-50.0, -40.0, 4.0, 18.0])}, "black")
+    assert ax.get_lines()[-1].get_ydata().tolist() == [-40.0]
 
 
 def test_each_level_has_its_load_peaks_marked():
-    for ax, expected in zip(draw("levels").axes, ([80, 110, 90, 110], [100, 105]), strict=True):
+    panels = draw("levels").axes
+    assert panels[0].get_ylim() == panels[1].get_ylim()
+    title, *names = (panels[0].get_legend().get_title(), *panels[0].get_legend().get_texts())
+    assert title.get_text() == "$n_p/n_s$ of each level: lesser peak"
+    assert all(name.get_text().startswith("6/6: ") for name in names)
+    for ax, expected in zip(panels, ([80, 110, 90, 110], [100, 105]), strict=True):
         assert marked(ax) == pytest.approx(expected, abs=0.6)
 
 
@@ -114,13 +126,13 @@ def test_the_lesser_peak_is_shown_run_by_run():
     assert not np.concatenate(dots)[:, 1].any()
     hills = {"x": ensemble(0.7, 80e-6, 110e-6), "y": ensemble(0.7, 100e-6)}
     twin = drawing("supplement_angle")(hills)
-    along, across = lines(twin.axes[2])[0]
+    ((along,), (across,)) = means(twin.axes[2])
     assert along[1] > 80.0  # both hills rise from almost nothing
     assert across[1] == 0.0
 
 
 def test_intervals_narrow_with_the_root_of_the_number():
-    friction, _ = draw("repetitions", 20).axes
+    (friction,) = draw("repetitions", 20).axes
     measured, predicted = (line.get_xydata() for line in friction.get_lines()[:2])
     assert measured[:, 0].tolist() == [3, 5, 10, 20]
     np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
@@ -134,8 +146,11 @@ def test_only_blocks_that_let_go_again_are_counted():
     once_more[10] += 3
     again = let_go_again(replace(run, switches=once_more))
     blocks = np.count_nonzero(np.isfinite(run.t_det))
-    assert again[0] == 0.0
-    assert again[-1] == pytest.approx(300.0 / blocks)
+    assert again.tolist() == pytest.approx(3 * [300.0 / blocks])
+    once_more[10], once_more[500] = run.detachments[10], 2  # at 91 % of t_max
+    again = let_go_again(replace(run, switches=once_more))
+    assert again.tolist() == pytest.approx([0.0, 0.0, 200.0 / blocks])
+    assert len(draw("restick").axes[0].get_lines()) == 3 * (3 + 1)  # dots of surfaces, medians
 
 
 def test_a_row_shows_the_mask_the_mean_times_and_the_force():
@@ -170,8 +185,9 @@ def test_its_caption_names_what_is_ones_own():
     said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
     assert said == (
         "Sliding direction x. "
-        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 (seeds 0 to 2). "
-        "Flat distribution=weibull, n_rows = 2, N = 4 (seeds 0 to 2); "
-        "mu_static from strong-00000000, N = 4 (seeds 0 to 2). "
+        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 "
+        "(3 realisations, seeds 0 to 2). "
+        "Flat distribution=weibull, n_rows = 2, N = 4 (3 realisations, seeds 0 to 2); "
+        "mu_static from strong-00000000, N = 4 (3 realisations, seeds 0 to 2). "
         "Material of the paper, but distribution = uniform."
     )

@@ -1,5 +1,7 @@
 """Any observable over anything that tells ensembles apart."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from springblock.analysis.statistics import mean_interval
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.plotting import sweep
+from springblock.plotting.style import settle
 
 SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
 
@@ -56,7 +59,7 @@ def test_the_caption_names_surfaces_and_seeds():
     said = sweep.caption(runs, "slider_velocity")
     assert said.startswith("Means over realisations with their 95 % t intervals")
     assert "N = 120, sliding direction x. Flat" in said
-    assert "slider_velocity=0.00025 (seeds 0 to 2)" in said
+    assert "slider_velocity=0.00025 (3 realisations, seeds 0 to 2)" in said
 
 
 def test_a_surface_with_one_place_is_neither_drawn_nor_named(two_lines):
@@ -71,8 +74,11 @@ def test_points_are_means_and_bars_t_intervals(two_lines):
     ax = sweep.draw(two_lines, "slider_velocity", ["static_friction"]).axes[0]
     (flat, *_) = (c for c in ax.containers if "level = 0" in str(c.get_label()))
     runs = sweep.lines(two_lines, "slider_velocity")[str(flat.get_label())]
+    (pillars,) = (c for c in ax.containers if c is not flat)
     means = [mean_interval([row["static_friction"] for row in line]) for line in runs.values()]
-    np.testing.assert_allclose(np.asarray(flat.lines[0].get_xdata(), float), SPEEDS)
+    left, right = (np.asarray(c.lines[0].get_xdata(), float) for c in (flat, pillars))
+    np.testing.assert_allclose(np.sqrt(left * right), SPEEDS)  # on both sides of their places
+    np.testing.assert_allclose(right / left, (SPEEDS[-1] / SPEEDS[0]) ** 0.03)
     heights = np.asarray(flat.lines[0].get_ydata(), float)
     np.testing.assert_allclose(heights, [each.mean for each in means])
     tops = [segment[1, 1] for segment in flat.lines[2][0].get_segments()]
@@ -93,7 +99,33 @@ def test_a_panel_for_each_observable(two_lines):
         r"$t_\mathrm{max}$ (µs)",
         r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)",
     ]
-    assert picture.axes[1].containers[0].lines[0].get_ydata() == pytest.approx([10.0] * 4)
+    lines = picture.axes[1].get_lines()
+    *realisations, medians = lines[: len(lines) // 2]  # of one surface
+    assert [dots.get_ydata().tolist() for dots in realisations] == [[pytest.approx(10.0)] * 5] * 4
+    assert medians.get_ydata() == pytest.approx([10.0] * 4)
+
+
+def test_two_clusters_have_no_mean_between_them():
+    made = [row for speed in SPEEDS for row in rows(at(speed), 0.8, seeds=4)]
+    for row in made:
+        row["t_max"] = row["t_avg"] + (-40e-6 if row["seed"] < 2 else 10e-6)
+    lines = sweep.draw(made, "slider_velocity", ["t_max-t_avg"]).axes[0].get_lines()
+    heights = np.concatenate([line.get_ydata() for line in lines])
+    assert set(heights.round(6)) == {-40.0, 10.0}
+
+
+def test_numbers_below_a_logarithmic_axis_do_not_touch():
+    speeds = (5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 1e-3)
+    picture = sweep.draw(
+        [r for s in speeds for r in rows(at(s), 0.8)], "slider_velocity", ["t_avg"]
+    )
+    settle(picture)
+    (ax,) = picture.axes
+    assert ax.get_xticks() == pytest.approx(speeds)
+    shown = [text for text in ax.get_xticklabels() if text.get_text()]
+    boxes = [text.get_window_extent() for text in shown]
+    assert len(shown) > 3
+    assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
 
 
 def test_a_direction_is_an_angle():

@@ -42,9 +42,10 @@ def needed(figure):
         raise WorkflowError(
             f"figures.{figure}: no scene of {' or '.join(source.groups)} has {wanted}."
         )
-    for table, scene, number in source.needs(SCENES, lengths):
+    for table, scene, number, upon_request in source.needs(SCENES, lengths):
         if scene is None:
-            yield f"{RESULTS}/tables/{table}.parquet"
+            if config["production"] or not upon_request:
+                yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
             yield from batches([ENSEMBLE[scene.folder]])[:number]
         else:

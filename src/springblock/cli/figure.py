@@ -59,7 +59,7 @@ _many = partial(_one, nargs=-1, required=True)
 _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     Source: ([], lambda source: []),
     PatternSource: ([scene_options], lambda source, scene: [scene.pattern]),
-    TableSource: ([_one("table")], lambda source, table: [load(table).to_pandas()]),
+    TableSource: ([_many("tables")], lambda source, tables: [load(t).to_pandas() for t in tables]),
     RealisationsSource: ([_many("batches")], _realisations),
     CorrelationsSource: ([_one("correlation"), _many("lengths")], _correlations),
 }
@@ -86,9 +86,9 @@ class _Figures(click.Group):
             with one_sentence():
                 picture = drawing(cmd_name)(*given(declared.source, **inputs))
                 for output in outputs:
-                    save(picture, output, caption or declared.caption)
+                    save(picture, output, caption or declared.usual_caption)
 
-        command = click.command(cmd_name, help=declared.caption, short_help=declared.title)
+        command = click.command(cmd_name, help=declared.usual_caption, short_help=declared.title)
         return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
 
 

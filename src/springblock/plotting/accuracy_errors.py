@@ -33,31 +33,16 @@ _METHODS: dict[str, tuple[str, Look]] = {
     "rk4": ("Runge–Kutta", {"color": VERMILION, "marker": "s", "markersize": 2.6}),
     PLAIN: ("Runge–Kutta, stage-wise friction", {"color": GREY, "marker": "^", "markersize": 3.4}),
 }
-_TWINS: dict[str, Look] = {
-    "flat": {"color": BLACK, "marker": "D", "markersize": 2.8},
-    "pillared": {"color": style.GREEN, "marker": "v", "markersize": 3.6},
-    "grooved": {"color": style.PURPLE, "marker": "P", "markersize": 3.8},
-}
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
-_FLOOR: Look = {"color": "0.91", "linewidth": 0.0, "zorder": 0}
 _SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}
+_FULL_SCATTER: Look = _SCATTER | {"color": "#A4C3D9", "zorder": 0.2}
+#: Name and look of the leapfrog on surfaces of the study's size.
+_FULL: tuple[str, Look] = ("leapfrog, 120 × 120 blocks", {"color": BLACK, "marker": "D"})
 _RING: Look = {"fillstyle": "none", "color": BLACK, "linestyle": "none"}
 #: Integrator, step in s and ring of the default of `simulate` and of the paper.
 _MARKED: dict[str, tuple[str, float, Look]] = {
     "default": (INTEGRATOR, STEP, {**_RING, "marker": "o", "markersize": 8.5}),
     "paper": (PLAIN, PAPER_STEP, {**_RING, "marker": "D", "markersize": 7.5}),
-}
-
-_COSTS = {"force_evaluations": "force evaluations", "cpu_seconds": "CPU time (s)"}
-_BIASES = {
-    "static_friction": "bias of static\nfriction (%)",
-    "t_max": "bias of\n$t_\\mathrm{max}$ (%)",
-    "t_avg": "bias of\n$t_\\mathrm{avg}$ (%)",
-}
-_DIFFERENCES = {
-    "t_det before peak": "RMS difference of\n$t_\\mathrm{det}/t_\\mathrm{max}$ before peak",
-    "static_friction": "relative difference\nof static friction",
-    "horizon": r"horizon$/t_\mathrm{max}$",
 }
 
 _DOTS = (1, 10, 100, 1000)  #: seeds marked along a line of total errors
@@ -68,33 +53,29 @@ _QUANTITIES: dict[str, tuple[str, Look]] = {
     DELAY: (r"$t_\mathrm{max} - t_\mathrm{avg}$", {"color": VERMILION, "marker": "s"}),
     LENGTH: (r"$l_\mathrm{c}$", {"color": BLUE, "marker": "^", "markersize": 3.6}),
 }
-_DASHES: Look = dict(zip(SCENES, ("-", "--", ":"), strict=True))
 _STUDY: Look = {**_RING, "marker": "o", "markersize": 8.0}  #: ring of the study's own ensembles
 _ENVELOPE: Look = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
 
 
-def work_precision(table: DataFrame) -> Figure:
-    """Draw the table of work and precision, a column per scene.
+def work_precision(table: DataFrame, production: DataFrame | None = None) -> Figure:
+    """Draw the tables of work and precision and, if there is one, of production; a scene a column.
 
     a-c) Single runs against a solution that locates every event: error of the detachment times
-    before the horizon over force evaluations; d-f) of static friction over CPU time. Rings mark
-    the default of `simulate` and the step of the paper. g-i) Ensembles with paired seeds: bias
-    with its 95 % interval. j-l) Runs against themselves with thresholds changed by a little.
+    before the horizon over force evaluations. Rings mark the default of `simulate` and the step of
+    the paper. d-f) Ensembles with paired seeds: bias of static friction with its 95 % interval.
     """
-    letters, ratios = "abc;def|ghi;GHI;JKL|jkl", (94, 78, 43)
-    picture, panels = style.panels(style.DOUBLE, 225.0, letters, height_ratios=ratios)
-    times, frictions, *biases, twins = (panels[i : i + 3] for i in (0, 3, 6, 12, 15, 9))
+    picture, panels = style.panels(style.DOUBLE, 125.0, "abc;def")
+    times, biases = panels[:3], panels[3:]
     single = table[table.comparison == "reference"]
     before_horizon = single[single.quantity == "t_det before horizon"]
-    _draw_costs(times, before_horizon, "force_evaluations")
-    times[0].set_ylabel("RMS error of $t_\\mathrm{det}/t_\\mathrm{max}$\nbefore the horizon")
-    _draw_costs(frictions, single[single.quantity == "static_friction"], "cpu_seconds")
-    frictions[0].set_ylabel("relative error of\nstatic friction")
+    _draw_costs(times, before_horizon)
     _name_scenes(times, single)
-    _write_orders(times, before_horizon)
-    _draw_paired(biases, table)
-    _draw_twins(twins, table[table.comparison == "twin"])
-    _name_methods(picture, single[single.integrator == "leapfrog"].step.min())
+    _draw_paired(biases, table[table.quantity == "static_friction"])
+    if production is not None:
+        _draw_production(biases, production[production.quantity == "static_friction"])
+    _fit_percent(biases, 1.0, (-5.0, -1.0, 0.0, 1.0, 5.0))
+    name_places(biases[0], NANO * table[table.comparison == "paired"].step)
+    _name_methods(picture, production is not None)
     return picture
 
 
@@ -111,66 +92,60 @@ def _name_scenes(panels: Sequence[Axes], rows: DataFrame) -> None:
         ax.set_title(f"{part.scene.iloc[0]}, {sizes} blocks")
 
 
-def _draw_costs(panels: Sequence[Axes], rows: DataFrame, cost: str) -> None:
-    """Draw the error of one quantity over one cost, on common axes.
+def _draw_costs(panels: Sequence[Axes], rows: DataFrame) -> None:
+    """Draw the error of detachment times over force evaluations, on common axes.
 
-    Below the leapfrog lies a line of order 2; its error at the finest step is a floor.
+    Below the leapfrog lies a line of order 2.
     """
     style.share_axes(panels)
+    cost = "force_evaluations"
     for ax, part in _by_scene(panels, rows):
         lines = {m: part[part.integrator == m].sort_values("step") for m in _METHODS}
         for method, (_, look) in _METHODS.items():
             ax.plot(lines[method][cost], lines[method].error, **look)
         spent, finest = lines["leapfrog"][cost].to_numpy(), lines["leapfrog"].error.iloc[0]
         ax.plot(spent, finest * (spent[0] / spent) ** 2 / 3.0, **_ORDER_TWO)
-        ax.axhspan(0.0, finest, **_FLOOR)
         for method, step, look in _MARKED.values():
             row = lines[method][np.isclose(lines[method].step, step, rtol=1e-6, atol=0.0)]
             ax.plot(row[cost], row.error, **look)
-        ax.set_xlabel(_COSTS[cost])
+        ax.set_xlabel("force evaluations")
     ax = panels[0]
     ax.set(xscale="log", yscale="log")
+    ax.set_ylabel("RMS error of $t_\\mathrm{det}/t_\\mathrm{max}$\nbefore the horizon")
     ax.set_xlim(0.6 * rows[cost].min(), 1.7 * rows[cost].max())
     ax.set_ylim(0.3 * rows.error.min(), 3.0 * rows.error.max())
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99))
 
 
-def _write_orders(panels: Sequence[Axes], rows: DataFrame) -> None:
-    """Write the orders of both integrators in the corner of little work and small errors."""
-    for ax, part in _by_scene(panels, rows):
-        for height, method in ((0.16, "leapfrog"), (0.05, "rk4")):
-            line = part[part.integrator == method]
-            text = f"order {conventions.order(line.step, line.error):.1f}"
-            color = _METHODS[method][1]["color"]
-            ax.text(0.03, height, text, color=color, transform=ax.transAxes)
-
-
-def _draw_paired(panels: Sequence[Sequence[Axes]], table: DataFrame) -> None:
+def _draw_paired(panels: Sequence[Axes], table: DataFrame) -> None:
     """Draw biases of ensembles with paired seeds, before the scatter of one of the study's size."""
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
-    every = [ax for row in panels for ax in row]
-    style.share_axes(every)
-    for row, (quantity, label) in zip(panels, _BIASES.items(), strict=True):
-        for ax, spread in _by_scene(row, scatter[scatter.quantity == quantity]):
-            # 95 % of the means over as many seeds as in the study lie within ± half.
-            deviation = (spread.ci_high - spread.ci_low) * np.sqrt(spread.realisations / ENSEMBLE)
-            half = 0.5 * PERCENT * float(deviation.item())
-            ax.axhspan(-half, half, **_SCATTER)
-            ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-        for ax, biases in _by_scene(row, paired[paired.quantity == quantity]):
-            for method, aside in (("leapfrog", 0.96), ("rk4", 1.04)):  # side by side
-                line = biases[biases.integrator == method].sort_values("step")
-                intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
-                look = _METHODS[method][1] | {"markersize": 2.4}  # no larger than most intervals
-                draw_points(ax, aside * NANO * line.step, intervals, **look)
-            ax.tick_params(labelleft=ax is row[0], labelbottom=row is panels[-1])
-        row[0].set_ylabel(label)
-    for ax in panels[-1]:
+    style.share_axes(panels)
+    for ax, spread in _by_scene(panels, scatter):
+        # 95 % of the means over as many seeds as in the study lie within ± half.
+        deviation = (spread.ci_high - spread.ci_low) * np.sqrt(spread.realisations / ENSEMBLE)
+        half = 0.5 * PERCENT * float(deviation.item())
+        ax.axhspan(-half, half, **_SCATTER)
+        ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
         ax.set_xlabel("integration step (ns)")
-    _name_scenes(panels[0], paired)
-    _fit_percent(every, 1.0, (-5.0, -1.0, 0.0, 1.0, 5.0))
-    name_places(every[0], NANO * np.unique(paired.step))
+    for ax, biases in _by_scene(panels, paired):
+        for method, aside in (("leapfrog", 0.94), ("rk4", 1.06)):  # side by side
+            line = biases[biases.integrator == method].sort_values("step")
+            intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
+            draw_points(ax, aside * NANO * line.step, intervals, **_METHODS[method][1])
+    _name_scenes(panels, paired)
+    panels[0].set_ylabel("bias of static friction (%)")
+
+
+def _draw_production(panels: Sequence[Axes], table: DataFrame) -> None:
+    """Draw biases and scatter of ensembles of the study's size; the finest step has no bias."""
+    for ax, rows in _by_scene(panels, table.sort_values("step")):
+        share = rows[["bias", "ci_low", "ci_high"]].div(rows.scale, axis=0)[1:]
+        draw_points(ax, NANO * rows.step[1:], PERCENT * share, **_FULL[1])
+        spread = float((rows.deviation / rows.scale).iloc[0])
+        half = PERCENT * conventions.half_width(spread, ENSEMBLE)
+        ax.axhspan(-half, half, **_FULL_SCATTER)
 
 
 def _fit_percent(panels: Sequence[Axes], linear: float, ticks: Sequence[float]) -> None:
@@ -188,38 +163,24 @@ def _fit_percent(panels: Sequence[Axes], linear: float, ticks: Sequence[float]) 
     panels[0].set_ylim(1.5 * low, 1.5 * high)
 
 
-def _draw_twins(panels: Sequence[Axes], rows: DataFrame) -> None:
-    """Draw how far a change of the thresholds takes a run from itself, and from when on."""
-    for ax, (quantity, label) in zip(panels, _DIFFERENCES.items(), strict=True):
-        shown = rows[rows.quantity == quantity].sort_values("nudge")
-        for scene, look in _TWINS.items():
-            line = shown[shown.scene == scene]
-            ax.plot(line.nudge, line.error, label=scene, clip_on=False, **look)
-        ax.set(xscale="log", xlabel="relative change of thresholds", ylabel=label)
-        if quantity != "horizon":  # no difference at all is a result: zero belongs on the axis
-            ax.set_yscale("symlog", linthresh=1e-6, linscale=0.6)
-            ax.set_ylim(0.0, 2.0 * max(1e-6, shown.error.max()))
-    panels[-1].legend(loc="lower left")
-
-
-def _name_methods(picture: Figure, finest: float) -> None:
+def _name_methods(picture: Figure, full: bool) -> None:
     """Write above the panels what holds for all of them."""
     handles: list[Artist] = [Line2D([], [], label=name, **look) for name, look in _METHODS.values()]
     handles.append(Line2D([], [], label="order 2", **_ORDER_TWO))
     for name, (method, step, look) in _MARKED.items():
         label = f"{name}: {_METHODS[method][0].split(',')[0]}, {NANO * step:g} ns"
         handles.append(Line2D([], [], label=label, **look))
-    handles += [
-        Patch(label=f"below the leapfrog at {NANO * finest:g} ns", **_FLOOR),
-        Patch(label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER),
-    ]
+    handles.append(Patch(label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER))
+    if full:
+        handles.append(Line2D([], [], label=_FULL[0], **_FULL[1]))
+        handles.append(Patch(label="the same, 120 × 120 blocks", **_FULL_SCATTER))
     picture.legend(handles=handles, loc="outside upper center", ncols=4)
 
 
 def total_error(table: DataFrame) -> Figure:
-    """Draw the table `production`: biases, total errors, and all steps at the study's budgets."""
-    picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|Ljk", height_ratios=(3, 1))
-    *panels, excesses, legend = panels
+    """Draw the table `production`: biases, and total errors."""
+    picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|.jL", height_ratios=(3, 1))
+    *panels, legend = panels
     cases, colors = _cases(table), shades(table.step)
     _draw_biases(panels[:3], cases)
     for ax, rows in zip(panels[3:], cases.values(), strict=True):
@@ -231,7 +192,6 @@ def total_error(table: DataFrame) -> Figure:
         ends = np.array([ax.get_ylim() for ax in row])
         style.share_axes(row)
         row[0].set_ylim(0.25 * ends.min(), ends.max())  # room for words
-    _draw_excess(excesses, cases)
     _name_steps(legend, colors)
     return picture
 
@@ -322,27 +282,6 @@ def _finite(errors: ArrayLike) -> Array:
 
 def _wide(step: float) -> float:
     return 1.6 if step == STEP else 0.8
-
-
-def _draw_excess(ax: Axes, cases: Cases) -> None:
-    """Draw the total error of each step over that of the best, at the study's budgets."""
-    for scene, dashes in _DASHES.items():
-        for quantity, (_, look) in _QUANTITIES.items():
-            if rows := cases.get((quantity, scene)):
-                seconds = budget.study_budget(rows)
-                found = [budget.excess(budget.choices(rows, b), seconds) for b in Bias._fields]
-                steps = [NANO * step for step in found[0]]
-                ratios = _finite([list(each.values()) for each in found])
-                ax.plot(steps, ratios[0], linestyle=dashes, **look)
-                ends = ratios.min(axis=0), ratios.max(axis=0)
-                ax.vlines(steps, *ends, color=look["color"], linewidth=2.5, alpha=0.25)
-    name_places(ax, [NANO * row["step"] for rows in cases.values() for row in rows])
-    ax.set(yscale="log", ylim=(0.9, 10.0))
-    ax.set_yticks([1.0, 2.0, 5.0, 10.0], ["1", "2", "5", "10"])
-    ax.yaxis.set_minor_formatter(NullFormatter())
-    ax.set(xlabel="integration step (ns)", ylabel="error over the least")
-    handles = [Line2D([], [], label=s, color=BLACK, linestyle=d) for s, d in _DASHES.items()]
-    ax.legend(handles=handles, loc="upper left")
 
 
 def _name_steps(ax: Axes, colors: dict[float, Any]) -> None:

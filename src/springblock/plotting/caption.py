@@ -35,7 +35,8 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
     for (surface, varied, seeds), some in alike.items():
         parts = [surface_in_words(*(scene.lengths for scene in some)), varied]
         parts += [_named(some, name) for name in _NAMES if name not in shared]
-        seeded = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {seeds[0]}"
+        several = f"{len(seeds)} realisations, seeds {seeds[0]} to {seeds[-1]}"
+        seeded = several if len(seeds) > 1 else f"seed {seeds[0]}"
         text = f"{', '.join(filter(None, parts))} ({seeded})"
         kinds.setdefault(surface, []).append(text.strip())
     sentences = [", ".join(_named(scenes, name) for name in shared)]

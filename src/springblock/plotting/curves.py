@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
 from springblock.plotting.figures import SINGLE
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
 Span = tuple[float, float]  #: of times in µs
@@ -19,7 +19,7 @@ Span = tuple[float, float]  #: of times in µs
 BAND = 0.25  #: opacity of the intervals
 REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs' end
 _BIN = 2e-6  #: s, width of the bins of detachments
-_PERCENTILES = (5.0, 95.0)  #: of the ensemble behind a single run
+_PERCENTILES = (5.0, 95.0)  #: of an ensemble
 _MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
 
 
@@ -31,13 +31,19 @@ def draw_band(
     ax.plot(places, values.mean, color=color, **look)
 
 
-def draw_mean_force(ax: Axes, curve: Curve, color: Any, label: str, **look: Any) -> Array:
-    """Draw the mean force with its interval, dotted where runs are missing; return it, (n,)."""
+def draw_mean_force(
+    ax: Axes, curve: Curve, color: Any, label: str, spread: bool = False, **look: Any
+) -> Array:
+    """Draw the mean force, dotted where runs are missing, and return it, (n,).
+
+    The band is its interval, or the `spread` of the realisations as long as all go on.
+    """
     force = statistics.mean_of_rest(curve.friction)
     time, whole = MICRO * curve.time, _length_of_all(curve)
     ax.plot(time[:whole], force.mean[:whole], color=color, label=label, markevery=[], **look)
     ax.plot(time[whole - 1 :], force.mean[whole - 1 :], color=color, **REST)
-    ax.fill_between(time, force.low, force.high, color=color, alpha=BAND, linewidth=0.0)
+    band = np.percentile(curve.friction, _PERCENTILES, axis=0) if spread else force[1:]
+    ax.fill_between(time, *band, color=color, alpha=BAND, linewidth=0.0)
     return force.mean
 
 
@@ -72,12 +78,18 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
     """Draw the mean force, and triangles above its load peaks as long as all runs go on."""
     forces = curve.friction[:, : _length_of_all(curve)]
     peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))
-    plural = "" if len(peaks) == 1 else "s"
-    draw_mean_force(ax, curve, color, f"{name}: {len(peaks)} load peak{plural}")
+    draw_mean_force(ax, curve, color, name)
     heights = forces[:, peaks].mean(axis=0)
     triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
     for time, height in zip(MICRO * curve.time[peaks], heights, strict=True):
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
+
+
+def lesser_peak(runs: Sequence[Run]) -> str:
+    """Return the mean prominence of the lesser load peak of each run, with its 95 % interval."""
+    found = [PERCENT * statistics.lesser_prominence(friction(run)) for run in runs]
+    mean, low, high = statistics.mean_interval(found)
+    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
 def enlarged_span(curves: Sequence[Curve], share: float) -> Span:
@@ -113,9 +125,10 @@ def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: S
             look: Look = {"linestyle": dashes, "linewidth": width, "zorder": 0.5}
             ax.axvline(MICRO * time, color=BLACK, **look)
     times = sorted(((run.t_max, r"$t_\mathrm{max}$"), (run.t_avg, r"$t_\mathrm{avg}$")))
-    for (time, name), side in zip(times, ("right", "left"), strict=True):  # away from each other
-        look = {"ha": side, "va": "bottom", "transform": force.get_xaxis_transform()}
-        force.text(MICRO * time, 1.03, name, **look)
+    for (time, name), side, away in zip(times, ("right", "left"), (-1.5, 1.5), strict=True):
+        look = {"ha": side, "va": "bottom", "textcoords": "offset points"}
+        place = (MICRO * time, 1.0)
+        force.annotate(name, place, (away, 2.0), force.get_xaxis_transform(), **look)
     force.tick_params(labelbottom=False)
     blocks.set_xlabel("time (µs)")
 

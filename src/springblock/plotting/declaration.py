@@ -39,6 +39,7 @@ class Need(NamedTuple):
     table: str
     scene: Scene | None = None
     batches: int | None = None  #: of its realisations, from the first seed on; None for all
+    upon_request: bool = False  #: in studies with `production: true` alone
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,11 +73,11 @@ class Source:
 class PatternSource(Source):
     """A pattern with the lengths that the configuration gives under the figure's name.
 
-    It is as large as the study's surfaces, or as it must be to hold two pillars each way.
+    It is as large as the study's surfaces, or as it must be to hold one pillar and its gap.
     """
 
     def options(self, n_blocks: int, lengths: Lengths) -> str:
-        needed = 2 * (lengths["n_p"] + lengths["n_s"])
+        needed = lengths["n_p"] + lengths["n_s"]
         return Scene(max(n_blocks, needed), **lengths).arguments
 
     def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
@@ -85,12 +86,15 @@ class PatternSource(Source):
 
 @dataclass(frozen=True)
 class TableSource(Source):
-    """A table of the whole study."""
+    """A table of the whole study, and one that it may have beside it."""
 
     name: str
+    beside: str = ""  #: made in studies with `production: true` alone
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        return [Need(self.name)]
+        return [Need(self.name)] + [
+            Need(name, upon_request=True) for name in (self.beside,) if name
+        ]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,12 +132,14 @@ class Declaration:
 
     title: str
     module: str  #: of `plotting`, whose function of the figure's name draws it
-    caption: str  #: in whole sentences; lines may break anywhere
+    caption: str  #: what is plotted, in whole sentences; lines may break anywhere
     source: Source
+    marks: str = ""  #: what bands, bars and symbols mean; stands behind what a study draws
     upon_request: bool = False  #: drawn in studies with `production: true` alone
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "caption", " ".join(self.caption.split()))
+        for name in ("caption", "marks"):
+            object.__setattr__(self, name, " ".join(getattr(self, name).split()))
 
     @property
     def category(self) -> Category:
@@ -141,8 +147,14 @@ class Declaration:
         return _CATEGORIES[self.module]
 
     def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Return the caption, and after it what the figure is drawn from in a study."""
-        return f"{self.caption} {self.source.in_words(ensembles, lengths, material)}".strip()
+        """Return the caption, with what the figure is drawn from in a study."""
+        drawn = self.source.in_words(ensembles, lengths, material)
+        return " ".join(filter(None, (self.caption, drawn, self.marks)))
+
+    @property
+    def usual_caption(self) -> str:
+        """Return the caption without a study."""
+        return f"{self.caption} {self.marks}".strip()
 
     def is_part_of(self, groups: Groups) -> bool:
         """Whether a study has all groups of scenes that the figure is drawn from."""

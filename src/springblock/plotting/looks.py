@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.colors import LinearSegmentedColormap
 
 from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION, Look
 
@@ -12,16 +13,20 @@ Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the m
 
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
 _STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}
-_MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 10: "s", 20: "D", 30: "P", 60: "X"}  #: by n_p
+#: By n_p.
+_MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
+_MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
 _LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
+#: Ordered for all colour vision, up to a green whose contrast with white is 2.7; yellow fades.
+_SHADES = LinearSegmentedColormap.from_list(
+    "shades", colormaps["viridis"](np.linspace(0.0, 0.64, 33))
+)
 
 
 def shades(values: Iterable[float]) -> dict[float, Any]:
     """A colour for each value, from dark for the smallest to light."""
-    from seaborn import color_palette  # slow to load: it brings pandas along
-
     ordered = sorted(set(values))
-    return dict(zip(ordered, color_palette("viridis", len(ordered)), strict=True))
+    return dict(zip(ordered, map(tuple, _SHADES(np.linspace(0.0, 1.0, len(ordered)))), strict=True))
 
 
 def pillar_look(n_p: int) -> Look:
@@ -29,7 +34,7 @@ def pillar_look(n_p: int) -> Look:
     if not n_p:
         return {"color": BLACK, "marker": "o"}
     place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
-    return {"color": colormaps["viridis"](0.93 * place), "marker": _MARKERS.get(n_p, "o")}
+    return {"color": _SHADES(place), "marker": _MARKERS.get(n_p, "o")}
 
 
 def pillar_name(n_p: int) -> str:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import CenteredNorm, ListedColormap, Normalize, TwoSlopeNorm, to_rgb
+from matplotlib.colors import ListedColormap, Normalize, TwoSlopeNorm, to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
@@ -22,9 +22,8 @@ _KEY = {
     "detaching now": BLACK,
     "not in contact": NO_CONTACT,
 }
-_ROBUST = (1.0, 99.0)  #: percentiles of the times that the colours of single events cover
 DISPLACEMENT = r"displacement $|u|$ (nm)"
-_LEAST = 1e-3  #: half width of the scale around t_max, over t_max
+_LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 
 
 def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
@@ -56,24 +55,34 @@ def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0,
 
 
 def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> None:
-    """Map mean t_det/t_max, white at 1, on a scale of its own."""
-    shown = np.append(times[np.isfinite(times)], (0.999, 1.001))
+    """Map mean t_det/t_max on a scale of its own."""
+    norm = scale(times)
     image = draw_map(ax, times, axes)
-    image.set(cmap=BEFORE_AFTER, norm=TwoSlopeNorm(1.0, shown.min(), shown.max()))
-    color_bar(ax, image, label)
+    image.set(cmap=BEFORE_AFTER, norm=norm)
+    color_bar(ax, image, label, ticks=_ticks(norm))
 
 
-def scale(run: Run) -> CenteredNorm:
-    """Return the scale of t_det/t_max around 1 of a run in which blocks have detached."""
-    half = np.abs(np.nanpercentile(run.t_det / run.t_max, _ROBUST) - 1.0).max()
-    return CenteredNorm(1.0, max(float(half), _LEAST))
+def scale(times: Array) -> TwoSlopeNorm:
+    """Return the scale of t_det/t_max, some finite: from the first to 1, from there to the last."""
+    least, most = float(np.nanmin(times)), float(np.nanmax(times))
+    return TwoSlopeNorm(1.0, min(least, 1.0 - _LEAST), max(most, 1.0 + _LEAST))
+
+
+def _ticks(norm: TwoSlopeNorm) -> list[float]:
+    """Return a few round times on each side of 1."""
+    ticks: list[float] = []
+    for low, high in ((float(norm.vmin or 0.0), 1.0), (1.0, float(norm.vmax or 2.0))):
+        found = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(low, high)
+        ticks += [tick for tick in found if low <= tick <= high and tick not in ticks]
+    return ticks
 
 
 def draw_times_bar(ax: Axes, run: Run) -> None:
     """Say below a map of one run which colour stands for which time."""
     label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
-    look: Look = {"orientation": "horizontal", "extend": "both"}
-    bar = color_bar(ax, ScalarMappable(scale(run), BEFORE_AFTER), label, **look).ax
+    norm = scale(run.t_det / run.t_max)
+    look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
+    bar = color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look).ax
     for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
 
@@ -96,7 +105,7 @@ def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array
     image = np.where(run.contact[..., None], to_rgb(CONTACT), to_rgb(NO_CONTACT))
     detached = run.t_det <= until
     if detached.any():
-        colours = BEFORE_AFTER(scale(run)(run.t_det[detached] / run.t_max))
+        colours = BEFORE_AFTER(scale(run.t_det / run.t_max)(run.t_det[detached] / run.t_max))
         image[detached] = colours[:, :3]
     image[detached & (run.t_det > since)] = to_rgb(BLACK)
     return image

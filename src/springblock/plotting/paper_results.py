@@ -5,6 +5,7 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -26,13 +27,14 @@ BySize = Mapping[int, Sequence[Run]]  #: by n_p, 0 for the flat surface
 
 _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that figure 2 enlarges
 _TIME = r"mean first detachment $t_\mathrm{det}/t_\mathrm{max}$"
-#: Colour, marker and name of the parts of a ring, each moved aside a little to show its bar.
+#: Colour, marker and name of the parts of a ring.
 _PARTS = {
-    "corners": (BLACK, "o", "corners", -0.12),
-    "y": (VERMILION, "s", "sides along $y$ ($x_p$ = const.)", 0.0),
-    "x": (BLUE, "D", "sides along $x$ ($y_p$ = const.)", 0.12),
+    "corners": (BLACK, "o", "corners"),
+    "y": (VERMILION, "s", "sides along $y$ ($x_p$ = const.)"),
+    "x": (BLUE, "D", "sides along $x$ ($y_p$ = const.)"),
 }
 _FLOOR = 0.01  #: %, where the logarithmic axis of detachments begins in figure 6
+_LEAST = 0.01  #: c(r) at the foot of the logarithmic axis in figure 7
 _SIDES: dict[str, Look] = {
     "x": {"color": BLUE, "marker": "D", "linestyle": "none"},
     "y": {"color": VERMILION, "marker": "s", "linestyle": "none"},
@@ -67,15 +69,14 @@ def figure_2(runs: Sequence[Run]) -> Figure:
     return picture
 
 
-def figure_3(runs: Sequence[Run]) -> Figure:
+def figure_3(runs: Sequence[Record]) -> Figure:
     """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
     run = runs[0]
-    picture, (ax,) = style.panels(style.COLUMN, 97.0)
+    picture, (ax,) = style.panels(style.COLUMN, 100.0)
     image = maps.draw_map(ax, run.t_det / run.t_max)
-    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run))
+    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run.t_det / run.t_max))
     maps.draw_times_bar(ax, run)
-    if not run.contact.all():
-        maps.draw_key(ax, "not in contact")
+    draw_sliding(ax, run.scene.direction)
     return picture
 
 
@@ -87,43 +88,59 @@ def figure_5(runs: Sequence[Record]) -> Figure:
     scene = runs[0].scene
     times = statistics.pillar_map(runs, scene.pattern)
     picture, (pillar, rings) = style.panels(style.DOUBLE, 75.0, "ab")
-    maps.draw_mean_times(pillar, times.mean(axis=0), _TIME, axes="_p/l")
+    maps.draw_mean_times(pillar, times.mean(axis=0), _TIME.replace("first detachment ", ""), "_p/l")
     draw_sliding(pillar, scene.direction)
     _draw_rings(rings, times)
     return picture
 
 
 def _draw_rings(ax: Axes, times: Array) -> None:
-    """Draw means over the corners and the sides of each ring, from the edge to the middle."""
+    """Draw means over the corners and the sides of each ring, from the edge to the middle.
+
+    Their intervals are too narrow to be drawn: the legend says how wide the widest one is.
+    """
     size = times.shape[-1]
     depths = range((size + 1) // 2)
-    for part, (color, marker, name, aside) in _PARTS.items():
+    widths = []
+    for part, (color, marker, name) in _PARTS.items():
         masks = {depth: statistics.pillar_ring(size, depth)[part] for depth in depths}
-        samples = {d + aside: times[:, m].mean(axis=1) for d, m in masks.items() if m.any()}
+        samples = {d: times[:, m].mean(axis=1) for d, m in masks.items() if m.any()}
         if samples:
-            points.draw_means(ax, samples, color, marker=marker, label=name)
+            means = statistics.mean_interval(np.stack(list(samples.values()), axis=1))
+            ax.plot(list(samples), means.mean, color=color, marker=marker, label=name)
+            widths.append(np.max(means.high - means.low))
     ax.set(xlabel="distance from the edge of the pillar (blocks)", ylabel=_TIME)
     ax.axhline(1.0, color=GREY, linestyle=":", zorder=0)
     side = ax.get_yaxis_transform()
     ax.text(0.985, 0.995, "force maximum", transform=side, color=GREY, ha="right", va="top")
     ax.set_xlim(-0.5, len(depths) - 0.5)
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))
-    ax.legend(loc="lower right")
+    sure = f"95 % intervals: up to ±{0.5 * max(widths):.2g}" if len(times) > 1 else None
+    ax.legend(loc="lower right", title=sure, alignment="left")
 
 
 def figure_6(ensembles: BySize) -> Figure:
     """Draw a) force, b) detachments over time; c) static friction, d) t_max - t_avg over n_p."""
     ensembles = dict(sorted(ensembles.items()))
-    ratios: Look = {"width_ratios": (105, 46), "height_ratios": (43, 37)}
-    picture, panels = style.panels(style.DOUBLE, 103.0, "ac;bd", **ratios)
+    ratios: Look = {"width_ratios": (90, 61), "height_ratios": (46, 40)}
+    picture, panels = style.panels(style.DOUBLE, 118.0, "ac;bd", **ratios)
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
-    for ax, samples in zip((friction, lag), points.highest_and_lag(ensembles), strict=True):
-        _draw_sizes(ax, samples)
+    highest, lags = points.highest_and_lag(ensembles)
+    for n_p in filter(None, ensembles):
+        look = pillar_look(n_p)
+        points.draw_means(friction, {n_p: highest[n_p]}, linestyle="none", **look)
+        points.draw_realisations(lag, {n_p: lags[n_p]}, look["color"])
+    for ax, samples in ((friction, highest), (lag, lags)):
+        if 0 in samples:
+            _draw_flat(ax, samples[0])
+        points.name_places(ax, [n_p for n_p in samples if n_p])
     lag.axhline(0.0, **points.ZERO)
     friction.set_ylabel(points.FRICTION)
     friction.tick_params(labelbottom=False)
     lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
+    names = force.get_legend_handles_labels()
+    picture.legend(*names, loc="outside upper center", ncols=8)
     return picture
 
 
@@ -132,7 +149,7 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     highest = 0.0
     for n_p, runs in ensembles.items():
         curve, look = statistics.whole_curve(runs), pillar_look(n_p)
-        mean = curves.draw_mean_force(force, curve, label=pillar_name(n_p), **look)
+        mean = curves.draw_mean_force(force, curve, label=pillar_name(n_p), spread=True, **look)
         curves.draw_detachments(blocks, curve, **look)
         highest = max(highest, float(np.nanmax(mean)))
         for times, face in (
@@ -143,63 +160,60 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
             height = np.interp(time, curve.time, mean)
             force.plot(MICRO * time, height, **look, markerfacecolor=face, zorder=3)
     force.plot([], [], color=GREY, **curves.REST, label="fewer runs")
-    force.add_artist(force.legend(loc="lower right", ncols=2))
-    signs = [
-        Line2D([], [], color=GREY, marker="o", linestyle="none", markerfacecolor=face, label=name)
-        for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$"))
-    ]
-    force.legend(handles=signs, loc="upper left")
+    for face, name in ((GREY, r"$t_\mathrm{max}$"), ("white", r"$t_\mathrm{avg}$")):
+        sign: Look = {"marker": "o", "linestyle": "none", "markerfacecolor": face}
+        force.plot([], [], color=GREY, **sign, label=name)
     force.set(ylabel=FORCE, ylim=(0.0, 1.07 * highest), xlim=(0.0, None))
     force.tick_params(labelbottom=False)
     blocks.set(xlabel="time (µs)", xlim=force.get_xlim(), yscale="log", ylim=(_FLOOR, 100.0))
     blocks.yaxis.set_major_formatter("{x:g}")
 
 
-def _draw_sizes(ax: Axes, samples: Mapping[int, Array]) -> None:
-    """Draw means over n_p on a logarithmic axis; the flat surface as a line with a band."""
-    for n_p, sample in samples.items():
-        if n_p:
-            points.draw_means(ax, {n_p: sample}, linestyle="none", **pillar_look(n_p))
-            continue
-        mean, low, high = map(float, statistics.mean_interval(sample))
-        ax.axhline(mean, color=BLACK, linewidth=0.8, linestyle="--")
-        ax.axhspan(low, high, color="0.8", linewidth=0.0, zorder=0)
-        below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
-        ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
-    points.name_places(ax, [n_p for n_p in samples if n_p])
+def _draw_flat(ax: Axes, sample: Array) -> None:
+    """Draw the mean of a flat surface as a line with a band over its interval."""
+    mean, low, high = map(float, statistics.mean_interval(sample))
+    ax.axhline(mean, color=BLACK, linewidth=0.8, linestyle="--")
+    ax.axhspan(low, high, color="0.8", linewidth=0.0, zorder=0)
+    below: Look = {"textcoords": "offset points", "ha": "center", "va": "top"}
+    ax.annotate("flat", (0.45, mean), (0.0, -2.0), ax.get_yaxis_transform(), **below)
 
 
 def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
-    """Draw c_x(r) and c_y(r) of one scene with their fits, and l_c over n_p in an inset.
+    """Draw a) c_x(r) and c_y(r) of one scene, b) with their fits, and c) l_c over n_p.
 
     `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
     CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
     """
     if lengths.duplicated(["n_p", "side"]).any():
-        raise ValueError("several scenes have the same n_p, which the inset cannot tell apart")
+        raise ValueError("several scenes have the same n_p, which the figure cannot tell apart")
     n_p = correlation["n_p"].iloc[0]
     shown = lengths[lengths["n_p"] == n_p].set_index("side")
     if shown.empty:
         raise ValueError(f"there is no correlation length for n_p = {n_p}")
-    picture, (ax,) = style.panels(style.COLUMN, 78.0)
+    picture, (linear, log, sizes) = style.panels(style.DOUBLE, 66.0, "abc")
     for side, curve in correlation.groupby("side"):
-        _draw_side(ax, str(side), curve, shown.loc[side])
-    ax.plot([], [], color=GREY, label=_EXPONENTIAL)
-    ax.plot([], [], color=GREY, label=_FREE, **_DASHED)
-    ax.axhline(0.0, **points.ZERO)
-    ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
-    ax.set_ylim(None, 1.04)
-    ax.margins(x=0.02)
-    ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
-    ax.legend(loc="upper left", bbox_to_anchor=(0.06, 1.0), title=f"$n_p$ = {n_p}")
-    _draw_lengths(ax.inset_axes((0.475, 0.47, 0.5, 0.5)), lengths[lengths["side"] == "x"])
+        told = curve[(curve["ci_low"] > 0.0).cummin()]  # from zero
+        for ax, part in ((linear, curve[1:]), (log, told[1:])):
+            values = Interval(*part[["correlation", "ci_low", "ci_high"]].to_numpy().T)
+            look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$"}
+            curves.draw_band(ax, part["r"], values, **look)
+        _draw_fits(log, str(side), curve, shown.loc[side])
+    linear.axhline(0.0, **points.ZERO)
+    log.plot([], [], color=GREY, label=_EXPONENTIAL)
+    log.plot([], [], color=GREY, label=_FREE, **_DASHED)
+    log.set(yscale="log", ylim=(_LEAST, 1.1))
+    log.yaxis.set_major_formatter("{x:g}")
+    for ax in (linear, log):
+        ax.set(xlabel="distance along the side $r$ (blocks)", ylabel="time correlation $c(r)$")
+        ax.set_xlim(0.0, None)
+        ax.xaxis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
+        ax.legend(loc="upper right", title=f"$n_p$ = {n_p}")
+    _draw_lengths(sizes, lengths[lengths["side"] == "x"])
     return picture
 
 
-def _draw_side(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
-    """Draw c(r), its band, and the fitted exponential, dotted beyond what it was fitted to."""
-    values = Interval(*curve[["correlation", "ci_low", "ci_high"]].to_numpy().T)
-    curves.draw_band(ax, curve["r"], values, **_SIDES[side], label=f"$c_{side}(r)$")
+def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") -> None:
+    """Draw the fitted exponentials, dotted beyond what they were fitted to."""
     color, last, end = _SIDES[side]["color"], length["r_last"], curve["r"].max()
     for r, line in ((np.linspace(0.0, last), "-"), (np.linspace(last, end), ":")):
         ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
@@ -228,10 +242,9 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
         look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
         points.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
     points.name_places(ax, lengths["n_p"])
-    ax.set_ylim(0.0, 2.2 * lengths["ci_high"].max())  # room for the legend
-    ax.set_xlabel("$n_p$ (blocks)", fontsize=style.SMALL, labelpad=1.0)
-    ax.set_ylabel("$l_c$ of $c_x$ (blocks)", fontsize=style.SMALL)
-    ax.legend(loc="upper left", borderaxespad=0.2, handletextpad=0.2, labelspacing=0.3)
+    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="$l_c$ of $c_x$ (blocks)")
+    ax.set_ylim(0.0, None)
+    ax.legend(loc="lower right")
 
 
 def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
@@ -244,21 +257,27 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     rows = sorted({key[:2] for key in found})
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
-    height = 17.0 + 37.5 * len(rows)
+    height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
+    named: dict[str, Artist] = {}
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
+        peaks = [f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}, lesser peak:"]
         for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
-            color = direction_color(direction)
+            color, name = direction_color(direction), direction_name(direction)
             curves.draw_single_forces(force, curve, color)
-            curves.draw_load_peaks(force, curve, color, direction_name(direction))
+            curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
+            peaks.append(f"{name} {curves.lesser_peak(ensembles[*row, direction])}")
+        named |= dict(zip(*force.get_legend_handles_labels()[::-1], strict=True))
         force.set_ylabel(FORCE)
-        force.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-        name = f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}"
-        force.text(0.02, 0.94, name, transform=force.transAxes, va="top")
+        force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
         curves.fit_forces(force, every, curves.enlarged_span(every, _SHOWN))
+        force.set_ylim(0.0, 1.05 * force.get_ylim()[1])
         blocks.sharey(panels[1])
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
+    named["load peak of the mean"] = Line2D([], [], color=GREY, marker="v", linestyle="none")
+    named["fewer runs"] = Line2D([], [], color=GREY, **curves.REST)
+    picture.legend(named.values(), named.keys(), loc="outside upper center", ncols=4)
     return picture

@@ -242,10 +242,15 @@ def _chosen_pillar(pattern: Pattern, portion: int) -> tuple[int, int, int]:
 
 
 def _draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str) -> None:
-    """Measure the first pillar and the gap after it, above a panel that shows the surface."""
+    """Measure the first pillar and the gap after it, above a panel that shows the surface.
+
+    A pillar that is alone has the margin of half a gap after it.
+    """
     level, (_, top) = pattern.levels[0], ax.get_ylim()
     begin = pattern.profile("x", depth=1)[0][0] - 0.5
-    edges = (begin, begin + level.size, begin + level.size + level.gap)
+    edges = (begin, begin + level.size, min(top, begin + level.size + level.gap))
+    if edges[-1] == top:
+        spacing += "$/2$"
     rows = np.flatnonzero(pattern.contact[: round(top + 0.5)].any(axis=1))
     above = top + 0.035 * (top + 0.5)
     ax.vlines(edges, rows[-1] + 0.5, above, color=GREY, linewidth=0.4, clip_on=False)

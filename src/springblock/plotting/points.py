@@ -1,6 +1,6 @@
 """Means of ensembles with their intervals, over what they vary with."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,10 @@ Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ense
 
 #: Bars over intervals.
 BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
+#: A realisation, and the median of an ensemble.
+DOT: Look = {"linestyle": "none", "marker": ".", "markersize": 2.8, "markeredgewidth": 0.0}
+DOT |= {"alpha": 0.6}
+MEDIAN: Look = {"linestyle": "none", "marker": "_", "markersize": 6.0, "markeredgewidth": 1.4}
 ZERO: Look = {"color": GREY, "linewidth": 0.5, "zorder": 0}  #: of a line at zero
 FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
@@ -39,11 +43,30 @@ def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: A
     draw_points(ax, list(samples), intervals, color, **look)
 
 
+def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> None:
+    """Draw each realisation as a dot, and the median of each sample as a dash.
+
+    A sample may lie in two clusters, where no realisation has the mean. The median of an even
+    number is the lower one of those in the middle: one of the realisations.
+    """
+    for place, sample in samples.items():
+        ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
+    medians = [np.quantile(sample, 0.5, method="inverted_cdf") for sample in samples.values()]
+    ax.plot(list(samples), medians, color=color, **(MEDIAN | look))
+
+
 def name_places(ax: Axes, places: ArrayLike) -> None:
-    """Make a logarithmic horizontal axis with a number at each place."""
+    """Make a logarithmic horizontal axis with a tick at each place, and numbers that have room."""
     ticks = np.unique(places)
     ax.set_xscale("log")
-    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    along = np.log(ticks / ticks[0]) / max(1e-9, np.log(ticks[-1] / ticks[0]))
+    at = 0.8 * along * ax.bbox.width * 72.0 / ax.figure.dpi  # pt; margins take the rest
+    names, end = [], -np.inf
+    for place, tick in zip(at, ticks, strict=True):
+        half = 0.32 * style.SMALL * len(f"{tick:g}")
+        names.append(f"{tick:g}" if place - half > end else "")
+        end = place + half + 1.0 if names[-1] else end
+    ax.set_xticks(ticks, names)
     ax.xaxis.set_minor_locator(NullLocator())
     ax.margins(x=0.1, y=0.1)
 
@@ -69,9 +92,12 @@ def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
     return picture, panels
 
 
-def draw_series(
-    panels: Sequence[Axes], ensembles: Mapping[int, Sequence[Run]], color: Any, **look: Any
-) -> None:
-    """Draw static friction and t_max - t_avg of ensembles over a number that they differ in."""
-    for ax, samples in zip(panels, highest_and_lag(dict(sorted(ensembles.items()))), strict=True):
-        draw_means(ax, samples, color, **look)
+def aside(
+    places: Iterable[float], every: Sequence[float], line: int, lines: int, log: bool
+) -> list[float]:
+    """Move places of one of several lines a little, so that their bars do not cover each other.
+
+    By a share of an axis, logarithmic or not, that shows `every` place.
+    """
+    share, low, high = 0.03 * (line - 0.5 * (lines - 1)), min(every), max(every)
+    return [x * (high / low) ** share if log else x + share * (high - low) for x in places]

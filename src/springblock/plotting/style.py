@@ -40,10 +40,11 @@ GREY = "#6E6E6E"  #: guides and secondary text
 CONTACT = "#93A8BA"  #: blocks that touch the substrate
 NO_CONTACT = "#E4E4E4"  #: blocks above a groove or a gap
 
-#: Blue before t_max, red after it. The blue end is darker than the red one, so that in shades of
-#: grey, too, the precursors are the darkest spots.
+#: Blue before t_max, red after it, with a step between them: a block is a precursor or it is none.
+#: In shades of grey, too, the precursors are the darker ones.
 BEFORE_AFTER = LinearSegmentedColormap.from_list(
-    "before_after", ["#08306B", "#2A6FB5", "#8DBBE0", "#FFFFFF", "#F6B69B", "#E0654F", "#C8322F"]
+    "before_after",
+    [(0.0, "#08306B"), (0.5, "#7FB2DB"), (0.5, "#FCEAE2"), (0.8, "#F2AD95"), (1.0, "#DC6B55")],
 ).with_extremes(bad=NO_CONTACT)
 
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel

@@ -20,14 +20,13 @@ from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
 _SPREAD = 2.0  #: degrees over which single runs are spread
-_DOT: Look = {"linestyle": "none", "marker": ".", "markersize": 2.8, "alpha": 0.5}
 _CLOSE = 0.85  #: share of the maximum from which the force on three levels is shown
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)  #: of subsets of an ensemble
 _MILLI = 1e3  #: 10⁻³ per unit
 _NORMAL = 1.96  #: half a 95 % interval in standard errors
-_TIMES = np.linspace(0.0, 1.05, 106)  #: over t_max, at which switches of runs are compared
-_FLOOR = 0.03  #: %, where the axis of switches begins: four blocks of a flat surface
+_TIMES = (0.8, 0.9, 1.0)  #: over t_max, up to which blocks are counted that let go again
 _ROW = 62.0  #: mm, height of the panels of a surface and of its name
+_TITLE = "$n_p/n_s$ of each level: lesser peak"  #: of the legends of levels
 _LINE = 120  #: letters that fit above a row
 
 
@@ -35,22 +34,34 @@ def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Fi
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p."""
     picture, panels = points.friction_and_lag("distance between the pillars $n_s$ (blocks)")
     for n_p in sorted({n_p for n_p, _ in ensembles}):
-        by_gap = {n_s: runs for (size, n_s), runs in ensembles.items() if size == n_p}
-        points.draw_series(panels, by_gap, **looks.pillar_look(n_p), label=looks.pillar_name(n_p))
+        by_gap = {n_s: runs for (size, n_s), runs in sorted(ensembles.items()) if size == n_p}
+        look, (highest, lag) = looks.pillar_look(n_p), points.highest_and_lag(by_gap)
+        points.draw_means(panels[0], highest, **look, label=looks.pillar_name(n_p))
+        points.draw_realisations(panels[1], lag, look["color"])
     points.name_places(panels[0], [n_s for _, n_s in ensembles])
     panels[0].legend(loc="best", ncols=2)
     return picture
 
 
 def supplement_size(ensembles: Mapping[tuple[int, int, str, int], Sequence[Run]]) -> Figure:
-    """Draw a) static friction and b) t_max - t_avg over N, a line for each surface."""
-    picture, panels = points.friction_and_lag("side of the surface $N$ (blocks)")
-    for surface in looks.in_order({key[:3] for key in ensembles}):
+    """Draw a) static friction over its mean at the largest N and b) t_max - t_avg, over N."""
+    picture, (ratio, lags) = points.friction_and_lag("side of the surface $N$ (blocks)")
+    surfaces = looks.in_order({key[:3] for key in ensembles})
+    every = sorted({key[3] for key in ensembles})
+    for i, surface in enumerate(surfaces):
         name, look = looks.surface_look(surface)
-        by_size = {key[3]: runs for key, runs in ensembles.items() if key[:3] == surface}
-        points.draw_series(panels, by_size, **look, label=name)
-    points.name_places(panels[0], [n for *_, n in ensembles])
-    panels[0].legend(loc="best")
+        by_size = {key[3]: runs for key, runs in sorted(ensembles.items()) if key[:3] == surface}
+        highest, lag = points.highest_and_lag(by_size)
+        usual = highest[max(by_size)].mean()
+        places = points.aside(by_size, every, i, len(surfaces), log=True)
+        relative = {at: each / usual for at, each in zip(places, highest.values(), strict=True)}
+        points.draw_means(ratio, relative, **look, label=name)
+        at_places = dict(zip(places, lag.values(), strict=True))
+        points.draw_realisations(lags, at_places, look["color"])
+    ratio.axhline(1.0, **points.ZERO)
+    ratio.set_ylabel("static friction\nover that at the largest $N$")
+    points.name_places(ratio, every)
+    ratio.legend(loc="best")
     return picture
 
 
@@ -69,55 +80,57 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
         for angle, runs in by_angle.items()
     }
     for ax, samples in zip(panels, (highest, lag, lesser), strict=True):
-        means = [sample.mean() for sample in samples.values()]
-        ax.plot(list(samples), means, color=GREY, linewidth=0.6)
         for angle, sample in samples.items():
             color = looks.direction_color(names[angle])
-            aside = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
-            ax.plot(angle + aside, sample, color=color, markeredgewidth=0.0, **_DOT)
-            points.draw_means(ax, {angle: sample}, color, linestyle="none", marker="o", zorder=3)
+            spread = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
+            ax.plot(angle + spread, sample, color=color, **points.DOT)
+            if samples is not lag:  # whose mean lies between two clusters of realisations
+                look: Look = {"linestyle": "none", "marker": "o", "zorder": 3}
+                points.draw_means(ax, {angle: sample}, color, **look)
         ax.set_xticks(list(samples))
     panels[2].set_ylim(0.0, None)
     return picture
 
 
-def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Run]]) -> Figure:
+def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level."""
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
     span = curves.enlarged_span(list(found.values()), _CLOSE)
-    picture, panels = style.panels(style.COLUMN, 99.0, "a;b", sharex=True)
+    picture, panels = style.panels(style.COLUMN, 99.0, "a;b", sharex=True, sharey=True)
     for direction, ax in zip(("x", "y"), panels, strict=True):
         shown = {level: curve for (name, level), curve in found.items() if name == direction}
         for level, curve in shown.items():
             color = {2: looks.direction_color(direction), 3: style.PURPLE}.get(level, style.GREEN)
-            curves.draw_load_peaks(ax, curve, color, f"{level} levels")
+            runs = ensembles[direction, level]
+            sizes = [str(size) for size in runs[0].scene.lengths.values() if size]
+            pairs = ", ".join(map("/".join, zip(sizes[::2], sizes[1::2], strict=True)))
+            curves.draw_load_peaks(ax, curve, color, f"{pairs}: {curves.lesser_peak(runs)}")
         if shown:
-            curves.fit_forces(ax, list(shown.values()), span)
-            ax.legend(loc="lower left", bbox_to_anchor=(0.14, 0.0))
+            ax.legend(loc="lower left", title=_TITLE, alignment="left")
         ax.set_ylabel(FORCE)
         ax.set_title(f"sliding {looks.direction_name(direction)}", loc="right")
+    curves.fit_forces(panels[0], list(found.values()), span)
+    low, high = panels[0].get_ylim()
+    panels[0].set_ylim(low - 0.4 * (high - low), high)  # room for the legends
     panels[-1].set_xlabel("time (µs)")
     return picture
 
 
 def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
-    """Draw half the 95 % interval of a) static friction and b) t_max - t_avg over realisations."""
-    picture, panels = style.panels(style.COLUMN, 110.0, "a;b", sharex=True)
-    highest, lag = points.highest_and_lag(ensembles)
+    """Draw half the 95 % interval of static friction over the number of realisations."""
+    picture, (ax,) = style.panels(style.COLUMN, 76.0)
     for key in looks.in_order(ensembles):
         name, look = looks.surface_look(key)
-        for ax, values in zip(panels, (_MILLI * highest[key], lag[key]), strict=True):
-            _draw_widths(ax, values, look | {"label": name})
-    names = ("static friction (10⁻³)", r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)")
-    for ax, name in zip(panels, names, strict=True):
-        ax.set(yscale="log", ylabel=f"± of {name}")
-        ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        ax.yaxis.set_major_formatter("{x:g}")
-        ax.yaxis.set_minor_formatter(NullFormatter())
-    points.name_places(panels[0], [k for k in _SIZES if k <= max(map(len, ensembles.values()))])
-    panels[1].set_xlabel("number of realisations")
-    panels[0].plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
-    picture.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+        friction = np.array([run.static_friction for run in ensembles[key]])
+        _draw_widths(ax, _MILLI * friction, look | {"label": name})
+    ax.set(yscale="log", ylabel="± of static friction (10⁻³)", xlabel="number of realisations")
+    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    most = max(map(len, ensembles.values()))
+    points.name_places(ax, [k for k in _SIZES if k <= max(most, _SIZES[0])])
+    ax.plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
+    picture.legend(loc="outside upper center", ncols=3)
     return picture
 
 
@@ -133,27 +146,27 @@ def _draw_widths(ax: Axes, values: Array, look: Look) -> None:
 
 
 def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
-    """Draw how many blocks have let go again over time, for each surface.
+    """Draw how many blocks have let go again up to three times, for each surface.
 
     Up to the force maximum the rule of re-sticking can matter for these blocks alone.
     """
-    picture, (ax,) = style.panels(style.COLUMN, 80.0)
-    ax.set(yscale="log", ylim=(_FLOOR, 50.0))
-    ax.yaxis.set_major_formatter("{x:g}")
-    for i, key in enumerate(looks.in_order(ensembles)):
-        name, look = looks.surface_look(key)
-        again = statistics.mean_interval([let_go_again(run) for run in ensembles[key]])
-        look |= {"label": name, "markevery": (62 + 3 * (i % 4), 12)}
-        curves.draw_band(ax, _TIMES, again, **look)
-    ax.set(xlabel=r"time $t/t_\mathrm{max}$", ylabel="let go again (% of blocks)")
-    ax.set(xlim=(0.6, _TIMES[-1]))
-    ax.axvline(1.0, color=GREY, linewidth=0.5, zorder=0)
-    picture.legend(loc="outside upper center", ncols=3)
+    picture, (ax,) = style.panels(style.COLUMN, 66.0)
+    keys = looks.in_order(ensembles)
+    again = [np.stack([let_go_again(run) for run in ensembles[key]], axis=1) for key in keys]
+    for i, (time, color) in enumerate(looks.shades(_TIMES).items()):
+        places = np.arange(len(keys)) + 0.25 * (i - 1)
+        samples = {place: shares[i] for place, shares in zip(places, again, strict=True)}
+        label = rf"$t$ = {time:g} $t_\mathrm{{max}}$"
+        points.draw_realisations(ax, samples, color, label=label)
+    names = [looks.surface_look(key)[0] for key in keys]
+    ax.set_xticks(range(len(keys)), names, rotation=35.0, ha="right", rotation_mode="anchor")
+    ax.set(xlabel="surface", ylabel="let go again (% of blocks)", ylim=(0.0, None))
+    ax.legend(loc="upper left", title="up to")
     return picture
 
 
 def let_go_again(run: Run) -> Array:
-    """Return all but the first switches from rest to sliding up to `_TIMES`, % of all blocks."""
+    """Return all but the first switches from rest to sliding up to `_TIMES`, (3,) % of blocks."""
     again = np.cumsum(percent(run, run.switches) - percent(run, run.detachments))
     return np.interp(_TIMES, run.time / run.t_max, again)
 

@@ -5,35 +5,34 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from itertools import cycle
 
-from matplotlib.axes import Axes
+import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.direction import degrees
 from springblock.model.scene import LENGTHS, Scene
-from springblock.plotting import style
+from springblock.plotting import points, style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.points import FRICTION, LAG, draw_means, name_places
-from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION
+from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
 
 Names = tuple[tuple[str, str], ...]
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
-    "static_friction": (FRICTION, lambda row: row["static_friction"]),
+    "static_friction": (points.FRICTION, lambda row: row["static_friction"]),
     "dynamic_friction": ("dynamic friction", lambda row: row["dynamic_friction"]),
     "t_max": (r"$t_\mathrm{max}$ (µs)", lambda row: MICRO * row["t_max"]),
     "t_avg": (r"$t_\mathrm{avg}$ (µs)", lambda row: MICRO * row["t_avg"]),
     "t_first": ("first detachment (µs)", lambda row: MICRO * row["t_first"]),
-    "t_max-t_avg": (LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
+    "t_max-t_avg": (points.LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
 }
 
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
-_NAMED = 6  #: places that stand below a logarithmic axis themselves, at most
+#: Observables with two clusters of realisations where a run has two load peaks.
+_CLUSTERED = ("t_max", "t_max-t_avg")
 _WIDE = 24  #: characters of a line's name from which on names stand below each other
 _LINE = 3.6  #: mm, of the legend
 
@@ -45,8 +44,10 @@ def caption(rows: Iterable[Row], over: str) -> str:
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     return (
-        "Means over realisations with their 95 % t intervals; a single realisation has none. "
-        f"Lines join ensembles that differ in nothing else. {sample_in_words(sample)}"
+        "Means over realisations with their 95 % t intervals; a single realisation has none. Of "
+        "t_max and t_max - t_avg every realisation, as a dot, and the median. Lines join ensembles "
+        "that differ in nothing else, a little apart where their places are the same. "
+        f"{sample_in_words(sample)}"
     )
 
 
@@ -110,30 +111,28 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
     names = _LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0
     height = 15.0 + 43.0 * len(observables) + names
     picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
+    every = sorted({place for places in found.values() for place in places})
+    log = 0.0 < _DECADE * every[0] <= every[-1]
     for ax, name in zip(panels, observables, strict=True):
         label, of = OBSERVABLES[name]
-        looks = zip(cycle(_COLORS), cycle(_MARKERS), strict=False)
-        for (line, places), (color, marker) in zip(found.items(), looks, strict=False):
-            samples = {place: [of(row) for row in runs] for place, runs in places.items()}
-            draw_means(ax, samples, color, marker=marker, label=line)
+        looks = zip(found.items(), cycle(_COLORS), cycle(_MARKERS), strict=False)
+        for i, ((line, runs), color, marker) in enumerate(looks):
+            places = points.aside(runs, every, i, len(found), log)
+            values = [np.array([of(row) for row in rows]) for rows in runs.values()]
+            samples = dict(zip(places, values, strict=True))
+            if name in _CLUSTERED:
+                look: Look = {"linestyle": "-", "linewidth": 0.7}
+                points.draw_realisations(ax, samples, color, label=line, **look)
+            else:
+                points.draw_means(ax, samples, color, marker=marker, label=line)
         ax.set_ylabel(label)
-        _fit_places(ax, sorted({place for places in found.values() for place in places}))
+        if log:
+            points.name_places(ax, every)
     panels[-1].set_xlabel(_axis(over))
     if len(found) > 1:
         named = panels[0].get_legend_handles_labels()
         picture.legend(*named, loc="outside upper left", ncols=columns)
     return picture
-
-
-def _fit_places(ax: Axes, places: Sequence[float]) -> None:
-    """Make the horizontal axis logarithmic where places, in order, span decades."""
-    if places[0] <= 0.0 or places[-1] < _DECADE * places[0]:
-        return
-    if len(places) <= _NAMED:
-        name_places(ax, places)
-    else:
-        ax.set_xscale("log")
-        ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _axis(over: str) -> str:
