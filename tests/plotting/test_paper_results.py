@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 
 from springblock import Pattern
 from springblock.analysis.statistics import (
-    lesser_prominence,
     mean_interval,
     pillar_ring,
+    prominence,
     whole_curve,
 )
 from springblock.io.records import Record
@@ -237,7 +237,7 @@ def test_figure_9_marks_the_load_peaks_of_the_data():
     assert marked(wide) == pytest.approx([80.0, 110.0, 100.0], abs=0.5)
     assert marked(narrow) == pytest.approx([90.0], abs=0.5)
     (words,) = (text.get_text() for text in wide.texts if "8/2" in text.get_text())
-    along = [100.0 * lesser_prominence(friction(run)) for run in ensemble(80e-6, 110e-6)]
+    along = [100.0 * prominence(friction(run)) for run in ensemble(80e-6, 110e-6)]
     assert f"along grooves {np.mean(along):.1f} % [" in words
     assert "across grooves 0.0 % [0.0, 0.0]" in words
 

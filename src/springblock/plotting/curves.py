@@ -87,7 +87,7 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
 
 def lesser_peak(runs: Sequence[Run]) -> str:
     """Return the mean prominence of the lesser load peak of each run, with its 95 % interval."""
-    found = [PERCENT * statistics.lesser_prominence(friction(run)) for run in runs]
+    found = [PERCENT * statistics.prominence(friction(run)) for run in runs]
     mean, low, high = statistics.mean_interval(found)
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
