@@ -86,7 +86,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
 def statements(table: Sequence[Row]) -> list[Row]:
     """Return the first row of each statement of the table `claims`, with what the page adds to it.
 
-    That is its figure, what decided its verdict, and the anchor of what the page of statements says.
+    That is its figure, what decided its verdict, and the anchor of its part of the page.
     """
     return [
         {
