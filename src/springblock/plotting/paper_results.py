@@ -40,7 +40,7 @@ _SIDES: dict[str, Look] = {
     "y": {"color": VERMILION, "marker": "s", "linestyle": "none"},
 }
 _EXPONENTIAL = r"$\exp(-r/l_c)$"
-_FREE = r"$A\,$" + _EXPONENTIAL
+_FREE = r"$A\,\exp(-r/l)$"
 _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 _SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
 
@@ -179,7 +179,7 @@ def _draw_flat(ax: Axes, sample: Array) -> None:
 
 
 def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
-    """Draw a) c_x(r) and c_y(r) of one scene, b) with their fits, and c) l_c over n_p.
+    """Draw a) c_x(r) and c_y(r) of one scene, b) with their fits, and c) their lengths over n_p.
 
     `correlation` and `lengths` are tables of the schemas CORRELATION, of one scene, and
     CORRELATION_LENGTH, of one scene for each n_p, that of `correlation` among them.
@@ -223,7 +223,7 @@ def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
 
 
 def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
-    """Return the A of A exp(-r/l_c) that belongs to the length of the table, by least squares.
+    """Return the A of A exp(-r/l) that belongs to the length of the table, by least squares.
 
     Weights are those of the fit, 1/error²; errors are in proportion to the intervals.
     """
@@ -234,7 +234,7 @@ def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
-    """Draw l_c of c_x over n_p on a logarithmic axis; open points have a free amplitude."""
+    """Draw l_c of c_x over n_p, logarithmic; open points: l of A exp(-r/l) with A free."""
     for columns, face, aside, label in (
         (["l_c", "ci_low", "ci_high"], BLUE, 0.96, _EXPONENTIAL),
         (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),
@@ -242,7 +242,7 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
         look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
         points.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
     points.name_places(ax, lengths["n_p"])
-    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="$l_c$ of $c_x$ (blocks)")
+    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="decay length of $c_x$ (blocks)")
     ax.set_ylim(0.0, None)
     ax.legend(loc="lower right")
 
