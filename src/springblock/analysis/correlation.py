@@ -5,8 +5,8 @@ first detachment times of the blocks of a side and ⟨...⟩ the mean over reali
 
     C(x₁, x₂) = ⟨τ₁τ₂⟩ - ⟨τ₁⟩⟨τ₂⟩,    c(r) = C(x₀, x₀ + r) / C(x₀, x₀),
 
-x₀ at the side's middle, and c(r) ~ exp(-r/l_c): A exp(-r/l_c), since "~" leaves the amplitude
-open. Numerator and denominator are sums over all pillars, both sides of each, both directions along
+x₀ at the side's middle, and c(r) ~ exp(-r/l_c). Since "~" leaves the amplitude
+open, A exp(-r/l) is fitted, too, whose l is the decay length of the tail. Numerator and denominator are sums over all pillars, both sides of each, both directions along
 it and a few x₀ (`references`). Means ⟨τ⟩ are taken for each block of the surface by itself, as the
 paper's are.
 
@@ -119,12 +119,12 @@ class Length(NamedTuple):
 
     fitted: Interval  #: exp(-r/l_c) by weighted least squares
     integral: Interval  #: the exponential that has the same sum over r
-    tail: Interval  #: A exp(-r/l_c) with A free; NaN where it has less than three r to fit
+    tail: Interval  #: l of A exp(-r/l) with A free; NaN where it has less than three r to fit
     amplitude: Interval  #: A of that
     bias: float  #: of the one through c(0) = 1, by jackknife
     last: int  #: all look at r = 1 ... last
     deviation: float  #: largest distance of c(r) from the fit, in its standard errors
-    residual: Interval  #: c(r) - A exp(-r/l_c), (last,)
+    residual: Interval  #: c(r) - A exp(-r/l), (last,)
 
 
 @dataclass(frozen=True, eq=False)
