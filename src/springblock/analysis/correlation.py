@@ -5,10 +5,10 @@ first detachment times of the blocks of a side and ⟨...⟩ the mean over reali
 
     C(x₁, x₂) = ⟨τ₁τ₂⟩ - ⟨τ₁⟩⟨τ₂⟩,    c(r) = C(x₀, x₀ + r) / C(x₀, x₀),
 
-x₀ at the side's middle, and c(r) ~ exp(-r/l_c). Since "~" leaves the amplitude
-open, A exp(-r/l) is fitted, too, whose l is the decay length of the tail. Numerator and denominator are sums over all pillars, both sides of each, both directions along
-it and a few x₀ (`references`). Means ⟨τ⟩ are taken for each block of the surface by itself, as the
-paper's are.
+x₀ at the side's middle, and c(r) ~ exp(-r/l_c). Since "~" leaves the amplitude open, A exp(-r/l) is
+fitted, too; its l is the decay length of the tail. Numerator and denominator are sums over all
+pillars, both sides of each, both directions along it and a few x₀ (`references`). Means ⟨τ⟩ are
+taken for each block of the surface by itself, as the paper's are.
 
 Intervals are BCa intervals over whole realisations, since the pillars of one realisation share one
 surface (`design_effect` says how much that matters). They and the bias are those of Efron &
