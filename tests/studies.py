@@ -22,6 +22,7 @@ TINY = {
     "realisations_per_job": 2,
     "accuracy": False,
     "mechanism": False,
+    "first_seed": 0,
     "material": {**PAPER["material"], "slider_velocity": 5e-3},  # so that runs are short
     "scenes": dict.fromkeys(PAPER["scenes"])
     | {
