@@ -38,7 +38,7 @@ def test_info_says_what_a_prelude_holds(springblock, tmp_path):
         ("plot", "{file}", "--output", "{here}/a.png"),
         ("animate", "{file}", "--output", "{here}/a.gif"),
         ("make", "beyond", "{file}", "--output", "{here}/a.md"),
-        ("claims", "{batch}", "--realisations", "{file}", *CONFIGURATION, *PAGE),
+        ("claims", "{batch}", "--correlation", "{file}", *CONFIGURATION, *PAGE),
     ],
     ids=lambda words: words[0],
 )

@@ -8,7 +8,6 @@ FINER = ("--step", 1e-8)
 OUTPUT = ("--output", "{here}/a.png")
 CONFIGURATION = ("--configuration", "0123")
 PAGE = (*CONFIGURATION, "--output", "{here}/a", "--page", "{here}/a.md")
-TABLES = ("--realisations", "{table0}", "--correlation", "{c0}")
 #: Commands that read files of two studies, 0 and 1.
 COMMANDS = {
     "aggregate": ("aggregate", "{batch0}", "{batch1}", *CONFIGURATION, "--output", "{here}/a"),
@@ -22,24 +21,25 @@ COMMANDS = {
     "figure_3": ("figure", "figure_3", "{batch0}", "{batch1}", *OUTPUT),
     "figure_6": ("figure", "figure_6", "{batch0}", "{batch1}", *OUTPUT),
     "figure_7": ("figure", "figure_7", "{c0}", "{l1}", *OUTPUT),
-    "claims": ("claims", "{batch0}", "{batch1}", "--realisations", "{table0}", *PAGE),
-    "claims, table": ("claims", "{batch0}", "--realisations", "{table1}", *PAGE),
-    "claims, tables": ("claims", "{batch0}", *TABLES, "--correlation-length", "{l1}", *PAGE),
-    "claims, prelude": ("claims", "{batch0}", *TABLES, "--prelude", "{prelude1}", *PAGE),
+    "claims": ("claims", "{batch0}", "{batch1}", *PAGE),
+    "claims, table": ("claims", "{batch0}", "--correlation", "{c1}", *PAGE),
+    "claims, tables": (
+        *("claims", "{batch0}", "--correlation", "{c0}", "--correlation-length", "{l1}"),
+        *PAGE,
+    ),
 }
 PILLARS = ("--n-blocks", 12, "--n-p", 6, "--n-s", 6)
 
 
 @pytest.fixture(scope="module", params=[FASTER, FINER], ids=["material", "step"])
 def studies(request, springblock, tmp_path_factory):
-    """Files of two studies that differ in one constant: batches, tables, preludes."""
+    """Files of two studies that differ in one constant: batches and tables."""
     folder, files = tmp_path_factory.mktemp("studies"), {}
     for i, other in enumerate(((), request.param)):
         files |= {name + str(i): folder / f"{name}{i}" for name in ("table", "c", "l")}
-        batch, files[f"prelude{i}"] = folder / f"batch{i}.parquet", folder / f"{i}.npz"
+        batch = folder / f"batch{i}.parquet"
         seeds = ("--first-seed", 3 * i, "--last-seed", 3 * i + 2)
         springblock("simulate", *PILLARS, *other, *seeds, "--output", batch)
-        springblock("prelude", *PILLARS, *other, "--output", files[f"prelude{i}"])
         springblock("aggregate", batch, *CONFIGURATION, "--output", files[f"table{i}"])
         outputs = ("--output-correlation", files[f"c{i}"], "--output-length", files[f"l{i}"])
         springblock("correlation", batch, *outputs)
@@ -51,8 +51,6 @@ def studies(request, springblock, tmp_path_factory):
 @pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
 def test_a_mixture_is_refused(springblock, studies, command, tmp_path):
     files, name = studies
-    if name == "step" and "{prelude1}" in command:
-        pytest.skip("stress before the first detachment is that of any step")
     words = [str(word).format(here=tmp_path, **files) for word in command]
     refusal = springblock(*words, refused=True)
     values = {"slider_velocity": ("0.0005", "0.001"), "step": ("2e-08", "1e-08")}[name]
