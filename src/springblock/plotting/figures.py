@@ -283,17 +283,18 @@ FIGURES: dict[str, Declaration] = {
         module="beyond",
         caption="""a) Correlation of detachment times along the sides of the largest pillars,
         sliding along x, on lattices of different spacing l, with the layer's thickness l_z and all
-        sizes in metres unchanged; bands are 95 % intervals over realisations. b) Correlation length
-        of A exp(-r/l_c) on these pillars over l, over l with the same disorder per area, and over
-        l_z; grey lines have slope 0 and 1. Static friction over the size of pillars for c)
-        different l and d) different l_z; crosses at the foot: size of the friction-minimising
-        pillar. Bars are 95 % intervals over realisations.""",
+        sizes in metres unchanged; bands are 95 % intervals over realisations. b) Decay length l
+        of A exp(-r/l) on these pillars over the spacing, over the spacing with the same disorder
+        per area, and over l_z; grey lines have slope 0 and 1. Static friction over the size of
+        pillars for c) different l and d) different l_z; crosses at the foot: size with the lowest
+        mean, and bars to those that cannot be told from it. Other bars are 95 % intervals over
+        realisations.""",
         source=RealisationsSource(groups=("lattice", "disorder", "layer"), keys=("folder",)),
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds, and of friction",
         module="beyond",
-        caption="""a) Correlation length of A exp(-r/l_c) over the standard deviation of the static
+        caption="""a) Decay length l of A exp(-r/l) over the standard deviation of the static
         coefficients, for pillars of n_p blocks. b) Static friction over n_p for each standard
         deviation. c) Variance of static friction between realisations over the number of blocks of
         the surface; grey: as of independent blocks. Bars are 95 % intervals over realisations.""",
