@@ -47,8 +47,8 @@ def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_c
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
     made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
     conclusion, table = clusters.answers(made)
-    assert "on 1 of 1 surfaces for blocks of the same places, and on 1 for" in conclusion
-    assert conclusion.endswith("on: flat.**")
+    assert "on 1 of 1 surfaces with blocks of the same places and on 1 with" in conclusion
+    assert conclusion.endswith("on this surface: flat.**")
     assert "| flat |" in table
 
 
@@ -125,8 +125,8 @@ def test_the_exponent_of_the_variance_is_found_again(power):
 
 
 def test_the_page_says_whether_blocks_are_independent():
-    assert " as that of independent" in next(variance.answers(of_sizes(1.0)))
-    assert " unlike that of independent" in next(variance.answers(of_sizes(0.4)))
+    assert ", as independent blocks" in next(variance.answers(of_sizes(1.0)))
+    assert ", unlike independent blocks" in next(variance.answers(of_sizes(0.4)))
     assert not list(variance.answers({Scene(10): lean(Scene(10), 0.7)}))
 
 
@@ -135,4 +135,4 @@ def test_a_variance_that_stays_at_last_goes_by_no_power():
     made = of_sizes(1.0)
     made[Scene(40)] = lean(Scene(40), 0.7, 200, 0.1 / 10)
     made[Scene(20)] = lean(Scene(20), 0.7, 200, 0.1 / 40)
-    assert "by no power on flat" in next(variance.answers(made))
+    assert "flat: no power law" in next(variance.answers(made))

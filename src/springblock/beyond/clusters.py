@@ -92,10 +92,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     )
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
-        f"**Clusters of precursors are larger than chance makes them on {in_place} of {len(found)} "
-        f"surfaces for blocks of the same places, and on {anywhere} for as many blocks anywhere; "
-        f"most so, by a factor of {number(found[most].ratio_mixed)} for the same places, on: "
-        f"{name(most)}.**"
+        f"**Precursors come in larger clusters than chance would make, on {in_place} of "
+        f"{len(found)} surfaces with blocks of the same places and on {anywhere} with as many "
+        f"blocks anywhere; the largest are {number(found[most].ratio_mixed)} times as large, in "
+        f"the same places, on this surface: {name(most)}.**"
     )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
     header += ["over anywhere", "over same places"]

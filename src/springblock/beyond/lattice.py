@@ -29,7 +29,6 @@ NEEDS = "groups lattice, disorder and layer"
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "correlation_length", "step"}
 _FEWEST = 3  #: surfaces of a comparison, and distances that a fit of two unknowns needs
-_STRESS = "the ratio of the largest to the mean elastic stress"
 _SIZES = 4  #: of pillars, among which the lowest friction is looked for
 
 
@@ -44,7 +43,7 @@ class Layer(NamedTuple):
 
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Layer, Sizes]
-Told = Mapping[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
+Told = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
 
 
 class Comparison(NamedTuple):
@@ -84,13 +83,14 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     """
     common = usual(surfaces)
     product = common.spacing * common.scatter
-    found = {
-        "block": Comparison("where blocks scatter alike on all lattices", "spacing", {}),
-        "area": Comparison("at the same disorder per area", "spacing", {}),
-        "length": Comparison("with disorder of one correlation length", "spacing", {}),
-        "none": Comparison("without disorder", "spacing", {}),
-        "layer": Comparison(f"with l = {common.spacing:g} µm", "thickness", {}),
+    words = {
+        "block": "where blocks scatter alike on all lattices",
+        "area": "at the same disorder per area",
+        "length": "with disorder of one correlation length",
+        "none": "without disorder",
+        "layer": f"with l = {common.spacing:g} µm",
     }
+    parts: dict[str, dict[Layer, Sizes]] = {name: {} for name in words}
     for at in sorted(surfaces, key=lambda at: (-at.spacing, at.thickness)):
         is_thick = at.thickness == common.thickness
         belongs = {
@@ -101,8 +101,13 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
             "layer": at._replace(thickness=common.thickness) == common,
         }
         for name in (name for name, is_part in belongs.items() if is_part):
-            found[name] = found[name]._replace(surfaces={**found[name].surfaces, at: surfaces[at]})
-    return {name: each for name, each in found.items() if len(each.surfaces) >= _FEWEST}
+            parts[name][at] = surfaces[at]
+    axes = {"layer": "thickness"}
+    return {
+        name: Comparison(words[name], axes.get(name, "spacing"), part)
+        for name, part in parts.items()
+        if len(part) >= _FEWEST
+    }
 
 
 def decay(sizes: Sizes, size: float) -> SideLength | None:
@@ -122,12 +127,13 @@ def stress_ratio(runs: Sequence[Record]) -> float:
 
 
 def samples(sizes: Sizes) -> dict[float, Array]:
-    """Static friction by size; where nothing scatters, one realisation stands for all."""
-    values = {size: static_friction(runs) for size, runs in sizes.items()}
-    return {
-        size: each if sizes[size][0].material.mu_static_std else np.repeat(each[:1], 2)
-        for size, each in values.items()
-    }
+    """Static friction of each realisation by size, (k,)."""
+    return {size: _of_all(runs, static_friction(runs)) for size, runs in sizes.items()}
+
+
+def _of_all(runs: Sequence[Record], values: Array) -> Array:
+    """Values of all realisations; where nothing scatters, of the only one, twice: exact."""
+    return values if runs[0].material.mu_static_std else np.repeat(values[:1], 2)
 
 
 def minimum(sizes: Sizes) -> Lowest | None:
@@ -141,10 +147,10 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str
     if best in sizes:
         runs, name = sizes[best], f"on pillars of {best:g} µm"
         stress, force = stress_ratio(runs), samples(sizes)
-        shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
-        found[f"{_STRESS} {name}"] = mean_interval([stress, stress])
+        shares = np.array([100.0 * precursors(run)[run.scene.contact].mean() for run in runs])
+        found[f"the largest over the mean elastic stress {name}"] = mean_interval([stress] * 2)
         found[f"static friction {name}"] = mean_interval(force[best])
-        found[f"the share of precursors {name} (%)"] = mean_interval(shares)
+        found[f"the share of precursors {name} (%)"] = mean_interval(_of_all(runs, shares))
         if broad in sizes:
             key = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
             found[key] = difference_interval(force[broad], force[best])
@@ -171,11 +177,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     }
     names = list(dict.fromkeys(name for each in found.values() for name in each))
     told = {name: changes(compared, found, name) for name in names}
+    for kind in {"area", "length", "none"} & set(compared):  # stress knows of no disorder
+        told[names[0]].pop(kind, None)
     told["the friction-minimising size"] = _moves(compared)
     yield from _conclusions(told)
     for name, said in told.items():
-        how = dict.fromkeys(words for _, words in said.values())  # each once
-        yield f"**{_plain(name, upper=True)}** {'; '.join(how)}."
+        how = "; ".join(words for _, words in said.values())
+        yield f"**{_plain(name, upper=True)}** {how}."
     header = ["scatter", "l (µm)", "l_z (µm)", *(name.removeprefix("the ") for name in names)]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
@@ -236,14 +244,13 @@ def _moves(compared: Mapping[str, Comparison]) -> Told:
 
 def _conclusions(told: Mapping[str, Told]) -> Iterator[str]:
     """Say what changes with l, however the lattice is refined or in some ways, and with l_z."""
-    lattice: dict[str, list[str]] = {}
+    lattice: dict[str, list[str]] = {"in every refinement below": [], "in some": [], "in none": []}
     for name, said in told.items():
         changes = [changed for kind, (changed, _) in said.items() if kind != "layer"]
-        how = "however its disorder is refined" if all(changes) else "in none of these refinements"
-        if any(changes) and not all(changes):
-            how = "in some of these refinements"
-        lattice.setdefault(how, []).append(_plain(name))
+        if changes and not name.endswith("(blocks)"):
+            every, some, none = lattice.values()
+            (every if all(changes) else some if any(changes) else none).append(_plain(name))
     layer = [_plain(name) for name, said in told.items() if said.get("layer", (False, ""))[0]]
-    parts = [f"{listed(names)} {how}" for how, names in lattice.items()]
+    parts = [f"{listed(names)} {how}" for how, names in lattice.items() if names]
     yield f"**The spacing l of the lattice changes {'; '.join(parts)}.**"
     yield f"**The thickness l_z of the layer changes {listed(layer) or 'none of these'}.**"

@@ -70,17 +70,22 @@ def name(pattern: Pattern) -> str:
 def answers(ensembles: Ensembles) -> Iterator[str]:
     """Sentences and a table in Markdown; none without what `NEEDS` names."""
     found = by_pattern(ensembles)
-    parts = []
-    for pattern, sizes in found.items():
-        power = exponent(sizes)
-        alike = "as" if power.low <= 1.0 <= power.high else "unlike"
-        how = f"{alike} that of independent blocks (x = {number(power)})"
-        parts.append(f"{how if misfit(sizes) < FAR else 'by no power'} on {name(pattern)}")
     if found:
-        told = "; ".join(parts)
-        yield f"**The variance of static friction goes with the number of blocks, n^-x: {told}.**"
+        told = "; ".join(f"{name(pattern)}: {_law(sizes)}" for pattern, sizes in found.items())
+        yield (
+            "**The variance of static friction between realisations goes with n^-x, n = N² blocks; "
+            f"independent blocks have x = 1. {told}.**"
+        )
         header = ["surface", "N", "static friction", "variance / 1e-6", "realisations"]
         yield markdown_table(header, [line for each in found.items() for line in _lines(*each)])
+
+
+def _law(sizes: Mapping[int, Array]) -> str:
+    if misfit(sizes) > FAR:
+        return "no power law"
+    power = exponent(sizes)
+    alike = "as" if power.low <= 1.0 <= power.high else "unlike"
+    return f"x = {number(power)}, {alike} independent blocks"
 
 
 def _lines(pattern: Pattern, sizes: Mapping[int, Array]) -> Iterator[Sequence[str]]:
