@@ -62,7 +62,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if len(scatters) < 3:
         return
     scatters = shared(scatters)
-    sizes = long_enough(scatters)
+    if not (sizes := long_enough(scatters)):
+        return
     lengths = {
         n_p: {std: fit.interval for std, fit in fits(scatters, n_p).items()} for n_p in sizes
     }
