@@ -21,7 +21,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "analyse": ("model", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
     "claims": ("model", "analysis", "mechanism", "claims"),
-    "beyond": ("model", "analysis", "beyond"),
+    "beyond": ("model", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
     "plot": ("model", "analysis", "mechanism", "plotting"),
     "report": ("model", "analysis", "mechanism", "plotting", "report"),

@@ -64,10 +64,12 @@ def ensemble(
 
 SIZES = (20.0, 40.0, 80.0, 120.0, 240.0)  #: of pillars, µm
 SIDE = 480.0  #: of surfaces, µm
-#: Spacing and thickness, µm, and scatter.
+#: Spacing and thickness, µm, scatter, and the length over which it is alike, µm.
 PLACES = (
-    *((20, 10, 0.1), (10, 10, 0.1), (5, 10, 0.1), (10, 5, 0.1), (10, 20, 0.1)),
-    *((20, 10, 0.05), (5, 10, 0.2)),
+    *((20, 10, 0.1, 0), (10, 10, 0.1, 0), (5, 10, 0.1, 0), (10, 5, 0.1, 0), (10, 20, 0.1, 0)),
+    *((20, 10, 0.05, 0), (5, 10, 0.2, 0)),
+    *((20, 10, 0.1, 20), (10, 10, 0.1, 20), (5, 10, 0.1, 20)),
+    *((20, 10, 0, 0), (10, 10, 0, 0), (5, 10, 0, 0)),
 )
 
 
@@ -76,21 +78,24 @@ def lattices(
     best: Callable[[float, float, float], float],
     runs: int = 20,
 ) -> dict[Scene, list[Record]]:
-    """Lattices and layers whose l_c and whose friction-minimising pillar, µm, are given.
+    """Lattices and layers whose decay length and whose friction-minimising size, µm, are given.
 
-    Both functions take the spacing and the thickness, µm, and the scatter.
+    Both functions take the spacing and the thickness, µm, and the scatter. Without scatter there
+    is one realisation.
     """
     found = {}
-    for spacing, thickness, scatter in PLACES:
-        usual = {"spacing": 1e-5, "thickness": 1e-5, "mu_static_std": 0.1}
+    for spacing, thickness, scatter, alike in PLACES:
+        usual = {"spacing": 1e-5, "thickness": 1e-5, "mu_static_std": 0.1, "correlation_length": 0}
         given = {"spacing": 1e-6 * spacing, "thickness": 1e-6 * thickness, "mu_static_std": scatter}
+        given["correlation_length"] = 1e-6 * alike
         varied = tuple((key, value) for key, value in given.items() if value != usual[key])
         for size in SIZES:
             n_p = int(size / spacing)
             scene = Scene(int(SIDE / spacing), n_p, n_p, varied=varied)
             place = spacing, thickness, scatter
             height = 0.7 + 0.02 * np.log(size / best(*place)) ** 2
-            found[scene] = ensemble(scene, height, length(*place) / spacing, runs)
+            some = {"runs": runs} if scatter else {"runs": 1, "scatter": 0.0}
+            found[scene] = ensemble(scene, height, length(*place) / spacing, **some)
     return found
 
 

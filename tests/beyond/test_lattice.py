@@ -1,104 +1,144 @@
-"""Lengths that follow the lattice are told from those that follow the layer or the disorder."""
+"""What changes with the lattice is told from what changes with the layer or the disorder."""
 
 import numpy as np
 import pytest
 
 from beyond.made_up import PLACES, SIZES, lattices
-from springblock.analysis.correlation import fit_tail
+from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
     Layer,
     answers,
-    evenly_disordered,
-    fits,
+    changes,
+    comparisons,
+    decay,
     layers,
-    minimum_exponents,
-    refined,
+    measures,
+    minimum,
+    stress_ratio,
 )
-from springblock.beyond.resampling import area, exponents, length_exponents, means
 from springblock.model.scene import Scene
 
-LAWS = {
-    "lattice": (lambda spacing, l_z, scatter: 3.0 * spacing, (1.0, 0.0)),
-    "layer": (lambda spacing, l_z, scatter: 3.0 * l_z, (0.0, 1.0)),
-    "both": (lambda spacing, l_z, scatter: 3.0 * np.sqrt(spacing * l_z), (0.5, 0.5)),
-}
+
+@pytest.fixture(autouse=True)
+def fewer_resamples(monkeypatch):
+    monkeypatch.setattr("springblock.beyond.resampling._RESAMPLES", 200)
 
 
-def sixty(spacing, l_z, scatter):
-    return 60.0
+def eighty(spacing, l_z, scatter):
+    return 80.0
 
 
-def surfaces(length=sixty, best=sixty, runs=3):
+def surfaces(length=eighty, best=eighty, runs=3):
     return layers(lattices(length, best, runs))
 
 
-def rates(found):
-    return np.log([(at.spacing, at.thickness) for at in found])
-
-
-def close(interval, expected, within):
-    assert interval.low <= expected <= interval.high
-    assert abs(interval.mean - expected) < within
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_lengths_without_scatter_have_exact_exponents(name):
-    length, expected = LAWS[name]
-    places = [Layer(*map(float, at)) for at in PLACES]
-    samples = [np.full(3, length(*at)) for at in places]
-    found = exponents(rates(places), samples, lambda *drawn, axis: means(drawn, axis))
-    np.testing.assert_allclose([each.mean for each in found], expected, atol=1e-12)
-
-
-@pytest.mark.parametrize(("name", "fit"), [("lattice", fit_tail), ("layer", area)])
-def test_the_exponents_of_l_c_are_found_again(name, fit):
-    """Where lengths are a block or more, and the range holds three of them."""
-    length, expected = LAWS[name]
-    made = surfaces(lambda *at: 0.6 * length(*at), runs=40 if fit is fit_tail else 120)
-    fitted = {at: fits(sizes, fit)[SIZES[-1]] for at, sizes in refined(made).items()}
-    spacings = [at.spacing for at in fitted]
-    exponents_found = length_exponents(fitted.values(), rates(fitted), spacings)
-    for found, exponent in zip(exponents_found, expected, strict=True):
-        close(found, exponent, 0.3)
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_the_exponents_of_the_lowest_friction_are_found_again(name):
-    """Inside the sizes of pillars, which end at 20 and 240 µm; runs scatter by 1e-3."""
-    length, expected = LAWS[name]
-    made = refined(surfaces(best=lambda *at: 2.0 * length(*at), runs=20))
-    for found, exponent in zip(minimum_exponents(rates(made), made), expected, strict=True):
-        close(found, exponent, 0.05)
-
-
 def test_surfaces_are_of_one_size_in_metres_and_of_one_distance():
-    made = lattices(sixty, sixty, runs=3)
+    made = lattices(eighty, eighty, runs=3)
     other = Scene(18, 3, 3), Scene(48, 8, 16), Scene(48, 8, 8, direction="y")
     found = layers(made | {scene: next(iter(made.values())) for scene in other})
     assert set(found) == {Layer(*map(float, at)) for at in PLACES}
     assert all(tuple(sizes) == SIZES for sizes in found.values())
 
 
-def test_the_same_disorder_per_area_is_a_scatter_that_goes_with_one_over_the_spacing():
+def test_surfaces_of_a_comparison_differ_in_one_length():
+    """From coarse to fine and from thin to thick; no scatter is no disorder of any length."""
+    found = comparisons(surfaces())
+    assert {name: [at[:3] for at in each.surfaces] for name, each in found.items()} == {
+        "block": [(20, 10, 0.1), (10, 10, 0.1), (5, 10, 0.1)],
+        "area": [(20, 10, 0.05), (10, 10, 0.1), (5, 10, 0.2)],
+        "length": [(20, 10, 0.1), (10, 10, 0.1), (5, 10, 0.1)],
+        "none": [(20, 10, 0), (10, 10, 0), (5, 10, 0)],
+        "layer": [(10, 5, 0.1), (10, 10, 0.1), (10, 20, 0.1)],
+    }
+    lengths = {name: {at.length for at in each.surfaces} for name, each in found.items()}
+    assert lengths.pop("length") == {20.0}
+    assert set.union(*lengths.values()) == {0.0}
+
+
+def test_a_decay_length_is_found_again_in_blocks():
+    """Of 30 µm: three blocks of 10 µm, on pillars of 24."""
+    sizes = surfaces(lambda *_: 30.0, runs=40)[Layer(10.0, 10.0, 0.1, 0.0)]
+    found = decay(sizes, 240.0).interval
+    assert found.low < 3.0 < found.high
+    assert found.high - found.low < 3.0
+    assert decay(sizes, 20.0) is None  # two blocks
+
+
+def test_stress_on_the_outermost_blocks_goes_with_one_over_the_spacing():
+    """A force per length on the edges; at its corners more."""
     found = surfaces()
-    assert set(refined(found)) == {at for at in found if at.scatter == 0.1}
-    assert set(evenly_disordered(found)) == {(20, 10, 0.05), (10, 10, 0.1), (5, 10, 0.2)}
-
-
-def test_the_page_says_what_a_length_follows(monkeypatch):
-    """A friction-minimising pillar that goes with the root of spacing times scatter, 60 µm."""
-    monkeypatch.setattr("springblock.beyond.resampling._RESAMPLES", 200)
-    *sentences, table = answers(
-        lattices(sixty, lambda spacing, l_z, scatter: 60.0 * (spacing * scatter) ** 0.5, runs=12)
+    coarse, fine = (
+        stress_ratio(found[Layer(spacing, 10.0, 0.1, 0.0)][120.0]) for spacing in (10.0, 5.0)
     )
-    alike, even = (line for line in sentences if line.startswith("**friction-minimising pillar"))
-    assert "with the layer unchanged" in alike
-    assert "with the lattice in part" in alike
-    assert "at the same disorder per area" in even
-    assert "with the lattice unchanged" in even
-    assert len(table.splitlines()) == 9
+    assert 1.6 < fine / coarse < 2.4
+
+
+def test_the_lowest_friction_is_a_size_and_what_cannot_be_told_from_it():
+    found = minimum(surfaces(best=lambda *_: 40.0, runs=12)[Layer(10.0, 10.0, 0.1, 0.0)])
+    assert found.place == 40.0
+    assert 240.0 not in found.alike
+
+
+def sentences(best, length=eighty):
+    conclusion, layer, *told, table = answers(lattices(length, best, runs=9))  # too few for c(r)
+    return conclusion, layer, told, table
+
+
+def test_the_page_says_what_follows_the_lattice():
+    """A friction minimum of four blocks, but 80 µm with the same disorder per area."""
+    _, _, told, table = sentences(lambda x, l_z, s: 80.0 if s in (0.05, 0.2) else 8.0 * x)
+    (size,) = (line for line in told if line.startswith("**The friction-minimising size**"))
+    assert "shows no significant change with l = 10 µm: 80" in size
+    assert "changes where blocks scatter alike on all lattices: 80 µm at l = 10 µm, 40" in size
+    assert "shows no significant change at the same disorder per area" in size
+    assert len(table.splitlines()) == 2 + len(PLACES)
+
+
+@pytest.mark.parametrize(
+    ("best", "of_l", "of_l_z"),
+    [
+        (eighty, "in none", ""),
+        (lambda x, l_z, s: 8.0 * x, "in every", ""),
+        (lambda x, l_z, s: 8.0 * l_z, "in none", "the friction-minimising size"),
+        (lambda x, l_z, s: 80.0 if s else 8.0 * x, "in some", ""),
+    ],
+)
+def test_the_page_begins_with_what_the_lattice_and_the_layer_change(best, of_l, of_l_z):
+    lattice, layer, *_ = sentences(best)
+    (part,) = (each for each in lattice.split("; ") if "the friction-minimising size" in each)
+    assert f" {of_l}" in part
+    assert (of_l_z in layer) if of_l_z else ("friction-minimising" not in layer)
+
+
+def test_decay_lengths_are_measured_in_both_units():
+    sizes = surfaces(lambda *_: 30.0, runs=12)[Layer(10.0, 10.0, 0.1, 0.0)]
+    found = measures(sizes, 80.0, 120.0, 240.0)
+    metres = found["the decay length on pillars of 240 µm (µm)"]
+    blocks = found["the decay length in blocks on pillars of 240 µm (blocks)"]
+    np.testing.assert_allclose(metres, 10.0 * np.array(blocks))
+
+
+def test_changes_are_told_from_the_first_to_the_last_lattice():
+    part = comparisons(surfaces())
+    values = {20: (3.0, 2.0, 4.0), 10: (2.0, 1.0, 3.0), 5: (1.0, 0.5, 1.5)}
+    found = {at: {"way (µm)": Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
+    told = changes(part, found, "way (µm)")
+    assert told["block"] == (
+        True,
+        "falls from 3.0 [2.0, 4.0] µm at l = 20 µm to 1.0 [0.5, 1.5] µm at l = 5 µm "
+        "where blocks scatter alike on all lattices",
+    )
+    assert not told["layer"][0]
 
 
 def test_two_lattices_are_too_few():
-    made = lattices(sixty, sixty, runs=3)
+    made = lattices(eighty, eighty, runs=3)
     assert not list(answers({s: r for s, r in made.items() if s.n_blocks != 96}))
+
+
+def test_values_without_scatter_are_exact():
+    """One realisation is all there are: sizes differ if their values do."""
+    sizes = surfaces(best=lambda *_: 40.0)[Layer(10.0, 10.0, 0.0, 0.0)]
+    assert minimum(sizes).alike == [40.0]
+    for value in measures(sizes, 80.0, 120.0, 240.0).values():
+        assert value.low == value.mean == value.high

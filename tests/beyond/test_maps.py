@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from beyond.made_up import grooves, sizes_and_distances
+from beyond.made_up import grooves, lean, sizes_and_distances
 from springblock.beyond import friction, peaks
 from springblock.beyond.peaks import Grooves
+from springblock.model.scene import Scene
 
 
 def test_prominence_is_the_depth_between_two_hills():
@@ -20,9 +21,9 @@ def test_prominence_is_the_depth_between_two_hills():
 
 def test_the_page_counts_surfaces_with_more_along_than_across():
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
-    pillars, whole, hierarchy, table = peaks.answers(made)
-    assert "on 0 of 1 surfaces, less on 1" in pillars
-    assert "on 1 of 1 surfaces, less on 0" in whole
+    conclusion, hierarchy, table = peaks.answers(made)
+    assert "across them on 1 of 2 surfaces, less on 1" in conclusion
+    assert "with n_p2 = 4 and n_s2 = 2: 94.99" in conclusion
     assert "in 0 of 1 cases, less in 1" in hierarchy
     assert len(table.splitlines()) == 4
 
@@ -51,7 +52,17 @@ def test_what_size_and_contact_do_only_together_is_left():
 
 
 def test_the_page_has_the_lowest_friction_of_each_contact_fraction():
-    sentence, table = friction.answers(sizes_and_distances(together))
-    assert "both added" in sentence
-    places = [float(line.split("|")[4].split("[")[0]) for line in table.splitlines()[2:]]
-    np.testing.assert_allclose(places, (3.0, 6.0, 12.0), rtol=0.05)
+    """3, 6 and 12, or the nearest of the sizes that there are, over their logarithm."""
+    conclusion, both, table = friction.answers(sizes_and_distances(together))
+    assert conclusion.startswith("**Size, more than contact fraction, sets static friction")
+    assert "**Together**" in both
+    places = [line.split("|")[4].strip() for line in table.splitlines()[2:]]
+    assert places == ["4", "6", "16"]
+
+
+def test_sizes_that_do_not_divide_the_side_come_from_larger_surfaces():
+    made = sizes_and_distances(together)
+    odd, far = Scene(252, 7, 7), Scene(280, 14, 14)
+    found = friction.friction_map(made | {each: lean(each, 0.5) for each in (odd, far)})
+    assert (7, 7) in found
+    assert (14, 14) not in found

@@ -6,22 +6,21 @@ import pytest
 from beyond.made_up import ensemble
 from springblock.analysis.correlation import side_times
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import number, power
+from springblock.beyond.question import UNCHANGED, change, listed, number
 from springblock.beyond.resampling import SideLength, difference, interval, lowest, means
 from springblock.model.scene import Scene
 
 
-def test_the_lowest_point_of_a_parabola_lies_between_the_places():
-    places = np.array([1.0, 3.0, 10.0, 60.0])
-    best = np.array([2.0, 4.0, 20.0])
-    heights = (np.log(places) - np.log(best)[:, None]) ** 2
-    np.testing.assert_allclose(lowest(places, heights), best)
-
-
-def test_a_curve_that_only_falls_is_lowest_at_its_end():
-    places = np.array([1.0, 2.0, 4.0])
-    np.testing.assert_allclose(lowest(places, -places), 4.0)
-    np.testing.assert_allclose(lowest(places, places), 1.0)
+def test_the_lowest_mean_has_those_beside_it_that_cannot_be_told_from_it():
+    """Two of 20 runs differ by less than they scatter, the third by far more."""
+    noise = np.random.default_rng(0).standard_normal((3, 20))
+    noise -= noise.mean(axis=1, keepdims=True)
+    samples = {2: 1.0 + noise[0], 6: 0.9 + noise[1], 20: 4.0 + noise[2]}
+    found = lowest(samples)
+    assert (found.place, found.alike) == (6, [2, 6])
+    assert str(found) == "6 (or 2)"
+    exact = {2: np.full(2, 1.0), 6: np.full(2, 0.9), 20: np.full(2, 4.0)}
+    assert str(lowest(exact)) == "6"
 
 
 def test_intervals_cover_as_often_as_they_say():
@@ -68,18 +67,19 @@ def test_numbers_are_written_to_what_the_interval_leaves():
     assert number(Interval(*map(np.array, (123.4, 110.0, 150.0))), " µm") == "123 [110, 150] µm"
 
 
+def test_exact_numbers_have_no_interval():
+    assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"
+
+
 @pytest.mark.parametrize(
-    ("limits", "meaning"),
-    [
-        ((-0.2, 0.2), "unchanged"),
-        ((0.8, 1.2), "proportional"),
-        ((0.2, 0.8), "in part"),
-        ((-0.5, 1.5), "unchanged or proportional, which is not settled"),
-        ((-0.8, -0.2), "the other way"),
-        ((1.1, 1.4), "by another power"),
-        ((0.5, 1.0), "proportional"),
-    ],
+    ("last", "meaning"),
+    [((0.2, 0.9), "falls"), ((2.1, 3.0), "grows"), ((0.5, 1.0), UNCHANGED)],
 )
-def test_an_exponent_means_what_its_interval_holds(limits, meaning):
-    low, high = map(np.array, limits)
-    assert power(Interval((low + high) / 2.0, low, high)) == meaning
+def test_values_change_where_their_intervals_are_apart(last, meaning):
+    low, high = map(np.array, last)
+    first = Interval(*map(np.array, (1.5, 1.0, 2.0)))
+    assert change(first, Interval((low + high) / 2.0, low, high)) == meaning
+
+
+def test_names_are_listed_as_in_a_sentence():
+    assert [listed(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]

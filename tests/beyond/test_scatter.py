@@ -46,9 +46,9 @@ def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_c
 
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
     made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
-    anywhere, places, table = clusters.answers(made)
-    assert "on 1 of 1 surfaces" in anywhere
-    assert "on 1 of 1 surfaces" in places
+    conclusion, table = clusters.answers(made)
+    assert "on 1 of 1 surfaces with blocks of the same places and on 1 with" in conclusion
+    assert conclusion.endswith("on this surface: flat.**")
     assert "| flat |" in table
 
 
@@ -72,12 +72,11 @@ def test_correlation_is_found_by_direction():
 
 
 def test_the_page_tells_along_from_across():
-    sides, grooves, table = sliding.answers(along_grooves({"x": 5.0, "45": 2.0, "y": 0.3}))
-    assert ", below " in sides
-    assert ", below " in grooves
+    conclusion, table = sliding.answers(along_grooves({"x": 5.0, "45": 2.0, "y": 0.3}))
+    assert conclusion.count("falls from") == 2
     assert len(table.splitlines()) == 8
     same = along_grooves({"x": 2.0, "45": 2.0, "y": 2.0})
-    assert all("not told apart" in sentence for sentence in list(sliding.answers(same))[:2])
+    assert next(sliding.answers(same)).count("shows no significant change") == 2
 
 
 def scattered(length, best=lambda std: 10.0):
@@ -92,21 +91,19 @@ def scattered(length, best=lambda std: 10.0):
     return found
 
 
-@pytest.mark.parametrize("exponent", [-0.5, 0.0])
-def test_the_power_of_the_scatter_is_found_again(exponent):
-    made = scatter.by_scatter(scattered(lambda std: 3.0 * (std / 0.1) ** exponent))
-    assert scatter.long_enough(made) == [10, 20]
-    found = scatter.exponent(scatter.fits(made, 20))
-    assert found.low <= exponent <= found.high
-    assert found.high - found.low < 0.8
+@pytest.mark.parametrize(("exponent", "words"), [(-1.0, "falls"), (0.0, "shows no")])
+def test_the_page_says_what_scatter_changes(exponent, words):
+    made = scattered(lambda std: 2.0 * (std / 0.1) ** exponent, lambda std: 10.0 * std / 0.1)
+    conclusion, table = scatter.answers(made)
+    assert "to 0.2 the decay length" in conclusion
+    assert f"length {words}" in conclusion or f"and {words}" in conclusion
+    assert conclusion.endswith("the friction-minimising n_p changes from 4 to 20.**")
+    assert [line.split("|")[4].strip() for line in table.splitlines()[2:]] == ["4", "10", "20"]
 
 
-def test_the_page_has_a_row_for_each_scatter():
-    first, second, table = scatter.answers(scattered(lambda std: 3.0))
-    assert first.startswith("**l_c on pillars with n_p = 10**")
-    assert second.startswith("**l_c on pillars with n_p = 20**")
-    places = [float(line.split("|")[4].split("[")[0]) for line in table.splitlines()[2:]]
-    np.testing.assert_allclose(places, 10.0, rtol=0.1)
+def test_a_minimum_that_stays_is_said_to_stay():
+    conclusion = next(scatter.answers(scattered(lambda std: 3.0)))
+    assert conclusion.endswith("the friction-minimising n_p shows no significant change: 10.**")
 
 
 def of_sizes(power, runs=200):
@@ -128,6 +125,14 @@ def test_the_exponent_of_the_variance_is_found_again(power):
 
 
 def test_the_page_says_whether_blocks_are_independent():
-    assert ", as that of independent" in next(variance.answers(of_sizes(1.0)))
-    assert ", unlike that of independent" in next(variance.answers(of_sizes(0.4)))
+    assert ", as independent blocks" in next(variance.answers(of_sizes(1.0)))
+    assert ", unlike independent blocks" in next(variance.answers(of_sizes(0.4)))
     assert not list(variance.answers({Scene(10): lean(Scene(10), 0.7)}))
+
+
+def test_a_variance_that_stays_at_last_goes_by_no_power():
+    """It falls by 16 and then not at all: off the line by many standard errors."""
+    made = of_sizes(1.0)
+    made[Scene(40)] = lean(Scene(40), 0.7, 200, 0.1 / 10)
+    made[Scene(20)] = lean(Scene(20), 0.7, 200, 0.1 / 40)
+    assert "flat: no power law" in next(variance.answers(made))

@@ -19,9 +19,9 @@ def by_folder(*groups: dict[Scene, list[Record]]) -> dict[str, list[Record]]:
 
 @cache
 def lattice() -> Figure:
-    """Static friction is 0.7 at 60 µm, whatever the lattice."""
+    """Static friction is 0.7 at 80 µm, whatever the lattice."""
     return drawing("beyond_lattice")(
-        by_folder(lattices(lambda *_: 20.0, lambda *_: 60.0, runs=12)),
+        by_folder(lattices(lambda *_: 20.0, lambda *_: 80.0, runs=12)),
     )
 
 
@@ -76,9 +76,9 @@ def test_friction_is_lowest_where_it_is_said_to_be():
     assert list(upper) == ["$l$ = 5 µm", "$l$ = 10 µm", "$l$ = 20 µm"]
     for xy in upper.values():
         np.testing.assert_allclose(xy[:, 0], (20, 40, 80, 120, 240))
-        np.testing.assert_allclose(xy[:, 1], 0.7 + 0.02 * np.log(xy[:, 0] / 60) ** 2, atol=2e-3)
+        np.testing.assert_allclose(xy[:, 1], 0.7 + 0.02 * np.log(xy[:, 0] / 80) ** 2, atol=2e-3)
     crosses = [float(c.lines[0].get_xdata()[0]) for c in ax.containers if "=" not in c.get_label()]
-    np.testing.assert_allclose(crosses, 60.0, rtol=0.1)
+    np.testing.assert_allclose(crosses, 80.0)
 
 
 def test_cells_hold_the_prominence_of_their_surface():

@@ -25,6 +25,7 @@ def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
     return [
         {
             **scene.row,
+            "seed": seed,
             "static_friction": friction + scatter * np.sin(seed),
             "t_max": 1e-4 + lag + 1e-8 * np.cos(seed),
             "t_avg": 1e-4,

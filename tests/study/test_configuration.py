@@ -282,6 +282,20 @@ def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
         ensembles(both)
 
 
+def test_one_realisation_is_all_where_nothing_scatters():
+    """A correlation needs three, and the paper's figures need correlations."""
+    scatter = {"mu_static_std": [0.0], "mu_dynamic_std": [0.0]}
+    grid = {"n_p": [6], "n_s": [6], "material": scatter, "direction": ["x"], "seeds": 1}
+    check(changed("scenes", "own", to=grid), SCHEMA)
+    for group, changes in (
+        ("own", {"material": scatter | {"mu_dynamic_std": [0.05]}}),
+        ("own", {"seeds": 2}),
+        ("pillars", {}),
+    ):
+        with pytest.raises(ValueError, match="pillars of 6 blocks need 3 seeds or more"):
+            check(changed("scenes", group, to=grid | changes), SCHEMA)
+
+
 def test_any_change_changes_the_digest():
     digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=1e-8))}
     assert len(digests) == 2

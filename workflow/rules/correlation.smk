@@ -1,7 +1,9 @@
 # Correlations of detachment times along the sides of pillars, scene by scene and in two tables.
 
-#: Scenes whose pillars have sides.
-WITH_SIDES = [each.scene.folder for each in ENSEMBLE.values() if each.scene.sides]
+#: Scenes whose pillars have sides. Of a single realisation, where nothing scatters, there is no c(r).
+WITH_SIDES = [
+    each.scene.folder for each in ENSEMBLE.values() if each.scene.sides and len(each.seeds) > 1
+]
 
 
 rule correlation:

@@ -86,15 +86,17 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     found = {scene: clusters(runs) for scene, runs in surfaces(ensembles).items()}
     if not found:
         return
-    for words, ratios in (
-        ("as many blocks anywhere", [each.ratio for each in found.values()]),
-        ("blocks of the same places", [each.ratio_mixed for each in found.values()]),
-    ):
-        above = sum(bool(ratio.low > 1.0) for ratio in ratios)
-        yield (
-            f"**Larger than by chance**, of {words}, are clusters on {above} of {len(found)} "
-            "surfaces."
-        )
+    anywhere, in_place = (
+        sum(bool(getattr(each, ratio).low > 1.0) for each in found.values())
+        for ratio in ("ratio", "ratio_mixed")
+    )
+    most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
+    yield (
+        f"**Precursors come in larger clusters than chance would make, on {in_place} of "
+        f"{len(found)} surfaces with blocks of the same places and on {anywhere} with as many "
+        f"blocks anywhere; the largest are {number(found[most].ratio_mixed)} times as large, in "
+        f"the same places, on this surface: {name(most)}.**"
+    )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
     header += ["over anywhere", "over same places"]
     lines = [

@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval, standard_error
-from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
-from springblock.beyond.resampling import interval, lowest_place, means
+from springblock.beyond.question import Ensembles, change, grouped, has_pillars_alone, number
+from springblock.beyond.resampling import interval, lowest, means
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array, Run
 
@@ -19,13 +19,18 @@ _FEWEST = 3  #: sizes with a minimum between them
 
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
-    """Static friction by pillars, on the size of surface that has most of them."""
+    """Static friction by pillars, on the size of surface that has most of them.
+
+    Pillars whose period does not divide its N are taken from surfaces at most a tenth larger.
+    """
     found = grouped(
         (scene.n_blocks, (scene.n_p, scene.n_s), static_friction(runs))
         for scene, runs in ensembles.items()
         if has_pillars_alone(scene) and not scene.varied
     )
-    return max(found.values(), key=len, default={})
+    common = max(found, key=lambda n: len(found[n]), default=0)
+    near = [found[n] for n in sorted(found, reverse=True) if common <= n <= 1.1 * common]
+    return dict(sorted({at: sizes[at] for sizes in near for at in sizes}.items()))
 
 
 def static_friction(runs: Sequence[Run]) -> Array:
@@ -99,23 +104,29 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     shares, left = explained(found), np.array(list(residuals(found).values()))
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
     rms = np.sqrt((left**2).sum() / freedom)
+    size, contact, both = (number(share, " %", 100.0) for share in shares.values())
+    more = change(shares["contact"], shares["size"])
+    words = {
+        "grows": "Size, more than contact fraction, sets static friction",
+        "falls": "Contact fraction, more than size, sets static friction",
+    }.get(more, "Size and contact fraction cannot be told apart in what they do to friction")
     yield (
-        f"**Size and contact fraction**: of the variance of static friction over {len(found)} "
-        f"surfaces, size alone explains {number(shares['size'], ' %', 100.0)}, contact fraction "
-        f"alone {number(shares['contact'], ' %', 100.0)}, both added "
-        f"{number(shares['both'], ' %', 100.0)}. They leave {rms:.4f} root mean square "
+        f"**{words}: size alone explains {size} of its variance over {len(found)} surfaces, "
+        f"contact fraction alone {contact}.**"
+    )
+    yield (
+        f"**Together**, added, they explain {both}, and leave {rms:.4f} root mean square "
         f"(over {freedom} degrees of freedom), where means have a standard error of {scatter:.4f}."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
     lines = []
     for kind, sizes in families(whole).items():
         contact = f"{1.0 / float(1 + kind) ** 2:.1%}"
-        limits = f"{min(sizes)} to {max(sizes)}"
-        lines.append([str(kind), contact, limits, *lowest_in_words(sizes)])
+        lines.append([str(kind), contact, ", ".join(map(str, sizes)), *lowest_in_words(sizes)])
     yield markdown_table(header, lines)
 
 
 def lowest_in_words(sizes: Mapping[int, Array]) -> list[str]:
     """Write the friction-minimising n_p and the lowest friction, from samples by n_p."""
-    lowest = min(sizes.values(), key=lambda values: float(values.mean()))
-    return [number(lowest_place(sizes)), number(mean_interval(lowest))]
+    found = lowest(sizes)
+    return [str(found), number(mean_interval(sizes[int(found.place)]))]

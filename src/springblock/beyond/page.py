@@ -21,10 +21,11 @@ _PAGE = Path(__file__).with_name("page.md")
 
 def page(ensembles: Ensembles) -> str:
     """Write the page: each question, its answer, and the numbers behind it."""
-    answers = {
-        name: "\n\n".join(module.answers(ensembles))
-        or f"**Not answered**: this needs the {module.NEEDS}."
-        for name, module in QUESTIONS.items()
-    }
+    answers = {}
+    for name, module in QUESTIONS.items():
+        conclusion, *rest = [*module.answers(ensembles)] or [
+            f"**Not answered**: this needs the {module.NEEDS}."
+        ]
+        answers[name] = conclusion, "\n\n".join(rest)
     text = _PAGE.read_text(encoding="utf-8")
-    return text.format(last=LAST, shuffles=clusters.SHUFFLES, **answers)
+    return text.format(last=LAST, shuffles=clusters.SHUFFLES, far=variance.FAR, **answers)

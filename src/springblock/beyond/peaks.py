@@ -48,15 +48,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         return
     shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
     contrasts = {key: difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
-    for words, keys in (
-        ("on pillars", [key for key in found if key.n_p]),
-        ("over the whole surface", [key for key in found if not key.n_p]),
-    ):
-        more, less = _told_apart([contrasts[key] for key in keys])
-        yield (
-            f"**Grooves {words}**: the lesser load peak is more prominent along the grooves than "
-            f"across them on {more} of {len(keys)} surfaces, less on {less}."
-        )
+    more, less = _told_apart(list(contrasts.values()))
+    most = max(found, key=lambda key: float(found[key][0.0].mean()))
+    yield (
+        f"**The lesser load peak is more prominent when sliding along the grooves than across them "
+        f"on {more} of {len(found)} surfaces, less on {less}; it is most prominent with "
+        f"n_p2 = {most.n_p2} and n_s2 = {most.n_s2}: "
+        f"{number(mean_interval(found[most][0.0]), ' %')} of the largest force.**"
+    )
     pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
     on_pillars = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
     if on_pillars:

@@ -11,6 +11,7 @@ from springblock.io.records import Record
 from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most
+UNCHANGED = "shows no significant change"
 
 T = TypeVar("T")
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
@@ -52,19 +53,21 @@ def is_even(scene: Scene, varied: Collection[str] = ()) -> bool:
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     """Write a value with its 95 % interval, to the digits that the interval leaves."""
     value, low, high = (factor * float(each) for each in interval)
-    if not np.isfinite([low, high]).all() or high == low:
+    if high == low:  # exact
+        return f"{value:.4g}{unit}"
+    if not np.isfinite([low, high]).all():
         return f"{value:.3g} [no interval]{unit}"
     digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
-def power(exponent: Interval) -> str:
-    """Say what the exponent of a length means, by whether its interval holds 0, and holds 1."""
-    none, whole = (exponent.low <= value <= exponent.high for value in (0.0, 1.0))
-    if none and whole:
-        return "unchanged or proportional, which is not settled"
-    if none or whole:
-        return "unchanged" if none else "proportional"
-    if exponent.high < 0.0:
-        return "the other way"
-    return "in part" if exponent.low > 0.0 and exponent.high < 1.0 else "by another power"
+def change(first: Interval, last: Interval) -> str:
+    """Say how a value changes, by whether both 95 % intervals are apart."""
+    if last.high < first.low:
+        return "falls"
+    return "grows" if last.low > first.high else UNCHANGED
+
+
+def listed(names: Sequence[str]) -> str:
+    """Join names as a sentence does."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

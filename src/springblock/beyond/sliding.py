@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from springblock.analysis.correlation import LAST, Correlation, groove_times, side_times
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import Ensembles, grouped, number
+from springblock.beyond.question import Ensembles, change, grouped, listed, number
 from springblock.beyond.resampling import FEWEST, SideLength
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
@@ -42,7 +42,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     found = {at: runs for at, runs in by_angle(ensembles).items() if len(runs) >= FEWEST}
     if len(found) < 3:
         return
-    header = ["edge", "angle", "c(1)", f"c({_FAR})", "l_c (blocks)", "realisations"]
+    header = ["edge", "angle", "c(1)", f"c({_FAR})", "decay length (blocks)", "realisations"]
     places = {angle: edges(runs) for angle, runs in found.items()}
     lines = []
     for edge in ("sides", "grooves"):
@@ -50,11 +50,12 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
             length = number(SideLength(times[edge], LAST).interval)
             lines.append([edge, f"{angle:g}°", close, far, length, str(len(found[angle]))])
+    said = []
     for edge in ("sides", "grooves"):
-        low, high = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
-        apart = "below" if high.high < low.low else "not told apart from"
-        yield (
-            f"**Along {edge}** c({_FAR}) is {number(high)} when sliding across them, {apart} "
-            f"{number(low)} when sliding along them."
-        )
+        first, last = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
+        said.append(f"{change(first, last)} from {number(first)} to {number(last)} along {edge}")
+    yield (
+        "**As sliding turns from along an edge to across it, the correlation of detachments "
+        f"{_FAR} blocks apart along the edge {listed(said)}.**"
+    )
     yield markdown_table(header, lines)

@@ -7,12 +7,13 @@ import numpy as np
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
-from springblock.beyond.resampling import exponents, interval
+from springblock.beyond.resampling import Sample, interval
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
 NEEDS = "groups flat and variance"
+FAR = 3.0  #: standard errors of a variance from a power law that does not describe it
 Pattern = tuple[int, int]  #: n_p and n_s, blocks; zeros on flat surfaces
 
 
@@ -38,8 +39,27 @@ def variance(values: Array) -> Interval:
 
 def exponent(sizes: Mapping[int, Array]) -> Interval:
     """x in a variance that goes with n^-x, n = N² blocks, with its 95 % interval."""
-    (found,) = exponents(-2.0 * np.log(list(sizes))[:, None], list(sizes.values()), variances)
-    return found
+    slope = np.linalg.pinv(_design(sizes))[1]
+
+    def exponents(*drawn: Sample, axis: int) -> Array:
+        return np.log(variances(*drawn, axis=axis)) @ slope
+
+    return interval(list(sizes.values()), exponents)
+
+
+def misfit(sizes: Mapping[int, Array]) -> float:
+    """Largest distance of a variance from the power law, in its standard errors.
+
+    The logarithm of the variance of k normal values has a standard error of about √(2/(k - 1)).
+    """
+    design, logs = _design(sizes), np.log(variances(*sizes.values(), axis=-1))
+    left = logs - design @ (np.linalg.pinv(design) @ logs)
+    counts = np.array([len(values) for values in sizes.values()])
+    return float(np.abs(left * np.sqrt((counts - 1) / 2.0)).max())
+
+
+def _design(sizes: Mapping[int, Array]) -> Array:
+    return np.column_stack([np.ones(len(sizes)), -2.0 * np.log(list(sizes))])
 
 
 def name(pattern: Pattern) -> str:
@@ -50,16 +70,22 @@ def name(pattern: Pattern) -> str:
 def answers(ensembles: Ensembles) -> Iterator[str]:
     """Sentences and a table in Markdown; none without what `NEEDS` names."""
     found = by_pattern(ensembles)
-    for pattern, sizes in found.items():
-        power = exponent(sizes)
-        alike = "as" if power.low <= 1.0 <= power.high else "unlike"
-        yield (
-            f"**{name(pattern)}**: the variance goes with n^-x, n = N² blocks, "
-            f"x = {number(power)}, {alike} that of independent blocks, x = 1."
-        )
     if found:
+        told = "; ".join(f"{name(pattern)}: {_law(sizes)}" for pattern, sizes in found.items())
+        yield (
+            "**The variance of static friction between realisations goes with n^-x, n = N² blocks; "
+            f"independent blocks have x = 1. {told}.**"
+        )
         header = ["surface", "N", "static friction", "variance / 1e-6", "realisations"]
         yield markdown_table(header, [line for each in found.items() for line in _lines(*each)])
+
+
+def _law(sizes: Mapping[int, Array]) -> str:
+    if misfit(sizes) > FAR:
+        return "no power law"
+    power = exponent(sizes)
+    alike = "as" if power.low <= 1.0 <= power.high else "unlike"
+    return f"x = {number(power)}, {alike} independent blocks"
 
 
 def _lines(pattern: Pattern, sizes: Mapping[int, Array]) -> Iterator[Sequence[str]]:

@@ -15,7 +15,7 @@ from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.statistics import Interval, cluster_sizes
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
 from springblock.beyond.question import Ensembles, by_scene
-from springblock.beyond.resampling import FEWEST
+from springblock.beyond.resampling import FEWEST, lowest
 from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.curves import draw_band
@@ -41,14 +41,16 @@ def _by_scene(ensembles: Folders) -> Ensembles:
 
 
 def beyond_lattice(ensembles: Folders) -> Figure:
-    """Draw c(r), l_c and static friction over the lattice spacing and the layer's thickness."""
+    """Draw c(r), decay lengths and static friction over spacing and thickness."""
     surfaces = lattice.layers(_by_scene(ensembles))
-    common, alike = lattice.usual(surfaces), lattice.refined(surfaces)
-    lattices = {at: sizes for at, sizes in alike.items() if at.thickness == common.thickness}
-    thick = {at: sizes for at, sizes in alike.items() if at.spacing == common.spacing}
+    compared = lattice.comparisons(surfaces)
+    lattices, even, thick = (
+        dict(sorted(compared[name].surfaces.items())) if name in compared else {}
+        for name in ("block", "area", "layer")
+    )
     picture, panels = style.panels(style.DOUBLE, 122.0, "ab;cd")
     _draw_correlation(panels[0], lattices)
-    _draw_lengths(panels[1], lattices, lattice.evenly_disordered(surfaces), thick)
+    _draw_lengths(panels[1], lattices, even, thick)
     _draw_sizes(panels[2], lattices, "spacing")
     _draw_sizes(panels[3], thick, "thickness")
     return picture
@@ -73,15 +75,15 @@ def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
 def _draw_lengths(
     ax: Axes, lattices: lattice.Surfaces, even: lattice.Surfaces, thick: lattice.Surfaces
 ) -> None:
-    """Draw l_c on the largest pillars over l and over l_z, with guides."""
+    """Draw decay lengths on the largest pillars over l and over l_z, with guides."""
     spots: list[float] = []
     for part, varied, color, marker, label in (
         (lattices, "spacing", BLUE, "o", "over $l$"),
         (even, "spacing", VERMILION, "s", "over $l$, same disorder per area"),
         (thick, "thickness", BLACK, "^", "over $l_z$"),
     ):
-        found = {at: list(lattice.fits(sizes).values())[-1:] for at, sizes in part.items()}
-        lengths = {at: last.interval for at, each in found.items() for last in each}
+        found = {at: lattice.decay(sizes, max(sizes)) for at, sizes in part.items()}
+        lengths = {at: fit.interval for at, fit in found.items() if fit}
         if lengths:
             places = [getattr(at, varied) for at in lengths]
             intervals = [at.spacing * np.array(blocks) for at, blocks in lengths.items()]  # µm
@@ -94,7 +96,7 @@ def _draw_lengths(
         guide = height * (ends / np.sqrt(ends.prod())) ** slope
         ax.plot(ends, guide, color=GREY, linewidth=0.5, linestyle=":", zorder=0)
     name_places(ax, spots)
-    ax.set(xlabel="spacing $l$ or thickness $l_z$ (µm)", ylabel="correlation length $l_c$ (µm)")
+    ax.set(xlabel="spacing $l$ or thickness $l_z$ (µm)", ylabel="decay length (µm)")
     ax.set_ylim(None, 8.0 * ax.get_ylim()[1])
     ax.legend(loc="upper left")
 
@@ -110,10 +112,10 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
     for i, (value, sizes) in enumerate(lines.items(), 1):
-        place, left, right = (float(limit) for limit in lattice.minimum(sizes))
-        bars = np.nan_to_num([[place - left], [right - place]])
+        found = lowest(lattice.samples(sizes))
+        bars = [[found.place - min(found.alike)], [max(found.alike) - found.place]]
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
-        ax.errorbar([place], [low - i * line], xerr=bars, **look)
+        ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
     name_places(ax, [size for sizes in part.values() for size in sizes])
     ax.set(xlabel="size of pillars (µm)", ylabel=FRICTION)
@@ -121,7 +123,7 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
 
 
 def beyond_disorder(ensembles: Folders) -> Figure:
-    """Draw a) l_c and b) static friction over scatter, and c) its variance over N²."""
+    """Draw a) decay lengths, b) static friction over scatter, and c) its variance over N²."""
     found = _by_scene(ensembles)
     scatters = scatter.shared(scatter.by_scatter(found))
     picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
@@ -144,7 +146,7 @@ def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes])
         places = [std * (1.0 + 0.03 * (sizes.index(int(n_p)) - 1)) for std in fitted]
         draw_points(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
     name_places(ax, list(scatters))
-    ax.set(xlabel="scatter of static coefficients", ylabel="correlation length $l_c$ (blocks)")
+    ax.set(xlabel="scatter of static coefficients", ylabel="decay length (blocks)")
     ax.set_yscale("log")
     ax.yaxis.set_minor_formatter(NullFormatter())
     ax.legend(loc="best")

@@ -306,20 +306,21 @@ FIGURES: dict[str, Declaration] = {
         module="beyond",
         caption="""a) Correlation of detachment times along the sides of the largest pillars,
         sliding along x, on lattices of different spacing l, with the layer's thickness l_z and all
-        sizes in metres unchanged. b) Correlation length of A exp(-r/l_c) on these pillars against
-        l, against l with the same disorder per area, and against l_z. Static friction against the
-        size of pillars for c) different l and d) different l_z.""",
+        sizes in metres unchanged. b) Decay length l of A exp(-r/l) on these pillars against the
+        spacing, against the spacing with the same disorder per area, and against l_z. Static
+        friction against the size of pillars for c) different l and d) different l_z.""",
         source=RealisationsSource(groups=("lattice", "disorder", "layer"), keys=("folder",)),
         marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines have slopes 0 and
-        1. c), d) Crosses at the foot: size of the friction-minimising pillar.""",
+        1. c), d) Crosses at the foot: size with the lowest mean, and bars to those that cannot be
+        told from it.""",
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds, and of friction",
         module="beyond",
-        caption="""a) Correlation length of A exp(-r/l_c) against the standard deviation of the
-        static coefficients, on pillars of n_p blocks. b) Static friction against n_p for each
-        standard deviation. c) Variance of static friction between realisations against the number
-        of blocks of the surface.""",
+        caption="""a) Decay length l of A exp(-r/l) against the standard deviation of the static
+        coefficients, on pillars of n_p blocks. b) Static friction against n_p for each standard
+        deviation. c) Variance of static friction between realisations against the number of blocks
+        of the surface.""",
         source=RealisationsSource(
             groups=("flat", "pillars", "scatter", "variance"), keys=("folder",)
         ),

@@ -149,10 +149,16 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         )
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
-    if scene.sides and len(ensemble.seeds) < _CORRELATED:
+    # Where nothing scatters one realisation is all there are, and no figure asks for its c(r).
+    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(own.material)
+    if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
         raise ValueError(
             f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
         )
+
+
+def _scatters(material: Material) -> bool:
+    return material.mu_static_std > 0.0 or material.mu_dynamic_std > 0.0
 
 
 def _threshold(scene: Scene, material: Material) -> float:
