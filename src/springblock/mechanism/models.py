@@ -72,7 +72,7 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     s, found = 0.0, []
     for held in range(k, 0, -1):
         both = np.stack([pull, push])[:, : 2 * held].reshape(2, held, 2).transpose(0, 2, 1)
-        reached = _slider_at(strength[:held], *both.reshape(2, -1), s)
+        reached = _slider_at(strength[:held], both[0].ravel(), both[1].ravel(), s)
         block, last = int(np.argmin(reached)), held - 1
         s = float(reached[block])
         force = (s * pull + push)[: 2 * held : 2].sum()
@@ -95,8 +95,13 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     return Curve(*np.array(found).T)
 
 
-def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
-    """Let blocks slip and stick again, until each has let go once."""
+def overshooting(
+    layer: Layer, static: Array, dynamic: Array, of: NDArray[np.bool_] | None = None
+) -> Curve:
+    """Let blocks slip and stick again, until each has let go once.
+
+    The force is that on blocks `of`, (k,), on all by default.
+    """
     strength, k = np.maximum(static, dynamic), len(static)
     left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)
     pairs = layer.stiffness.reshape(2, k, 2, k)[:, range(k), :, range(k)]
@@ -109,7 +114,7 @@ def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
         block = int(np.argmin(reached))
         force += (reached[block] - s) * pull
         s = reached[block]
-        found.append((s, force[0].sum()))
+        found.append((s, force[0].sum() if of is None else force[0, of].sum()))
         overload = np.inf
         while overload > 1.0 + _SLACK:
             slipped[block] = True
