@@ -7,7 +7,7 @@ MODELS = ("independent", "quasi_static", "overshooting", "simulation")
 FRICTION = {2: (0.9, 0.8, 0.75, 0.752), 6: (0.7, 0.65, 0.6, 0.601), 20: (0.6, 0.7, 0.65, 0.6)}
 UNEVEN = {2: 0.0, 6: 0.3, 20: 0.2}
 _PLAIN = {"varied": "", "thickness": 1e-5, "mu_static_std": 0.1}
-_THIN = _PLAIN | {"varied": "thickness=5e-06", "thickness": 5e-6}
+_LAYERS = [{"varied": f"thickness={t:g}", "thickness": t} for t in (5e-6, 4e-5)]
 
 
 def rows() -> list[Row]:
@@ -21,14 +21,14 @@ def rows() -> list[Row]:
 
 
 def variants() -> list[Row]:
-    """Return `mechanism_variants`: a flat surface, and all sizes on a thin layer."""
+    """Return `mechanism_variants`: a flat surface, and all sizes on a thin and a thick layer."""
     flat = [
         _PLAIN
         | {"n_p": 0, "n_s": 0, "seed": seed, "stress_variation": 0.0}
         | dict.fromkeys(MODELS, 0.8 + 0.001 * seed)
         for seed in (-1, 0, 1)
     ]
-    return flat + [_THIN | row for row in rows()]
+    return flat + [_PLAIN | layer | row for layer in _LAYERS for row in rows()]
 
 
 def peak(n_p2: int, direction: str, predicted: float, *measured: float, **own: object) -> list[Row]:

@@ -5,7 +5,7 @@ from textwrap import fill
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval, mean_interval
+from springblock.analysis.statistics import Interval, lesser_prominence, mean_interval
 from springblock.io.rows import Row, markdown_table, select
 from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
@@ -28,7 +28,7 @@ Pawls of 8 blocks between grooves of 2 on a pillar of 58: means over {seeds} see
 intervals of the mean force per block over $F_n$. Edges are the blocks in contact beside one
 without, {edge_share:.0%} of them; the figure `mechanism_budget` has the curves. In the overshoot
 model time is the slider's way over its velocity, and the core's largest force is that until each
-block has let go once.
+block has let go once. The load falls by the prominence of its lesser peak, every 6 µs.
 
 {budget}
 
@@ -185,22 +185,27 @@ def _budget(rows: Sequence[Row]) -> str:
                 for seed in sorted({row["seed"] for row in rows})
             ]
             found = [mean_interval(values) for values in np.transpose(runs)]
-            digits = (2, 0, 2, 2, 0)
+            digits = (2, 0, 2, 2, 0, 1)
             cells = [written(each, n) for each, n in zip(found, digits, strict=True)]
             lines.append([way, name, *cells])
     header = ["edges, at most", "at (µs)", "edges later", "core, at most", "at (µs)"]
-    return markdown_table(["grooves", "model", *header], lines)
+    return markdown_table(["grooves", "model", *header, "load falls by (%)"], lines)
 
 
 def _milestones(rows: Sequence[Row]) -> Array:
     """Return the largest force on edges and its time, their force and that on the core when the
-    latter is largest, and the time of that, (5,), per block over F_n and in µs."""
+    latter is largest, the time of that, and the prominence of the lesser load peak, (6,).
+
+    Per block over F_n, in µs, and in percent.
+    """
+    load = np.array([row["edges"] + row["core"] + row["free"] for row in rows])
     share = rows[0]["edge_share"]
     edges = np.array([row["edges"] for row in rows]) / share
     core = np.array([row["core"] for row in rows]) / (1.0 - share)
     time = [1e6 * row["time"] for row in rows]
     first, last = int(np.nanargmax(edges)), int(np.nanargmax(core))
-    return np.array([edges[first], time[first], edges[last], core[last], time[last]])
+    fall = 100.0 * lesser_prominence(load[np.isfinite(load)])
+    return np.array([edges[first], time[first], edges[last], core[last], time[last], fall])
 
 
 def written(interval: Interval, digits: int) -> str:

@@ -65,7 +65,7 @@ def mechanism_budget(table: pd.DataFrame) -> Figure:
         ax.set_xlabel("time (µs)")
         ax.set_title({"x": "along the grooves", "y": "across the grooves"}[direction], loc="right")
     axes[0].set(ylabel="force over normal force", ylim=(0.0, None))
-    axes[0].legend(fontsize="small")
+    axes[0].legend(loc="lower left", ncols=2)
     return picture
 
 
