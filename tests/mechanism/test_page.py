@@ -45,10 +45,11 @@ def test_predictions_are_counted_as_they_came_out(written):
     assert "| the paper's, along | 1 | 1 | 0 | 0 |" in written
     assert "| the paper's, across | 0 | 0 | 1 | 1 |" in written
     assert "| all | 1 | 2 | 1 | 2 |" in written
-    assert "right in 3 of 6 cases**, and in 2 of 4 with the paper's constants" in written
-    assert "two are measured for pawls of 7 blocks, one for pawls of 12" in " ".join(
-        written.split()
-    )
+    said = " ".join(written.split())
+    assert "right in 3 [4] of 6 cases**" in said
+    assert "the paper's constants in 2 [2] of 4 cases, where 1 % lies within" in said
+    assert "in 2 of the 2 misses, and with other coefficients in 1 [2] of 2 cases" in said
+    assert "two are measured for pawls of 7 blocks, one for pawls of 12" in said
     assert "| 0 | 2 | 8 |  |" not in written
 
 

@@ -27,7 +27,7 @@ further. A model of these three, without waves, agrees with the full simulation 
 {small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes.
 
 Grooves along the sliding direction can have two load peaks: their edges let go together, and the
-core of the pawls holds on. Across it edges let go one by one, and the load keeps rising.
+core of the pawls holds on. Across it edges let go one by one, and the load hardly falls.
 
 ## Four models
 
