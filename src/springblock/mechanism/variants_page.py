@@ -27,11 +27,11 @@ interval, since chance plays no part in it.
 
 On the thinnest layer unevenness and friction part, since unevenness hardly matters there: its
 largest value, {uneven:.2f}, is about the scatter of the thresholds, 0.1. Stress alone is lowest
-beside the most uneven size, at n_p = {stress_alone}; with load transfer friction is lowest at
-n_p = {transfer}, as in the full model at {full}, but so shallowly that sizes of {near[0]} to
-{near[1]} blocks cannot be told apart. On the thickest layer the models fail: slips of single blocks
-raise friction there, and the full model lies {thick} % below the last of them on average over
-the sizes.
+beside the most uneven size, at n_p = {stress_alone}. Load transfer moves the minimum to
+n_p = {transfer}, and the full model has it at {full}, but so shallow that sizes of {near[0]} to
+{near[1]} blocks cannot be told apart there. On the thickest layer the models fail: slips of
+single blocks raise friction there, and the full model lies {thick} % below the last of them,
+on average over the sizes.
 """
 
 
@@ -104,27 +104,28 @@ def _table(cases: Mapping[str, Mapping[int, Sequence[Row]]]) -> str:
 
 
 def _sentence(name: str, sizes: Mapping[int, Sequence[Row]]) -> str:
-    """Say which step of the models brings the minimum to where the full model has it.
+    """Say from which model on the lowest size of the full one is among theirs, in brackets.
 
-    A model that cannot tell any size from its lowest has it nowhere.
+    A model that cannot tell any size from its lowest agrees with nothing.
     """
     full, _ = _lowest(sizes, "simulation")
     near = [_lowest(sizes, model)[1] for model in _MODELS[:-1]]
     agree = [full in here and len(here) < len(sizes) for here in near] + [True]
     first = next(i for i in range(len(agree)) if all(agree[i:]))
     words = (
-        "uneven stress alone has it there",
-        "load transfer brings it there",
-        "overshoot brings it there",
-        "none of the simpler models has it there",
+        "the models agree from uneven stress on",
+        "the models agree from load transfer on",
+        "the models agree from overshoot on",
+        "none of the simpler models agrees",
     )
+    bound = ", the largest computed" if full == max(sizes) else ""
     changes = [
         written(mean_interval([100.0 * (row[b] / row[a] - 1.0) for row in sizes[full]]), 1)
         for a, b in pairwise(_MODELS)
     ]
     return fill(
-        f"- **{name}**: friction is lowest at n_p = {full}; {words[first]}. At this size load "
-        f"transfer changes friction by {changes[0]} %, overshoot by {changes[1]} %, and "
+        f"- **{name}**: friction is lowest at n_p = {full}{bound}; {words[first]}. At this "
+        f"size load transfer changes friction by {changes[0]} %, overshoot by {changes[1]} %, and "
         f"the step from there to the full model by {changes[2]} %.",
         width=100,
         subsequent_indent="  ",
