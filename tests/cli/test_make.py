@@ -5,6 +5,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from mechanism import chapter
 from precision import precision_rows, production_rows
 from springblock.accuracy import stability
 from springblock.accuracy.stability.cases import Case, Outcome
@@ -34,19 +35,27 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
     assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
 
 
-def test_models_on_two_sizes_become_a_table_and_a_page(springblock, tmp_path, monkeypatch):
+def test_models_on_two_sizes_become_a_table(springblock, tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.mechanism.table.SEEDS", 2)
-    two, four, table, page = (tmp_path / name for name in ("2", "4", "table", "page"))
+    two, four, table = (tmp_path / name for name in ("2", "4", "table"))
     springblock("make", "mechanism-2", "--output", two)
     springblock("make", "mechanism-4", "--output", four)
     springblock("make", "collect", two, four, "--output", table)
-    springblock("make", "mechanism", table, "--output", page)
     rows = pq.read_table(four).to_pylist()
     assert [row["seed"] for row in rows] == [0, 1]
     for row in rows:  # inertia lowers friction, and overshoot of single blocks is most of it
         assert row["overshooting"] == pytest.approx(row["simulation"], rel=0.02)
         assert row["simulation"] < 0.96 * row["quasi_static"]
-    assert "lowest on pillars of 4 blocks" in page.read_text()
+    assert pq.read_table(table).num_rows == 4
+
+
+def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
+    parts = (chapter.rows(), chapter.variants(), chapter.peaks(), chapter.budget())
+    files = [tmp_path / str(number) for number in range(len(parts))]
+    for file, found in zip(files, parts, strict=True):
+        write(pa.Table.from_pylist(found), file, {})
+    springblock("make", "mechanism", *files, "--output", tmp_path / "page")
+    assert "lowest on pillars of 20 blocks" in (tmp_path / "page").read_text()
 
 
 @pytest.fixture

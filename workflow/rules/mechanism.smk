@@ -1,54 +1,57 @@
-# Why friction depends on the size of pillars: simpler models beside the simulation.
+# Why friction depends on the size of pillars, and when it has two load peaks: simpler models beside
+# the simulation.
 
-from springblock.mechanism import SIZES
+from springblock.mechanism import TABLES
 
 
-rule mechanism_size:
+rule mechanism_part:
     input:
         rules.compile.output,
     output:
-        f"{RESULTS}/mechanism/{{n_p}}.parquet",
+        f"{RESULTS}/mechanism/{{part}}.parquet",
     log:
-        f"{RESULTS}/logs/mechanism/{{n_p}}.log",
+        f"{RESULTS}/logs/mechanism/{{part}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/mechanism/{{n_p}}.tsv"
+        f"{RESULTS}/benchmarks/mechanism/{{part}}.tsv"
     wildcard_constraints:
-        n_p=r"\d+",
+        part="|".join(chain.from_iterable(TABLES.values())),
     resources:
-        mem_mb=800,
-        runtime=5,
+        mem_mb=1800,
+        runtime=15,
     params:
         code=code("mechanism"),
     message:
-        "Comparing models of the onset of sliding: n_p = {wildcards.n_p}"
+        "Comparing models of the onset of sliding: {wildcards.part}"
     shell:
-        "springblock --code {params.code} make mechanism-{wildcards.n_p} --output {output:q} "
+        "springblock --code {params.code} make mechanism-{wildcards.part} --output {output:q} "
         "> {log:q} 2>&1"
 
 
 rule mechanism_table:
     input:
-        expand(rules.mechanism_size.output, n_p=SIZES),
+        lambda here: expand(rules.mechanism_part.output, part=TABLES[here.table]),
     output:
-        f"{RESULTS}/tables/mechanism.parquet",
+        f"{RESULTS}/tables/{{table}}.parquet",
     log:
-        f"{RESULTS}/logs/mechanism_table.log",
+        f"{RESULTS}/logs/{{table}}_table.log",
     benchmark:
-        f"{RESULTS}/benchmarks/mechanism_table.tsv"
+        f"{RESULTS}/benchmarks/{{table}}_table.tsv"
+    wildcard_constraints:
+        table="|".join(TABLES),
     resources:
         mem_mb=400,
         runtime=5,
     params:
         code=code("mechanism"),
     message:
-        "Collecting models of the onset of sliding in one table"
+        "Collecting models of the onset of sliding: {wildcards.table}"
     shell:
         "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule mechanism:
     input:
-        rules.mechanism_table.output,
+        expand(rules.mechanism_table.output, table=TABLES),
     output:
         f"{RESULTS}/mechanism.md",
     log:
@@ -61,7 +64,7 @@ rule mechanism:
     params:
         code=code("mechanism"),
     message:
-        "Explaining the lowest friction"
+        "Explaining the lowest friction and two load peaks"
     shell:
         "springblock --code {params.code} make mechanism {input:q} --output {output:q} "
         "> {log:q} 2>&1"

@@ -8,11 +8,11 @@ from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
-from springblock.mechanism import SIZES
+from springblock.mechanism import TABLES
 
 MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
-MEASURED += [f"mechanism-{n_p}" for n_p in SIZES]
+MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
 #: Inputs of each name: what they are, how many at least, and how many at most.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
@@ -22,7 +22,7 @@ INPUTS = {
         3,
         4,
     ),
-    "mechanism": ("the table mechanism", 1, 1),
+    "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
 
@@ -37,10 +37,11 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 
     Tables without INPUTS: stability, of stiff and extreme cases; those of errors in one comparison
     on one scene; production, of errors with N = 120; and mechanism-N_P, of simpler models on
-    pillars of one size. From INPUTS: collect joins tables of equal columns, made by the same code;
-    accuracy writes the page on errors from the tables work_precision, stability, realisations and,
-    if there is one, production; mechanism explains the lowest friction; beyond answers questions
-    beyond the paper from batches of realisations, where they suffice.
+    pillars of one size, and other parts of the tables mechanism. From INPUTS: collect joins tables
+    of equal columns, made by the same code; accuracy writes the page on errors from the tables
+    work_precision, stability, realisations and, if there is one, production; mechanism explains
+    friction and load peaks from its tables; beyond answers questions beyond the paper from batches
+    of realisations, where they suffice.
     """
     with one_sentence():
         wanted, least, most = INPUTS[name]
@@ -58,7 +59,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 def _measure(name: str, output: Path) -> None:
     """Write a table in which there is nothing to configure."""
     from springblock.accuracy import production, stability, work_precision
-    from springblock.mechanism import table as mechanism
+    from springblock.mechanism.parts import measure
 
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
@@ -67,8 +68,8 @@ def _measure(name: str, output: Path) -> None:
     elif kind == "production":
         schema, rows = production.SCHEMA, list(production.production_rows(scene))
     elif kind == "mechanism":
-        step, schema = "mechanism", mechanism.SCHEMA
-        rows = list(mechanism.mechanism_rows(int(scene)))
+        step, (schema, found) = "mechanism", measure(scene)
+        rows = list(found)
     else:
         rows = list(work_precision.ROWS[kind](scene))
     write(rows_to_table(rows, schema), output, {"code_version": code_version(step)})
@@ -88,7 +89,7 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     if name == "mechanism":
         from springblock.mechanism.page import page as mechanism
 
-        return mechanism(load(files[0]).to_pylist())
+        return mechanism(*(load(file).to_pylist() for file in files))
     if name == "accuracy":
         from springblock.accuracy.page import page
 

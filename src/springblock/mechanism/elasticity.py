@@ -21,7 +21,7 @@ from springblock.model.material import Material
 Array = NDArray[np.float64]
 
 #: Neighbours (y, x) whose springs a block counts as its own, and the stiffness of these over K_int.
-_SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
+SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
 
 
 class Layer(NamedTuple):
@@ -63,7 +63,7 @@ def lattice_stiffness(shape: tuple[int, int], material: Material) -> csc_array:
     """
     blocks = np.arange(np.prod(shape)).reshape(shape)
     total = material.k_s * eye_array(2 * blocks.size, format="csc")
-    for (up, right), share in _SPRINGS.items():
+    for (up, right), share in SPRINGS.items():
         along = np.array([right, up]) / np.hypot(right, up)
         one = blocks[: shape[0] - up, max(-right, 0) : shape[1] - max(right, 0)].ravel()
         other = blocks[up:, max(right, 0) : shape[1] + min(right, 0)].ravel()

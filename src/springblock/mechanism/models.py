@@ -61,34 +61,47 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     S_AA grows by two rows with each block; the rows of L⁻¹ S_A, kept for all blocks, give the
     forces on those that still hold: F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
     """
-    strength, k = np.maximum(static, dynamic), len(static)
+    k = len(static)
+    strength, dynamic = np.maximum(static, dynamic), dynamic.copy()
+    # block by block, x then y; those that hold come first, and change places as they let go
+    stiffness = layer.stiffness.reshape(2, k, 2, k).transpose(1, 0, 3, 2).reshape(2 * k, 2 * k)
+    pull = layer.pull.reshape(2, k).T.ravel()  # F_mot = s pull + push
+    load, push = pull.copy(), np.zeros(2 * k)
     rows = np.zeros((2 * k, 2 * k))  # of L⁻¹ S_A
-    pull, push = layer.pull.copy(), np.zeros(2 * k)  # F_mot = s pull + push
     pulled, pushed = np.zeros(2 * k), np.zeros(2 * k)  # L⁻¹ b_A and L⁻¹ f_A
-    held, s = np.arange(k), 0.0
-    found = []
-    while held.size:
-        both = np.concatenate([held, held + k])
-        reached = _slider_at(strength[held], pull[both], push[both], s)
-        s, block = float(reached.min()), held[np.argmin(reached)]
-        force = (s * pull[held] + push[held]).sum()
-        found.append((s, force + dynamic.sum() - dynamic[held].sum()))
-        n = 2 * (k - held.size)
-        for row, load in ((block, dynamic[block]), (block + k, 0.0)):
-            new = layer.stiffness[row] - rows[:n, row] @ rows[:n]
-            pivot = np.sqrt(new[row])
-            pulled[n] = (layer.pull[row] - rows[:n, row] @ pulled[:n]) / pivot
-            pushed[n] = (load - rows[:n, row] @ pushed[:n]) / pivot
-            rows[n] = new / pivot
-            pull -= rows[n] * pulled[n]
-            push += rows[n] * pushed[n]
+    s, found = 0.0, []
+    for held in range(k, 0, -1):
+        both = np.stack([pull, push])[:, : 2 * held].reshape(2, held, 2).transpose(0, 2, 1)
+        reached = _slider_at(strength[:held], both[0].ravel(), both[1].ravel(), s)
+        block, last = int(np.argmin(reached)), held - 1
+        s = float(reached[block])
+        force = (s * pull + push)[: 2 * held : 2].sum()
+        found.append((s, force + dynamic[held:].sum()))
+        n, old, new = 2 * (k - held), slice(2 * block, 2 * block + 2), slice(2 * last, 2 * held)
+        for values in (strength, dynamic):
+            values[[block, last]] = values[[last, block]]
+        for matrix in (load, pull, push, stiffness, stiffness.T, rows[:n].T):
+            matrix[old], matrix[new] = matrix[new].copy(), matrix[old].copy()
+        for row, resistance in ((new.start, dynamic[last]), (new.start + 1, 0.0)):
+            own = rows[:n, row].copy()
+            line = stiffness[row, : 2 * held] - own @ rows[:n, : 2 * held]
+            pivot = np.sqrt(line[row])
+            pulled[n] = (load[row] - own @ pulled[:n]) / pivot
+            pushed[n] = (resistance - own @ pushed[:n]) / pivot
+            rows[n, : 2 * held] = line / pivot
+            pull[: 2 * held] -= rows[n, : 2 * held] * pulled[n]
+            push[: 2 * held] += rows[n, : 2 * held] * pushed[n]
             n += 1
-        held = held[held != block]
     return Curve(*np.array(found).T)
 
 
-def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
-    """Let blocks slip and stick again, until each has let go once."""
+def overshooting(
+    layer: Layer, static: Array, dynamic: Array, of: NDArray[np.bool_] | None = None
+) -> Curve:
+    """Let blocks slip and stick again, until each has let go once.
+
+    The force is that on blocks `of`, (k,), on all by default.
+    """
     strength, k = np.maximum(static, dynamic), len(static)
     left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)
     pairs = layer.stiffness.reshape(2, k, 2, k)[:, range(k), :, range(k)]
@@ -101,7 +114,7 @@ def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
         block = int(np.argmin(reached))
         force += (reached[block] - s) * pull
         s = reached[block]
-        found.append((s, force[0].sum()))
+        found.append((s, force[0].sum() if of is None else force[0, of].sum()))
         overload = np.inf
         while overload > 1.0 + _SLACK:
             slipped[block] = True

@@ -5,8 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval, mean_interval
+from springblock.analysis.statistics import mean_interval
 from springblock.io.rows import Row, markdown_table
+from springblock.mechanism.peaks_page import peaks_section, written
+from springblock.mechanism.variants_page import variants_section
 
 #: What models are called, in the order of what they contain.
 NAMES = {
@@ -15,7 +17,7 @@ NAMES = {
     "overshooting": "overshoot",
     "simulation": "full model",
 }
-_PAGE = """# Why static friction depends on the size of pillars
+_PAGE = """# Why static friction depends on the size of pillars, and when it has two peaks
 
 Static friction is lowest on pillars of {lowest} blocks; the elastic layer loads the blocks most
 unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest.
@@ -23,6 +25,9 @@ Uneven stress alone explains the friction of the smallest pillars. On larger one
 of load lowers friction, and the inertia of single blocks, which overshoot as they slip, lowers it
 further. A model of these three, without waves, agrees with the full simulation to
 {small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes.
+
+Grooves along the sliding direction can have two load peaks: their edges let go together, and the
+core of the pawls holds on. Across it edges let go one by one, and the load hardly falls.
 
 ## Four models
 
@@ -56,6 +61,9 @@ Differences of means over the same seeds, in percent of the full model, with 95 
 Over the sizes, the unevenness of the stress and the friction of the full model are correlated by
 {correlation:.2f}. Friction is lowest at {minima}.
 
+{variants}
+{peaks}
+
 ## Limits
 
 - The models know no waves and no time. On the larger pillars the full model has less friction
@@ -63,12 +71,15 @@ Over the sizes, the unevenness of the stress and the friction of the full model 
   that was not tested.
 - Surfaces are smaller than those of the study, which changes friction: compare the models with the
   full model of the same row, not with the numbers of the other pages.
-- Edges are free, the slider moves along x, and all constants are the paper's.
+- Edges are free. In the models the slider moves along x, and all constants are the paper's where
+  the tables do not say otherwise.
 """
 
 
-def page(rows: Sequence[Row]) -> str:
-    """Write the page from the table `mechanism`."""
+def page(
+    rows: Sequence[Row], variants: Sequence[Row], peaks: Sequence[Row], budget: Sequence[Row]
+) -> str:
+    """Write the page from the tables named in `mechanism.TABLES`, in their order."""
     sizes = {n_p: [row for row in rows if row["n_p"] == n_p] for n_p in _sizes(rows)}
     means = {name: _means(sizes, name) for name in NAMES}
     variation = {n_p: found[0]["stress_variation"] for n_p, found in sizes.items()}
@@ -88,6 +99,8 @@ def page(rows: Sequence[Row]) -> str:
         table=_table(sizes, variation),
         steps=_steps(sizes),
         correlation=np.corrcoef(list(variation.values()), friction)[0, 1],
+        variants=variants_section(variants),
+        peaks=peaks_section(peaks, budget),
         minima=", ".join(f"n_p = {_lowest(means[name])} ({NAMES[name]})" for name in NAMES),
     )
 
@@ -108,7 +121,7 @@ def _table(sizes: Mapping[int, Sequence[Row]], variation: Mapping[int, float]) -
     lines = []
     for n_p, rows in sizes.items():
         found = [mean_interval([row[name] for row in rows]) for name in NAMES]
-        lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *(_text(each, 4) for each in found)])
+        lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *(written(each, 4) for each in found)])
     return markdown_table(["n_p", "SD/mean of stress", *NAMES.values()], lines)
 
 
@@ -120,11 +133,6 @@ def _steps(sizes: Mapping[int, Sequence[Row]]) -> str:
             mean_interval([100.0 * (row[later] - row[former]) / whole for row in rows])
             for former, later in pairwise(names)
         ]
-        lines.append([f"{n_p}", *(_text(each, 1) for each in changes)])
+        lines.append([f"{n_p}", *(written(each, 1) for each in changes)])
     header = [f"{NAMES[former]} → {NAMES[later]}" for former, later in pairwise(names)]
     return markdown_table(["n_p", *header], lines)
-
-
-def _text(interval: Interval, digits: int) -> str:
-    mean, low, high = (f"{value:.{digits}f}" for value in interval)
-    return f"{mean} [{low}, {high}]"

@@ -301,6 +301,17 @@ FIGURES: dict[str, Declaration] = {
         marks=f"""e) Chance plays no part: no bars. f) Means; bars:
         {INTERVALS.replace("realisations", "seeds")}.""",
     ),
+    "mechanism_budget": Declaration(
+        title="What edges and core bear of the load",
+        module="mechanism",
+        caption=f"""Force over time, over the normal force, on pawls of 8 blocks between grooves of
+        2 on a pillar of 58 (N = 120), sliding a) along the grooves and b) across them: on all
+        blocks, on the edges, which are the blocks in contact beside one without, and on the core,
+        the others in contact. Solid: full model; dashed: blocks that overshoot and stick again, in
+        which time is the slider's way over its velocity, until each has let go once. Means over 5
+        seeds; bands: {INTERVALS.replace("realisations", "seeds")}.""",
+        source=TableSource("mechanism_budget"),
+    ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
         module="beyond",

@@ -1,4 +1,4 @@
-"""Figure of the mechanism: stress before any slip, and friction of models beside the simulation."""
+"""Figures of the mechanism: stress before slip, friction by model, and who bears the load."""
 
 from collections.abc import Sequence
 
@@ -7,14 +7,16 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from springblock.analysis.statistics import mean_interval
 from springblock.mechanism.elasticity import pull
 from springblock.mechanism.page import NAMES
 from springblock.mechanism.table import scene
 from springblock.model.material import Material
 from springblock.plotting import style
+from springblock.plotting.curves import draw_band
 from springblock.plotting.maps import draw_map
 from springblock.plotting.points import FRICTION, draw_means, name_places
-from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, VERMILION, Look, color_bar
+from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, VERMILION, Look, color_bar
 from springblock.simulation.run import Array
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
@@ -25,6 +27,7 @@ _LOOKS: dict[str, Look] = {
     "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
     "simulation": {"color": BLACK, "marker": "o"},
 }
+_BEARERS = {"both": ("all", BLACK), "edges": ("edges", VERMILION), "core": ("core", BLUE)}
 
 
 def mechanism_friction(table: pd.DataFrame) -> Figure:
@@ -43,6 +46,26 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
     for ax in (uneven, friction):
         name_places(ax, table["n_p"])
         ax.set_xlabel("size of pillars $n_p$ (blocks)")
+    return picture
+
+
+def mechanism_budget(table: pd.DataFrame) -> Figure:
+    """Draw friction and what edges and core bear of it over time, a) along and b) across."""
+    picture, axes = style.panels(style.DOUBLE, 75.0, "ab")
+    style.share_axes(axes)
+    whole = table.assign(both=table["edges"] + table["core"] + table["free"])
+    for ax, direction in zip(axes, "xy", strict=True):
+        for model, look in (("simulation", "-"), ("overshooting", "--")):
+            here = whole[(whole["direction"] == direction) & (whole["model"] == model)]
+            for name, (label, color) in _BEARERS.items():
+                curves = here.pivot(index="seed", columns="time", values=name).dropna(axis=1)
+                shown = mean_interval(curves.to_numpy())
+                draw_band(ax, MICRO * curves.columns.to_numpy(), shown, color=color, linestyle=look)
+                ax.lines[-1].set_label(f"{label}, {NAMES[model]}")
+        ax.set_xlabel("time (µs)")
+        ax.set_title({"x": "along the grooves", "y": "across the grooves"}[direction], loc="right")
+    axes[0].set(ylabel="force over normal force", ylim=(0.0, None))
+    axes[0].legend(loc="lower left", ncols=2)
     return picture
 
 

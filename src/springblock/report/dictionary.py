@@ -38,6 +38,7 @@ def tables() -> list[Described]:
     """Every kind of table that a study writes."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
+    from springblock.mechanism import budget, peaks
     from springblock.mechanism import table as mechanism
 
     kinds = [
@@ -48,6 +49,9 @@ def tables() -> list[Described]:
         ("work_precision", "an error at one step", work_precision.SCHEMA),
         ("production", "an error at full size at one step", production.SCHEMA),
         ("mechanism", "a seed on pillars of one size", mechanism.SCHEMA),
+        ("mechanism_variants", "the same with other gaps and constants", mechanism.SCHEMA),
+        ("mechanism_peaks", "a seed on one surface with grooves", peaks.SCHEMA),
+        ("mechanism_budget", "a moment of one seed of one model", budget.SCHEMA),
         ("stability", "a stiff or extreme case", stability.SCHEMA),
     ]
     batches = "realisations/SCENE/batch-NUMBER.parquet"

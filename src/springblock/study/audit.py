@@ -23,7 +23,7 @@ _MADE_BY = {
     "correlations/**/*.parquet": "analyse",
     "accuracy/**/*.parquet": "accuracy",
     "mechanism/*.parquet": "mechanism",
-    "tables/mechanism.parquet": "mechanism",
+    "tables/mechanism*.parquet": "mechanism",
     "tables/correlation*.parquet": "analyse",
     "tables/realisations.parquet": "simulate",
     "tables/claims.parquet": "claims",

@@ -1,0 +1,115 @@
+"""Which pawls and grooves have two load peaks: a prediction from elasticity and friction alone.
+
+Grooves without end leave rows of blocks along them, and a period of n_p2 rows in contact and n_s2
+without is all there is. Its two outer rows in contact, the edges, bear more than the rest, the
+core. Forces are in units of F_n on a block in contact, and s is the load at which the stress on
+edges is s before any slip:
+
+    mean      R, the mean stress over that on edges: the load is R s before any slip.
+    lost      G, what the load loses, per block in contact, if each edge block bears 1 less.
+    shared    J, the share of what a block of an edge loses that other blocks of this edge take up.
+    next_to   c, the stress on the rows next to the edges over that on edges.
+    handed_on T, what these rows gain if each edge block bears 1 less.
+
+An edge block lets go at mu_s, normal with the standard deviation w, and loses D = mu_s - mu_d. When
+the share p(z), normal, of edge blocks has let go, those that hold bear s + J D p = mu_s + w z, and
+
+    load(z) = R s - G D p = R (mu_s + w z) - (J R + G) D p(z):
+
+linear in p, which is right for the load when all edge blocks have let go and for the stress when
+few have. The load has a maximum and a minimum where p'(z) = R w / ((J R + G) D), so only if
+
+    h = (J R + G) D / (R w) > sqrt(2 pi),
+
+which says that the edges let go faster than the slider loads what still holds. It falls by no more
+than G D. A second peak needs a core that then bears more than at this minimum: the rows next to the
+edges reach mu_s where c s + T (s - mu_d) = mu_s, and the load is R s - G (s - mu_d) there.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr
+
+from springblock.mechanism.elasticity import SPRINGS, Array
+from springblock.model.material import Material
+
+#: Two load peaks are predicted for prominences beyond this, in percent. Prominences of 1 % are
+#: measured where 0.2 to 0.4 % are predicted, on the surfaces of `docs/beyond.md`, section 2.
+TWO_PEAKS = 0.25
+_WAVES = 16  #: along the grooves, over which the stiffness of a single block is averaged
+
+
+class Pawl(NamedTuple):
+    """Elasticity of one period of pawl and groove, as the module has it."""
+
+    mean: float
+    lost: float
+    shared: float
+    next_to: float
+    handed_on: float
+
+
+def pawl(n_p2: int, n_s2: int, across: bool, material: Material) -> Pawl:
+    """Return the elasticity of pawls of `n_p2` >= 2 rows, sliding along or `across` grooves."""
+    own = slice(n_p2, 2 * n_p2) if across else slice(n_p2)
+    rows = _stiffness(n_p2, n_s2, 0.0, material)[own, own].real  # of rows that move as a whole
+    stress, edges = rows.sum(axis=1), [0, n_p2 - 1]  # the slider pulls as if all rows moved by -s
+    slip = np.linalg.solve(rows[np.ix_(edges, edges)], np.ones(2))
+    change = -rows[:, edges] @ slip
+    waves = 2.0 * np.pi * np.arange(_WAVES) / _WAVES
+    block = np.mean([_stiffness(n_p2, n_s2, q, material)[own, own][0, 0].real for q in waves])
+    return Pawl(
+        mean=float(stress.mean() / stress[0]),
+        lost=float(-change.mean()),
+        shared=float(1.0 - rows[0, 0] / block),
+        next_to=float(stress[1] / stress[0]),
+        handed_on=float(change[1]),
+    )
+
+
+def prominence(n_p2: int, n_s2: int, across: bool, material: Material) -> float:
+    """Return the predicted prominence of the lesser load peak in percent of the first peak."""
+    if n_p2 < 3:  # no core
+        return 0.0
+    of = pawl(n_p2, n_s2, across, material)
+    mu_s, mu_d, scatter = material.mu_static, material.mu_dynamic, material.mu_static_std
+    peak = of.mean * mu_s
+    fall = of.mean * _fall((of.shared + of.lost / of.mean) * (mu_s - mu_d), scatter)
+    fall = min(fall, of.lost * (mu_s - mu_d))
+    slider = (mu_s + of.handed_on * mu_d) / (of.next_to + of.handed_on)
+    second = of.mean * slider - of.lost * (slider - mu_d)
+    return 100.0 * max(min(fall, second - (peak - fall)), 0.0) / peak
+
+
+def _fall(drop: float, scatter: float) -> float:
+    """Fall of w z - drop p(z) from its maximum to its minimum; 0 if it has none."""
+    least = np.sqrt(2.0 * np.pi) * scatter
+    if drop <= least or scatter == 0.0:
+        return max(drop - least, 0.0)
+    z = np.sqrt(2.0 * np.log(drop / least))
+    return float(drop * (2.0 * ndtr(z) - 1.0) - 2.0 * scatter * z)
+
+
+def _stiffness(n_p2: int, n_s2: int, wave: float, material: Material) -> NDArray[np.complex128]:
+    """Return S of the rows in contact, (2 n_p2, 2 n_p2), N/m, for displacements exp(i wave x/l).
+
+    Components along the grooves, then across; rows without contact are in equilibrium.
+    """
+    n = n_p2 + n_s2
+    whole = np.zeros((2, n, 2, n), complex)
+    for row in range(n):
+        whole[0, row, 0, row] += material.k_s
+        whole[1, row, 1, row] += material.k_s
+        for (up, right), share in SPRINGS.items():
+            along: Array = np.array([right, up]) / np.hypot(right, up)
+            spring = share * material.k_int * np.outer(along, along)
+            other, phase = (row + up) % n, np.exp(1j * wave * right)
+            whole[:, row, :, row] += spring
+            whole[:, other, :, other] += spring
+            whole[:, row, :, other] -= spring * phase
+            whole[:, other, :, row] -= spring / phase
+    matrix, bound = whole.reshape(2 * n, 2 * n), np.tile(np.arange(n) < n_p2, 2)
+    free = np.linalg.solve(matrix[~bound][:, ~bound], matrix[~bound][:, bound])
+    return np.asarray(matrix[bound][:, bound] - matrix[bound][:, ~bound] @ free)
