@@ -49,6 +49,8 @@ def table():
         for quantity in ("t_det before horizon", "static_friction", "t_max"):
             for h, integrator in product(STEPS, ("leapfrog", "rk4")):
                 rows.append(row("reference", scene, integrator, h, 0.0, quantity, 3e3 * i * h))
+            for h, integrator in product((PAPER_STEP, STEP), ("leapfrog", "rk4")):
+                rows.append(row("order", scene, integrator, h, 0.0, quantity, 1e8 * h))
             for h in STEPS[:-1]:
                 rows.append(row("reference", scene, PLAIN, h, 0.0, quantity, 0.02 * i))
         for quantity in ("static_friction", "t_max", "t_avg"):
