@@ -82,8 +82,9 @@ samples of the force, which are at the same instants in both:
 
 {singles}
 
-Both integrators are of second order across detachments, at the default not always yet. Mean orders
-between these steps, with their 95 % intervals over the seeds (leapfrog; rk4):
+Both integrators are of second order across detachments with steps of {paper:.0e} s and finer. At the
+default the orders of single runs scatter: there a peak may still fall on another detachment. Mean
+orders, with their 95 % intervals over the seeds (leapfrog; rk4):
 
 {orders}
 
@@ -135,7 +136,8 @@ percent; t_max - t_avg in percent of t_max:
 {biases}
 
 The bias of {finest:.0e} s follows from that of {following:.0e} s against it: at second order it is
-a third of that, at first order all of it. The table has all of it, at the far end of its interval.
+a third of that, at first order all of it. The table has all of it, at the far end of its interval;
+on patterned surfaces this is mostly scatter.
 Single runs at {finest:.0e} s on flat surfaces of {n_flat} x {n_flat} blocks miss the event-located
 reference of the last section by {flat_friction:.1e} (static friction) and {flat_t_avg:.1e} (t_avg).
 

@@ -72,7 +72,7 @@ class _Surfaces(NamedTuple):
 
 _GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
 _SURFACES = {
-    "flat": _Surfaces(Pattern.flat(12), 1.2e-4, 6, Pattern.flat(16), 100),
+    "flat": _Surfaces(Pattern.flat(12), 1.25e-4, 4, Pattern.flat(16), 100),
     "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, 6, Pattern.pillars(16, 4, 4), 100),
     "grooved": _Surfaces(_GROOVES[0], 2.0e-4, 6, _GROOVES[1], 200),
 }
