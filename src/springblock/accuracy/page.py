@@ -82,8 +82,8 @@ samples of the force, which are at the same instants in both:
 
 {singles}
 
-Both integrators are of second order across detachments with steps of {paper:.0e} s and finer. At the
-default the orders of single runs scatter: there a peak may still fall on another detachment. Mean
+Both integrators are of second order across detachments with steps of {paper:.0e} s and finer. At
+the default the orders of single runs scatter: a peak may still fall on another detachment. Mean
 orders, with their 95 % intervals over the seeds (leapfrog; rk4):
 
 {orders}
@@ -150,7 +150,7 @@ seeds, as where realisations of many surfaces are pooled, {coarse:.0e} s misses 
 misses {coarse_means:.2f} times the least with the study's own seeds, the default {means:.2f}; and
 it is {coarse_margin:.1f} times below the stability limit, the default {margin:.1f}. A step of
 {fine:.0e} s takes {fine_seconds:.1f} CPU s in place of {seconds:.1f} for ten seeds on pillars, and
-changes t_avg there by {change:.2%}.
+changes t_avg there by {change:.2%}: worth it where t_avg is pooled.
 
 The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
 or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for l_c
