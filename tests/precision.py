@@ -7,10 +7,11 @@ from springblock.accuracy.production import STEPS, UNITS
 from springblock.model.defaults import STEP
 
 QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
-QUANTITIES += ["t_det before horizon", "t_det before peak"]
+QUANTITIES += ["t_det before horizon", "t_det before peak", "resolution"]
 #: Integrators and steps of each comparison.
 COMPARISONS = {
-    "reference": (["leapfrog", "rk4", PLAIN], [1e-9, PAPER_STEP, STEP]),
+    "reference": (["leapfrog", "rk4", PLAIN], [1e-9, min(STEPS), PAPER_STEP, STEP]),
+    "order": (["leapfrog", "rk4"], [PAPER_STEP, STEP]),
     "paired": (["leapfrog"], [STEP]),
     "scatter": (["leapfrog"], [STEP]),
 }

@@ -14,6 +14,7 @@ from springblock.accuracy.budget import (
     best,
     choices,
     excess,
+    finest_bias,
     halving,
     study_budget,
 )
@@ -96,6 +97,14 @@ def test_choices_are_shares_of_the_scale_finest_first():
     assert (finest.step, finest.bias) == (5e-9, 0.0)
     assert default == Choice(STEP, 0.25, 0.5, 0.5, 1.0)
     assert study_budget(rows) == 1.0 + STUDY_SEEDS[LENGTH] * 0.5
+
+
+def test_the_bias_of_the_finest_step_is_told_at_first_order_and_covered_at_second():
+    """c h^p, measured against itself at 5e-9 s: c h at p = 1, three times c h² at p = 2."""
+    for p, factor in ((1, 1.0), (2, 3.0)):
+        rows = [row(h**p - 5.0**p, scale=2.0, step=h) for h in (20.0, 10.0, 5.0)]
+        assert finest_bias(rows) == pytest.approx(factor * 5.0**p / 2.0)
+    assert finest_bias([row(0.0, step=5.0), row(-4.0, error=1.0, step=10.0)]) == 6.0
 
 
 def test_budgets_are_those_of_the_study():

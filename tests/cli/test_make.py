@@ -8,9 +8,12 @@ import pytest
 from mechanism import chapter
 from precision import precision_rows, production_rows
 from springblock.accuracy import stability
+from springblock.accuracy.conventions import PAPER_STEP, PLAIN
 from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.accuracy.work_precision import SCHEMA, rows_of
 from springblock.io.parquet import rows_to_table, write
+from springblock.io.rows import select
+from springblock.model.defaults import STEP
 
 
 def test_an_unknown_name_is_refused_with_the_names_there_are(springblock, tmp_path):
@@ -91,9 +94,9 @@ def test_parts_of_different_code_are_refused(collect):
 def page(springblock, batch, tmp_path):
     """Write the page on errors from these further tables; return its text."""
 
-    def written(*tables):
+    def written(*tables, precision=precision_rows()):  # noqa: B008
         stability = [{"family": "size", "expected": "agrees", "outcome": "agrees"}] * 3
-        for name, rows in {"precision": precision_rows(), "stability": stability}.items():
+        for name, rows in {"precision": precision, "stability": stability}.items():
             write(pa.Table.from_pylist(rows), tmp_path / name, {})
         files = (tmp_path / "precision", tmp_path / "stability", batch(0, 0), *tables)
         springblock("make", "accuracy", *files, "--output", tmp_path / "page.md")
@@ -119,11 +122,39 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     assert "| l_c |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
     assert "| t_max | 80000000 ± " in text  # 80 s in µs
     assert "| static friction | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 |" in text
-    assert "| +0.250 [+0.150, +0.350] (4.47) |" in text  # of a scale of 50; 20 % over 20 seeds
+    # of a scale of 50: 1.4 times 2/64 at twice the finest step; 20 % over 20 seeds
+    assert "| +0.250 [+0.150, +0.350] ± 0.087 (4.47) |" in text
     # 20 seeds of half a second each, or twice as many at twice the step and four times the bias
     assert "| static friction | flat | 10.5 | 4.479 [4.475, 4.486] | 4e-08 x 40 |" in text
     assert "| step (s) | 5e-09 | 1e-08 | 2e-08 | 4e-08 | 8e-08 |\n" in text
-    assert "of t_max and t_avg |" in text
+    assert "| of t_max and t_avg | " in text
+    assert "| of t_max and t_avg, 20 times the seeds | " in text
+
+
+def test_the_page_begins_with_the_largest_errors(page, tmp_path):
+    """Of one quantity in one scene: 3 times its own interval, and what the finest step adds."""
+    rows = production_rows()
+    (worst,) = select(rows, scene="grooved", quantity="t_max", step=STEP)
+    worst["ci_high"] *= 3.0
+    worst["deviation"] *= 2.0
+    write(pa.Table.from_pylist(rows), tmp_path / "production", {})
+    opening = " ".join(page(tmp_path / "production").split("Written by")[0].split())
+    assert "0.44% (static friction), 1.14% (t_max), 0.44% (t_avg), 0.44% (l_c)" in opening
+    assert "4.47% (static friction), 8.94% (t_max), 4.47% (t_avg), 2.58% (l_c)" in opening
+    assert "exceeds the estimated bias in 10 of 10 cases" in opening
+    assert "Errors at full size were not measured." in page().split("Written by")[0]
+
+
+def test_the_page_shows_the_worst_of_plain_runge_kutta_and_where_it_finds_no_error(page):
+    rows = precision_rows()
+    of_plain = select(rows, integrator=PLAIN, step=PAPER_STEP, quantity="t_avg", scene="grooved")
+    of_plain[0]["error"] = 0.3
+    of_default = select(rows, comparison="reference", integrator="leapfrog", step=STEP)
+    select(of_default, quantity="t_max", scene="flat")[0]["error"] = 0.0
+    text = page(precision=rows)
+    assert "reach 10% (flat), 10% (pillared), 30% (grooved), and it does not" in text
+    assert "| t_avg | 10.0% (10.0%) | 10.0% (10.0%) | 30.0% (10.0%) |" in text
+    assert "| t_max | none | 1.0e-01 | 1.0e-01 |\n" in text
 
 
 def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(

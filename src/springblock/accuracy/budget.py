@@ -75,7 +75,7 @@ def choices(rows: Iterable[Row], bias: str = "estimate") -> list[Choice]:
     """Steps of one scene and quantity, finest first; biases are estimates or ends of intervals.
 
     `rows` are those of the table `production`, `bias` names a field of `Bias`. The bias of the
-    finest step is unknown, and neglected.
+    finest step, which `finest_bias` bounds, is neglected.
     """
     return [
         Choice(
@@ -87,6 +87,16 @@ def choices(rows: Iterable[Row], bias: str = "estimate") -> list[Choice]:
         )
         for row in sorted(rows, key=lambda row: row["step"])
     ]
+
+
+def finest_bias(rows: Iterable[Row]) -> float:
+    """Largest bias that the finest step h may have itself, as a share of the quantity.
+
+    Of order p, it is the bias of the next step, r h, from that of h, over r^p - 1. We take p = 1,
+    the lower bound of orders across events, and the far end of the 95 % interval.
+    """
+    finest, following = sorted(rows, key=lambda row: row["step"])[:2]
+    return Bias.of(following).high / (following["step"] / finest["step"] - 1.0)
 
 
 def best(steps: Sequence[Choice], budget: float) -> Choice:
@@ -103,10 +113,10 @@ def halving(steps: Sequence[Choice], budget: float) -> float:
     return min(step.cost(error) for step in steps) / budget
 
 
-def study_budget(rows: Sequence[Row]) -> float:
-    """CPU time of the study's seeds at the default step, s; `rows` as of `choices`."""
+def study_budget(rows: Sequence[Row], fold: float = 1.0) -> float:
+    """CPU time of `fold` times the study's seeds at the default step, s; `rows` as of `choices`."""
     (default,) = (choice for choice in choices(rows) if choice.step == STEP)
-    return default.spent(STUDY_SEEDS.get(rows[0]["quantity"], ENSEMBLE))
+    return default.spent(fold * STUDY_SEEDS.get(rows[0]["quantity"], ENSEMBLE))
 
 
 def excess(steps: Sequence[Choice], budget: float) -> dict[float, float]:

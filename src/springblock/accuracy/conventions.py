@@ -9,13 +9,14 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from springblock.io.rows import Row
 
 SCENES = ("flat", "pillared", "grooved")
 COMPARISONS = ("reference", "paired", "twin")
 MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
+#: What orders of convergence are measured of.
+ORDERED = ("static_friction", "t_det before horizon")
 DELAY = "t_max - t_avg"  #: by how much the force peak comes after the mean detachment
 LENGTH = "l_c"  #: correlation length along the sides of pillars
 PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
@@ -29,15 +30,6 @@ HORIZON_NUDGE = 1e-5
 ENERGY_TOLERANCE = 5e-4
 #: How many times the median of its scene a residual may be.
 OUT_OF_LINE = 10.0
-#: Step in s up to which errors fall with one order, on patterned surfaces too.
-_SETTLED = 1.001e-8
-
-
-def order(steps: ArrayLike, errors: ArrayLike) -> float:
-    """Return the slope of log error over log step, s, from where the error has settled on."""
-    h, error = np.asarray(steps), np.asarray(errors)
-    settled = h <= _SETTLED
-    return float(np.polyfit(np.log(h[settled]), np.log(error[settled]), 1)[0])
 
 
 def half_width(deviation: float, count: int) -> float:

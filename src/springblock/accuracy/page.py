@@ -1,6 +1,7 @@
 """The page that says what a reader may trust; every number in it comes from the tables."""
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import product
 from math import floor, isfinite, log10, sqrt
 from statistics import median
 
@@ -10,6 +11,7 @@ from springblock.accuracy.budget import (
     best,
     choices,
     excess,
+    finest_bias,
     halving,
     study_budget,
 )
@@ -20,58 +22,39 @@ from springblock.accuracy.conventions import (
     HORIZON_NUDGE,
     LENGTH,
     MEANS,
+    ORDERED,
     OUT_OF_LINE,
     PAPER_STEP,
     PLAIN,
     SCENES,
     ensemble_error,
     half_width,
-    order,
 )
 from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
+from springblock.model.material import Material
 
 _PAGE = """# What to trust, and how far
 
+{opening}
 Written by `snakemake accuracy` from the tables `work_precision`, `stability` and `realisations`.
 The default is the leapfrog with a step of {step:.0e} s.
-
-## Single runs, up to a horizon
-
-Single runs are compared with a reference that shares no code with the solver: DOP853 with every
-detachment and stop located as an event, on surfaces of {smallest} to {largest} blocks a side.
-Errors at the default, root mean square over {n_seeds} seeds:
-
-{singles}
-
-Both integrators are of second order across detachments. Orders measured with steps from 1e-8 s on
-(leapfrog, rk4):
-
-{orders}
-
-With the finest step, {finest:.0e} s, static friction and t_det before the horizon differ from the
-reference by no more than {floor:.0e}: the floor of every error plot.
-
-Runge-Kutta with the friction of each stage, as one would first write it, does not converge. Its
-static friction on the flat surface is wrong by {plain:.1%} at the paper's step of {paper:.0e} s,
-and still by {plain_fine:.1%} at {plain_finest:.1e} s.
-
-Avalanches reorder. Thresholds nudged by {nudge:.0e} shift detachments by more than 0.1 % of t_max
-from {pillared:.0%} (pillared), {grooved:.0%} (grooved) and {flat:.0%} (flat) of t_max on, or not
-before the run ends; on patterned surfaces of full size, well before the force peak. Beyond this
-horizon no step makes single runs agree, and ensembles are compared instead.
-
-## Ensembles
-
-Bias of the mean at the default with its 95 % interval over {n_paired} or more paired seeds
-({n_ensemble} x {n_ensemble} blocks, against a step of {fine:.1e} s); in brackets the standard error
-of a mean over {ensemble} seeds; the bias must be smaller. All in percent:
-
-{paired}
 
 ## At full size
 
 {full_size}
+## Not to be trusted
+
+- Detachment times of single blocks on patterned surfaces beyond the horizon (last section), and
+  everything after the force peak of a single run.
+- Steps near the stability limit of {limit:.1e} s: at {coarsest:.0e} s static friction, t_max and
+  t_avg are biased by up to {coarse_bias:.1%}.
+- Runge-Kutta with the friction of each stage, as one would first write it: at the paper's step of
+  {paper:.0e} s its errors of static friction, t_max and t_avg reach {plain}, and it does not
+  converge.
+- Large strains: the model's springs stay linear in their length, real rubber does not. A spring at
+  half or twice its length ends the run.
+
 ## Every production run
 
 The largest energy residual of {n_runs} realisations is {worst_energy:.1e} of the slider's work,
@@ -82,47 +65,107 @@ the median {median_energy:.1e}. The study warns of any above {tolerance:.0e}, or
 
 {n_agree} of {n_cases} cases came out as expected, in these families: {families}.
 
-## Not to be trusted
+## Ensembles of small surfaces
 
-- Detachment times of single blocks on patterned surfaces beyond the horizon, and everything after
-  the force peak of a single run.
-- Steps near the stability limit: at {coarsest:.0e} s static friction, t_max and t_avg are biased
-  by up to {coarse_bias:.1%}.
-- Large strains: the model's springs stay linear in their length, real rubber does not. A spring at
-  half or twice its length ends the run.
+Bias of the mean at the default with its 95 % interval over {n_paired} or more paired seeds
+({n_ensemble} x {n_ensemble} blocks, against {against:.1e} s); in brackets the standard error of a
+mean over {ensemble} seeds. All in percent:
+
+{paired}
+
+## Single runs on small surfaces
+
+With {smallest} to {largest} blocks a side, one detachment is up to several percent of the force:
+where it comes early or late, errors are far larger than those of means at full size. The reference
+shares no code with the solver: DOP853 with every detachment and stop located as an event. Errors at
+the default, root mean square over {fewest} seeds or more; t_max is told to the interval between
+samples of the force, which are at the same instants in both:
+
+{singles}
+
+Both integrators are of second order across detachments with steps of {paper:.0e} s and finer. At
+the default the orders of single runs scatter: a peak may still fall on another detachment. Mean
+orders, with their 95 % intervals over the seeds (leapfrog; rk4):
+
+{orders}
+
+With the finest step, {finest:.0e} s, static friction and t_det before the horizon differ from the
+reference by no more than {floor:.0e}: the floor of every error plot.
+
+Avalanches reorder. Thresholds nudged by {nudge:.0e} shift detachments by more than 0.1 % of t_max
+from {pillared:.0%} (pillared), {grooved:.0%} (grooved) and {flat:.0%} (flat) of t_max on, or not
+before the run ends; on patterned surfaces of full size, well before the force peak. Beyond this
+horizon no step makes single runs agree, and ensembles are compared instead.
+
+Runge-Kutta with the friction of each stage does not converge. Errors at the paper's step, and in
+brackets at {plain_finest:.1e} s:
+
+{plains}
 """
 
-#: The section on ensembles of the study's own size, without and with their table.
+#: How the page begins, and its section on ensembles of the study's own size, without and with them.
+_UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
+by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standard error of a mean
+over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
+"""
+
 _WITHOUT = """With `production: true` in its configuration a study measures errors with its own
 number of blocks, in a quarter of an hour; this page was written without that table.
+"""
+
+_OPENING = """At full size the default step biases means over seeds by at most {biases}, at the far
+ends of 95 % intervals. Scatter from seed to seed dominates: the standard error of a mean over
+{ensemble} seeds, of l_c over {length_ensemble}, is up to {errors}, and exceeds the estimated bias
+in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias where hundreds
+of realisations are pooled, and compare ensembles: on patterned surfaces single runs part before the
+force peak, at any step.
 """
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
 with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
 {most} seeds each: the table `production`, made with `production: true`. Means over them at
 the default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus
-in the 95 % interval of the bias (the numerical error):
+in the 95 % interval of the bias, and of what the finest step adds (the numerical error):
 
 {values}
 
 These biases, against a step of {finest:.0e} s with the same seeds, and their 95 % intervals:
-Student's, and of l_c bootstrap percentiles. In brackets the standard error of a mean over
-{ensemble} seeds, of l_c from {length_ensemble}. All in percent; t_max - t_avg in percent of t_max:
+Student's, and of l_c bootstrap percentiles; ± the largest bias of {finest:.0e} s itself. In
+brackets the standard error of a mean over {ensemble} seeds, of l_c from {length_ensemble}. All in
+percent; t_max - t_avg in percent of t_max:
 
 {biases}
+
+The bias of {finest:.0e} s follows from that of {following:.0e} s against it: at second order it is
+a third of that, at first order all of it. The table has all of it, at the far end of its interval;
+on patterned surfaces this is mostly scatter.
+Single runs at {finest:.0e} s on flat surfaces of {n_flat} x {n_flat} blocks miss the event-located
+reference of the last section by {flat_friction:.1e} (static friction) and {flat_t_avg:.1e} (t_avg).
+
+## Error against run time
+
+The default stays at {step:.0e} s, though {coarse:.0e} s has the least total error in {wins} of the
+{cases} cases below, where scatter dominates. A bias does not average out: with {fold} times the
+seeds, as where realisations of many surfaces are pooled, {coarse:.0e} s misses up to
+{coarse_pooled:.1f} times the least error, the default {pooled:.1f} times. Of t_max and t_avg it
+misses {coarse_means:.2f} times the least with the study's own seeds, the default {means:.2f}; and
+it is {coarse_margin:.1f} times below the stability limit, the default {margin:.1f}. A step of
+{fine:.0e} s takes {fine_seconds:.1f} CPU s in place of {seconds:.1f} for ten seeds on pillars, and
+changes t_avg there by {change:.2%}: worth it where t_avg is pooled.
 
 The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
 or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for l_c
 {length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
-it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s, which is unknown,
-is neglected. Errors in percent:
+it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s is neglected. Errors
+in percent:
 
 {budgets}
 
 Halving the error costs so many times the CPU time: four where only scatter is left, less where the
 prelude is a large share, more where a finer step must take over.
 
-One step has to serve them all. Total errors over those of the best step, in the worst case:
+One step has to serve them all. Total errors over those of the best step, in the worst case, for the
+CPU time of the study's seeds, and of {fold} times as many:
 
 {excess}
 """
@@ -132,13 +175,22 @@ _NAMES = {
     "force": "force before t_max, largest",
     "static_friction": "static friction",
     "t_det before horizon": "t_det before the horizon",
-    "t_det before peak": "t_det before the peak",
     "order": "1 - rank correlation of t_det",
+    "resolution": "sample interval over t_max",
 }
 _UNITS = {"1": ("", 1.0), "s": (" (µs)", 1e6), "blocks": (" (blocks)", 1.0)}
 _QUANTITIES = (*MEANS, DELAY, LENGTH)
-_FLOOR = ("static_friction", "t_det before horizon")
-_SINGLE = ("force", *MEANS, "t_det before horizon", "t_det before peak", "order")
+_PLAIN = ("force", *MEANS, "t_det before horizon")
+_SINGLE = (*_PLAIN, "order", "resolution")
+_LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
+_COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: what else the default might be
+_SPANS = {PAPER_STEP: f"{PAPER_STEP:.0e} s and finer", STEP: f"{STEP:.0e} to {_FINE:.0e} s"}
+_FOLD = 20  #: how many times the study's seeds are pooled, up to
+#: What all tables share.
+_KNOWN = {"step": STEP, "coarse": _COARSE, "fine": _FINE, "paper": PAPER_STEP, "limit": _LIMIT}
+_KNOWN |= {"coarse_margin": _LIMIT / _COARSE, "margin": _LIMIT / STEP, "nudge": HORIZON_NUDGE}
+_KNOWN |= {"ensemble": ENSEMBLE, "length_ensemble": STUDY_SEEDS[LENGTH], "fold": _FOLD}
+_KNOWN |= {"tolerance": ENERGY_TOLERANCE, "out_of_line": OUT_OF_LINE}
 _PERCENT = 100.0
 _BUDGETS = ["", "scene", "CPU time (s)", "error, default", "best step (s) x seeds", "error, best"]
 
@@ -151,41 +203,41 @@ def page(
 ) -> str:
     """Fill the page in from the rows of the tables, of which `production` may be absent."""
     single = select(precision, comparison="reference")
-    default = select(single, integrator="leapfrog", step=STEP)
-    finest = select(single, integrator="leapfrog", step=min(row["step"] for row in single))
-    plain = select(single, integrator=PLAIN, scene="flat", quantity="static_friction")
-    slowest = min(plain, key=lambda row: row["step"])
-    (plain_paper,) = select(plain, step=PAPER_STEP)
+    leapfrog = select(single, integrator="leapfrog")
+    default = select(leapfrog, step=STEP)
+    finest = select(leapfrog, step=min(row["step"] for row in leapfrog))
+    plain = select(single, integrator=PLAIN)
+    mistaken = [row for row in select(plain, step=PAPER_STEP) if row["quantity"] in MEANS]
+    worst = {scene: max(row["error"] for row in select(mistaken, scene=scene)) for scene in SCENES}
     paired = select(precision, comparison="paired", integrator="leapfrog")
     scatter = select(precision, comparison="scatter")
     coarsest = max(row["step"] for row in paired)
     residuals = [abs(row["energy_error"]) for row in realisations]
     return _PAGE.format(
-        step=STEP,
+        **_KNOWN,
+        opening=_opening(production, select(paired, step=STEP)),
         smallest=min(row["n_blocks"] for row in single),
         largest=max(row["n_blocks"] for row in single),
-        n_seeds=single[0]["realisations"],
-        singles=_by_scene("relative error", _SINGLE, default, lambda row: f"{row['error']:.1e}"),
-        orders=_by_scene("order", _FLOOR, single, _orders),
+        fewest=min(row["realisations"] for row in single),
+        singles=_by_scene("relative error", _SINGLE, default, _error),
+        orders="\n\n".join(
+            _by_scene(span, ORDERED, select(precision, comparison="order", step=step), _orders)
+            for step, span in _SPANS.items()
+        ),
         finest=finest[0]["step"],
-        floor=max(row["error"] for row in finest if row["quantity"] in _FLOOR),
-        paper=PAPER_STEP,
-        plain=plain_paper["error"],
-        plain_fine=slowest["error"],
-        plain_finest=slowest["step"],
-        nudge=HORIZON_NUDGE,
+        floor=max(row["error"] for row in finest if row["quantity"] in ORDERED),
+        plain=", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items()),
+        plain_finest=min(row["step"] for row in plain),
+        plains=_by_scene("relative error", _PLAIN, plain, _plain),
         **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
         n_paired=min(row["realisations"] for row in paired),
         n_ensemble=paired[0]["n_blocks"],
-        fine=scatter[0]["step"],
-        ensemble=ENSEMBLE,
+        against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
-        full_size=_full_size(production),
+        full_size=_full_size(production, select(leapfrog, scene="flat")),
         n_runs=len(residuals),
         worst_energy=max(residuals),
         median_energy=median(residuals),
-        tolerance=ENERGY_TOLERANCE,
-        out_of_line=OUT_OF_LINE,
         n_cases=len(stability),
         n_agree=sum(row["outcome"] == row["expected"] for row in stability),
         families=", ".join(sorted({row["family"] for row in stability})),
@@ -194,23 +246,61 @@ def page(
     )
 
 
-def _full_size(rows: Sequence[Row]) -> str:
+def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
+    """Sum up bias and scatter at the default: at full size, or else on small surfaces."""
+    if not rows:
+        most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
+        return _UNKNOWN.format(most=most, **_KNOWN)
+    cases = _cases(rows, (*MEANS, LENGTH))
+    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases]
+    biases, errors = (_largest(share, cases) for share in (_largest_bias, _scatter))
+    return _OPENING.format(
+        biases=biases, errors=errors, larger=sum(larger), n=len(larger), **_KNOWN
+    )
+
+
+def _largest(share: Callable[[list[Row]], float], cases: list[list[Row]]) -> str:
+    """Name the largest share of each quantity."""
+    most: dict[str, float] = {}
+    for case in cases:
+        name = _name(case[0]["quantity"])
+        most[name] = max(most.get(name, 0.0), share(case))
+    return ", ".join(f"{number:.2%} ({name})" for name, number in most.items())
+
+
+def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
     """Fill the section in from the rows of the table `production`; without them say so."""
     if not rows:
         return _WITHOUT
-    default, means = select(rows, step=STEP), ("t_max", "t_avg")
-    cases = _cases(rows, STUDY_SEEDS)
+    cases, means = _cases(rows, STUDY_SEEDS), _cases(rows, ("t_max", "t_avg"))
+    finest, following = sorted({row["step"] for row in rows})[:2]
+    pooled, alone = _worst(cases, _FOLD), _worst(means)
+    (pillars,) = _cases(select(rows, scene="pillared"), ["t_avg"])
+    seconds = {choice.step: choice.spent(10) for choice in choices(pillars)}
+    missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _WITH.format(
+        **_KNOWN,
         n_blocks=rows[0]["n_blocks"],
         fewest=min(row["realisations"] for row in rows),
         most=max(row["realisations"] for row in rows),
-        finest=min(row["step"] for row in rows),
-        ensemble=ENSEMBLE,
-        length_ensemble=STUDY_SEEDS[LENGTH],
-        values=_by_scene("value", _QUANTITIES, default, _value),
-        biases=_by_scene("bias", _QUANTITIES, default, _bias),
+        finest=finest,
+        following=following,
+        n_flat=flat[0]["n_blocks"],
+        flat_friction=missed["static_friction"],
+        flat_t_avg=missed["t_avg"],
+        values=_by_scene("value", _QUANTITIES, rows, _value),
+        biases=_by_scene("bias", _QUANTITIES, rows, _bias),
+        wins=sum(best(choices(case), study_budget(case)).step == _COARSE for case in cases),
+        cases=len(cases),
+        coarse_pooled=pooled[_COARSE],
+        pooled=pooled[STEP],
+        coarse_means=alone[_COARSE],
+        means=alone[STEP],
+        fine_seconds=seconds[_FINE],
+        seconds=seconds[STEP],
+        change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
         budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        excess=_excesses({"of those above": cases, "of t_max and t_avg": _cases(rows, means)}),
+        excess=_excesses({"of those above": cases, "of t_max and t_avg": means}),
     )
 
 
@@ -229,15 +319,35 @@ def _by_scene(
     for quantity in quantities:
         cells = [select(rows, scene=scene, quantity=quantity) for scene in SCENES]
         said = [text(*cell) if cell else "" for cell in cells]
-        lines.append([_NAMES.get(quantity, quantity), *said])
+        lines.append([_name(quantity), *said])
     return markdown_table([heading, *SCENES], lines)
 
 
+def _name(quantity: str) -> str:
+    return _NAMES.get(quantity, quantity)
+
+
+def _at(step: float, rows: Iterable[Row]) -> Row:
+    """Return the one row of this step."""
+    (row,) = select(rows, step=step)
+    return row
+
+
+def _error(row: Row) -> str:
+    """Return an error; where runs agree to every digit, say so."""
+    return f"{row['error']:.1e}" if row["error"] else "none"
+
+
 def _orders(*rows: Row) -> str:
-    """Return the orders of both integrators, to one digit."""
-    each = [select(rows, integrator=name) for name in ("leapfrog", "rk4")]
-    found = [order([row["step"] for row in of], [row["error"] for row in of]) for of in each]
-    return ", ".join(f"{number:.1f}" for number in found)
+    """Return the orders of both integrators with their intervals."""
+    each = (select(rows, integrator=name)[0] for name in ("leapfrog", "rk4"))
+    return "; ".join(f"{r['error']:.1f} [{r['ci_low']:.1f}, {r['ci_high']:.1f}]" for r in each)
+
+
+def _plain(*rows: Row) -> str:
+    """Return the errors at the paper's step, and in brackets at the finest."""
+    finest = min(rows, key=lambda row: row["step"])
+    return f"{_at(PAPER_STEP, rows)['error']:.1%} ({finest['error']:.1%})"
 
 
 def _paired_bias(bias: Row, scatter: Row) -> str:
@@ -247,22 +357,36 @@ def _paired_bias(bias: Row, scatter: Row) -> str:
     return f"{_PERCENT * bias['error']:+.3f} ± {half:.3f} ({error:.2f})"
 
 
-def _value(row: Row) -> str:
+def _largest_bias(rows: Sequence[Row]) -> float:
+    """Far end of the interval of the default's bias, and of the finest step's, as a share."""
+    return Bias.of(_at(STEP, rows)).high + finest_bias(rows)
+
+
+def _scatter(rows: Sequence[Row]) -> float:
+    """Standard error of the study's mean, as a share."""
+    row = _at(STEP, rows)
+    seeds = STUDY_SEEDS.get(row["quantity"], ENSEMBLE)
+    return float(row["deviation"] / row["scale"] / sqrt(seeds))
+
+
+def _value(*rows: Row) -> str:
     """Return the value ± statistical ± numerical error, to two digits of the first."""
+    row = _at(STEP, rows)
     unit, factor = _UNITS[row["unit"]]
     value, scale = factor * row["value"], factor * row["scale"]
     statistical = factor * half_width(row["deviation"], row["realisations"])
     places = max(0, 1 - floor(log10(statistical)))
-    numbers = (value, statistical, scale * Bias.of(row).high)
+    numbers = (value, statistical, scale * _largest_bias(rows))
     return " ± ".join(f"{number:.{places}f}" for number in numbers) + unit
 
 
-def _bias(row: Row) -> str:
-    """Return a bias with its interval, and the error of the study's mean, in percent."""
+def _bias(*rows: Row) -> str:
+    """Return bias, interval, what the finest step adds, and the mean's error, in percent."""
+    row = _at(STEP, rows)
     percent = _PERCENT / row["scale"]
     bias, low, high = (percent * row[key] for key in ("bias", "ci_low", "ci_high"))
-    error = percent * row["deviation"] / sqrt(STUDY_SEEDS.get(row["quantity"], ENSEMBLE))
-    return f"{bias:+.3f} [{low:+.3f}, {high:+.3f}] ({error:.2f})"
+    finest, error = _PERCENT * finest_bias(rows), _PERCENT * _scatter(rows)
+    return f"{bias:+.3f} [{low:+.3f}, {high:+.3f}] ± {finest:.3f} ({error:.2f})"
 
 
 def _budget(rows: list[Row]) -> list[str]:
@@ -275,7 +399,7 @@ def _budget(rows: list[Row]) -> list[str]:
         return _between(".3f", [_PERCENT * step.error(budget) for step in steps])
 
     return [
-        _NAMES.get(rows[0]["quantity"], rows[0]["quantity"]),
+        _name(rows[0]["quantity"]),
         rows[0]["scene"],
         f"{budget:.1f}",
         error(STEP),
@@ -285,19 +409,20 @@ def _budget(rows: list[Row]) -> list[str]:
     ]
 
 
+def _worst(cases: list[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
+    """Return the largest excess of each step, for so many times the study's seeds."""
+    found = [excess(choices(rows, bias), study_budget(rows, fold)) for rows in cases]
+    return {step: max(each[step] for each in found) for step in found[0]}
+
+
 def _excesses(groups: dict[str, list[list[Row]]]) -> str:
     """Lay out the largest excess of each step in each group of cases."""
-
-    def worst(cases: list[list[Row]], bias: str) -> list[float]:
-        found = [excess(choices(rows, bias), study_budget(rows)).values() for rows in cases]
-        return [max(of_step) for of_step in zip(*found, strict=True)]
-
     lines = []
-    for name, cases in groups.items():
-        by_step = zip(*(worst(cases, bias) for bias in Bias._fields), strict=True)
-        lines.append([name, *(_between(".2f", numbers) for numbers in by_step)])
-    steps = [choice.step for choice in choices(groups["of those above"][0])]
-    return markdown_table(["step (s)", *(f"{step:.0e}" for step in steps)], lines)
+    for (name, cases), fold in product(groups.items(), (1, _FOLD)):
+        found = [_worst(cases, fold, bias) for bias in Bias._fields]
+        label = name if fold == 1 else f"{name}, {fold} times the seeds"
+        lines.append([label, *(_between(".2f", [each[h] for each in found]) for h in found[0])])
+    return markdown_table(["step (s)", *(f"{step:.0e}" for step in found[0])], lines)
 
 
 def _between(digits: str, numbers: Sequence[float]) -> str:

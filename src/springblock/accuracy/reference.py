@@ -98,7 +98,9 @@ class _Lattice:
         first, second, *axis, k = np.array(bonds, float).reshape(-1, 5).T
         bond, signs = np.tile(np.arange(len(bonds)), 2), np.repeat([-1.0, 1.0], len(bonds))
         ends = np.concatenate([first, second]).astype(int)
-        self._difference = sparse.csr_array((signs, (bond, ends)), shape=(len(bonds), block.size))
+        one = sparse.csr_array((signs, (bond, ends)), shape=(len(bonds), block.size))
+        # one product for both components: most of the time would go into calling two
+        self._difference = sparse.block_diag([one, one], format="csr")
         self._net = sparse.csr_array(-self._difference.T)
         self._axis = np.array(axis)[:, :, None]  # L e
         self._rest_squared = np.sum(self._axis**2, axis=0)  # L²
@@ -127,7 +129,7 @@ class _Lattice:
 
 def _times(matrix: sparse.csr_array, u: Array) -> Array:
     """Multiply both components of u (2, n, k)."""
-    return np.stack([matrix @ component for component in u])
+    return (matrix @ u.reshape(-1, u.shape[2])).reshape(2, -1, u.shape[2])
 
 
 class _System:

@@ -2,7 +2,8 @@
 
 Three comparisons, each for a flat, a pillared and a grooved scene:
 
-reference  single runs against the event-located reference solution, run by run;
+reference  single runs against the event-located reference solution, run by run; and `order`, how
+           their errors fall with the step;
 paired     ensembles against the leapfrog at a fine step with the same seeds: what is left on the
            mean where single runs no longer agree; and `scatter`, the spread from seed to seed;
 twin       single runs against themselves with thresholds nudged by a little: the horizon beyond
@@ -10,7 +11,7 @@ twin       single runs against themselves with thresholds nudged by a little: th
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
@@ -20,10 +21,11 @@ from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import HORIZON_NUDGE, MEANS, PLAIN, half_width
+from springblock.accuracy.conventions import HORIZON_NUDGE, MEANS, ORDERED, PLAIN, half_width
 from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
+from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
@@ -32,7 +34,10 @@ from springblock.solver.integrators import INTEGRATORS
 
 SCHEMA = pa.schema(
     [
-        *texts(comparison="reference, paired, scatter or twin", scene="flat, pillared or grooved"),
+        *texts(
+            comparison="reference, order, paired, scatter or twin",
+            scene="flat, pillared or grooved",
+        ),
         N_BLOCKS,
         *texts(integrator="leapfrog, rk4 or plain rk4"),
         *numbers("s", step="integration step h"),
@@ -41,10 +46,11 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             error="reference and twin: root mean square over the realisations of the relative "
-            "error; t_det and t_avg relative to t_max; order: 1 - rank correlation. "
-            "paired: relative bias",
-            ci_low="paired: lower end of the 95 % t interval; else error",
-            ci_high="paired: upper end; else error",
+            "error; t_det, t_avg and resolution, the sample interval, relative to t_max; order: "
+            "1 - rank correlation. paired: relative bias. order: mean slope of log error over log "
+            "step, from the step to the finest; of the default, to half of it",
+            ci_low="order, paired: lower end of the 95 % t interval; else error",
+            ci_high="order, paired: upper end; else error",
             worst="largest modulus among the realisations",
         ),
         column("realisations", pa.int32(), "1", "number of seeds"),
@@ -59,24 +65,25 @@ class _Surfaces(NamedTuple):
 
     single: Pattern  #: small enough for the reference solution
     duration: float  #: of single runs, s
+    singles: int  #: seeds of these; the reference takes 5 to 20 CPU s for each
     ensemble: Pattern  #: small enough for paired ensembles
     seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
 
 
 _GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
 _SURFACES = {
-    "flat": _Surfaces(Pattern.flat(6), 1.3e-4, Pattern.flat(16), 100),
-    "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, Pattern.pillars(16, 4, 4), 100),
-    "grooved": _Surfaces(_GROOVES[0], 2.0e-4, _GROOVES[1], 200),
+    "flat": _Surfaces(Pattern.flat(12), 1.25e-4, 4, Pattern.flat(16), 100),
+    "pillared": _Surfaces(Pattern.pillars(8, 4, 4), 3.5e-4, 6, Pattern.pillars(16, 4, 4), 100),
+    "grooved": _Surfaces(_GROOVES[0], 2.0e-4, 6, _GROOVES[1], 200),
 }
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
+SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
 PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
 SAMPLE_INTERVAL = 8e-8
-SEEDS = range(2)
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8))
 PAIRED_SEEDS_RK4 = 50  #: fewer where a step costs four times as much
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
@@ -109,6 +116,7 @@ def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
         "t_det before horizon": root_mean_square(shift[before_horizon]),
         "horizon": until / exact.t_max,
         "order": 1.0 - float(spearmanr(run.t_det[both], exact.t_det[both]).statistic),
+        "resolution": float(exact.time[1] / exact.t_max),
     }
 
 
@@ -152,19 +160,31 @@ def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
 
 def single_rows(scene: str) -> Iterator[Row]:
     """All methods and steps against the reference solution."""
-    pattern, duration = _SURFACES[scene].single, _SURFACES[scene].duration
-    surfaces = [drawn(pattern, seed) for seed in SEEDS]
+    pattern, duration, seeds, *_ = _SURFACES[scene]
+    surfaces = [drawn(pattern, seed) for seed in range(seeds)]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
-    horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in SEEDS]
+    horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in range(seeds)]
     for integrator in FORCE_EVALUATIONS:
         solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
+        found: dict[float, Errors] = {}
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
             computed = [run for run, _ in runs]
-            errors = stacked(map(run_errors, computed, exact, horizons))
+            found[step] = stacked(map(run_errors, computed, exact, horizons))
             cost = cost_of(integrator, runs)
-            yield from rows_of("reference", scene, integrator, step, errors, cost)
+            yield from rows_of("reference", scene, integrator, step, found[step], cost)
+        if integrator != PLAIN:
+            for steps in (SETTLED_STEPS, (STEP, STEP / 2.0)):
+                orders = {name: orders_of(steps, found, name) for name in ORDERED}
+                yield from rows_of("order", scene, integrator, steps[0], orders, (0.0, 0.0))
+
+
+def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str) -> Array:
+    """Return the order (k,) in which the errors of each of k seeds fall over these steps."""
+    rounding = np.finfo(float).eps  # no error is below
+    errors = np.array([np.abs(found[step][quantity]) + rounding for step in steps])
+    return np.polyfit(np.log(steps), np.log(errors), 1)[0]
 
 
 def paired_rows(scene: str) -> Iterator[Row]:
@@ -238,11 +258,11 @@ def rows_of(
     nudge: float = 0.0,
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity."""
-    of_means = comparison in ("paired", "scatter")
-    pattern = _SURFACES[scene].ensemble if of_means else _SURFACES[scene].single
+    ensembles, of_means = ("paired", "scatter"), ("paired", "scatter", "order")
+    pattern = _SURFACES[scene].ensemble if comparison in ensembles else _SURFACES[scene].single
     for quantity, values in errors.items():
         count, error, half = len(values), root_mean_square(values), 0.0
-        if of_means:
+        if comparison in of_means:
             error = float(values.mean())
             half = half_width(float(values.std(ddof=1)), count)
         yield {

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.analysis.statistics import lesser_prominence
+from springblock.analysis.statistics import prominence
 from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, SETUP, column
-from springblock.mechanism.pawls import prominence
+from springblock.mechanism import pawls
 from springblock.model.asperities import draw_friction
 from springblock.model.scene import Scene
 from springblock.simulation.prelude import compute_prelude
@@ -85,7 +85,7 @@ def surfaces() -> Iterator[tuple[Grooves, str]]:
 def predicted(grooves: Grooves, direction: str) -> float:
     """Return the prominence of the lesser load peak that elasticity predicts, %."""
     material = Setup().vary(dict(grooves.varied)).material
-    return prominence(grooves.n_p2, grooves.n_s2, direction == "y", material)
+    return pawls.prominence(grooves.n_p2, grooves.n_s2, direction == "y", material)
 
 
 def peaks_rows(part: int, parts: int) -> Iterator[Row]:
@@ -99,5 +99,5 @@ def peaks_rows(part: int, parts: int) -> Iterator[Row]:
         for seed in range(SEEDS):
             drawn = draw_friction(scene.shape, seed, material)
             run = simulate(contact, *drawn, material, direction, prelude=prelude)
-            measured = 100.0 * lesser_prominence(friction(run))
+            measured = 100.0 * prominence(friction(run))
             yield same | {"seed": seed, "measured": measured}

@@ -5,7 +5,7 @@ from textwrap import fill
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval, lesser_prominence, mean_interval
+from springblock.analysis.statistics import Interval, mean_interval, prominence
 from springblock.io.rows import Row, markdown_table, select
 from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
@@ -211,7 +211,7 @@ def _milestones(rows: Sequence[Row]) -> Array:
     core = np.array([row["core"] for row in rows]) / (1.0 - share)
     time = [1e6 * row["time"] for row in rows]
     first, last = int(np.nanargmax(edges)), int(np.nanargmax(core))
-    fall = 100.0 * lesser_prominence(load[np.isfinite(load)])
+    fall = 100.0 * prominence(load[np.isfinite(load)])
     return np.array([edges[first], time[first], edges[last], core[last], time[last], fall])
 
 

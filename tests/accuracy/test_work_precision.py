@@ -1,0 +1,18 @@
+"""Orders of convergence, of errors whose order is known."""
+
+import numpy as np
+import pytest
+
+from springblock.accuracy.work_precision import SETTLED_STEPS, orders_of
+from springblock.model.defaults import STEP
+
+
+def test_the_order_of_each_seed_is_told_whatever_the_sign_of_its_errors():
+    seeds = np.array([1.0, -20.0, 300.0])
+    found = {h: {"t_max": seeds * (h / STEP) ** np.array([1, 2, 3])} for h in SETTLED_STEPS}
+    assert orders_of(SETTLED_STEPS, found, "t_max") == pytest.approx([1.0, 2.0, 3.0], abs=1e-3)
+
+
+def test_errors_of_nothing_have_the_order_of_rounding():
+    found = {h: {"t_max": np.zeros(2)} for h in (STEP, STEP / 2.0)}
+    assert orders_of((STEP, STEP / 2.0), found, "t_max") == pytest.approx([0.0, 0.0])
