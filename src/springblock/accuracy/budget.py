@@ -18,7 +18,7 @@ from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH
 from springblock.io.rows import Row
 from springblock.model.defaults import STEP
 
-#: Realisations of a scene in the study, by what errors are asked of; l_c of pillars needs more.
+#: Realisations of a scene in the study, by what errors are asked of; the decay length needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
 

@@ -18,7 +18,7 @@ MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
 #: What orders of convergence are measured of.
 ORDERED = ("static_friction", "t_det before horizon")
 DELAY = "t_max - t_avg"  #: by how much the force peak comes after the mean detachment
-LENGTH = "l_c"  #: correlation length along the sides of pillars
+LENGTH = "decay length"  #: l of A exp(-r/l), along the sides of pillars
 PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
 PAPER_STEP = 1e-8  #: s
 #: Realisations per scene behind the paper's figures; errors must stay under their scatter.

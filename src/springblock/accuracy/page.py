@@ -115,24 +115,29 @@ number of blocks, in a quarter of an hour; this page was written without that ta
 
 _OPENING = """At full size the default step biases means over seeds by at most {biases}, at the far
 ends of 95 % intervals. Scatter from seed to seed dominates: the standard error of a mean over
-{ensemble} seeds, of l_c over {length_ensemble}, is up to {errors}, and exceeds the estimated bias
-in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias where hundreds
-of realisations are pooled, and compare ensembles: on patterned surfaces single runs part before the
-force peak, at any step.
+{ensemble} seeds, of the decay length over {length_ensemble}, is up to {errors}, and exceeds the
+estimated bias in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias
+where hundreds of realisations are pooled, and compare ensembles: on patterned surfaces single runs
+part before the force peak, at any step.
 """
 
 _WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
 with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
 {most} seeds each: the table `production`, made with `production: true`. Means over them at
-the default, and l_c along x, ± half the 95 % interval (the statistical error) ± the largest modulus
-in the 95 % interval of the bias, and of what the finest step adds (the numerical error):
+the default, and the decay length l of c(r) = A exp(-r/l) along x, ± half the 95 % interval (the
+statistical error) ± the largest modulus in the 95 % interval of the bias, and of what the finest
+step adds (the numerical error):
 
 {values}
 
+On grooves t_max is the time of the first load peak in some realisations and of the second in
+others: the means of t_max and of t_max - t_avg describe no realisation, and their errors are mostly
+those of the share of each peak.
+
 These biases, against a step of {finest:.0e} s with the same seeds, and their 95 % intervals:
-Student's, and of l_c bootstrap percentiles; ± the largest bias of {finest:.0e} s itself. In
-brackets the standard error of a mean over {ensemble} seeds, of l_c from {length_ensemble}. All in
-percent; t_max - t_avg in percent of t_max:
+Student's, and of the decay length bootstrap percentiles; ± the largest bias of {finest:.0e} s
+itself. In brackets the standard error of a mean over {ensemble} seeds, of the decay length from
+{length_ensemble}. All in percent; t_max - t_avg in percent of t_max:
 
 {biases}
 
@@ -154,8 +159,8 @@ it is {coarse_margin:.1f} times below the stability limit, the default {margin:.
 changes t_avg there by {change:.2%}: worth it where t_avg is pooled.
 
 The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
-or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for l_c
-{length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
+or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for
+the decay length {length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
 it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s is neglected. Errors
 in percent:
 

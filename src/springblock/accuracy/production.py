@@ -37,14 +37,14 @@ SCHEMA = pa.schema(
         *numbers("s", step="integration step h of the leapfrog"),
         *numbers(
             "see unit",
-            value="mean over the realisations; l_c of A exp(-r/l_c), fitted to all",
+            value="mean over the realisations; decay length: l of A exp(-r/l), fitted to all",
             scale="what errors are shares of: the value at the finest step, t_max for "
             "t_max - t_avg",
-            deviation="standard deviation of one realisation; of l_c: that of the bootstrap times "
+            deviation="standard deviation of one realisation; of the decay length: that of the bootstrap times "
             "the root of the number of realisations",
             bias="value less that of the same seeds, finest step",
             bias_error="standard error of the bias; paired",
-            ci_low="lower end of the bias's 95 % interval: Student's, of l_c bootstrap percentiles",
+            ci_low="lower end of the bias's 95 % interval: Student's, of the decay length bootstrap percentiles",
             ci_high="upper end",
         ),
         column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
@@ -156,7 +156,7 @@ def of_mean(values: Array, exact: Array) -> PairedBias:
 
 
 def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
-    """Bias of l_c by step, from the times along the sides of the same k seeds.
+    """Bias of the decay length by step, from the times along the sides of the same k seeds.
 
     The same resamples of seeds at every step; range of r and weights of the fit are those at the
     default step, so that nothing but the times differs.

@@ -51,7 +51,7 @@ _SPENT = (0.2, 2e3)  #: CPU time of ensembles, s
 _QUANTITIES: dict[str, tuple[str, Look]] = {
     "static_friction": ("static friction", {"color": BLACK, "marker": "o", "markersize": 3.0}),
     DELAY: (r"$t_\mathrm{max} - t_\mathrm{avg}$", {"color": VERMILION, "marker": "s"}),
-    LENGTH: (r"$l_\mathrm{c}$", {"color": BLUE, "marker": "^", "markersize": 3.6}),
+    LENGTH: ("decay length", {"color": BLUE, "marker": "^", "markersize": 3.6}),
 }
 _STUDY: Look = {**_RING, "marker": "o", "markersize": 8.0}  #: ring of the study's own ensembles
 _ENVELOPE: Look = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
