@@ -119,7 +119,7 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     text = page(tmp_path / "production")
     assert "this page was written without" not in text
     # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16
-    assert "| l_c |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
+    assert "| decay length |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
     assert "| t_max | 80000000 ± " in text  # 80 s in µs
     assert "| static friction | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 | 80.0 ± 3.7 ± 0.2 |" in text
     # of a scale of 50: 1.4 times 2/64 at twice the finest step; 20 % over 20 seeds
@@ -139,8 +139,8 @@ def test_the_page_begins_with_the_largest_errors(page, tmp_path):
     worst["deviation"] *= 2.0
     write(pa.Table.from_pylist(rows), tmp_path / "production", {})
     opening = " ".join(page(tmp_path / "production").split("Written by")[0].split())
-    assert "0.44% (static friction), 1.14% (t_max), 0.44% (t_avg), 0.44% (l_c)" in opening
-    assert "4.47% (static friction), 8.94% (t_max), 4.47% (t_avg), 2.58% (l_c)" in opening
+    assert "0.44% (static friction), 1.14% (t_max), 0.44% (t_avg), 0.44% (decay length)" in opening
+    assert "4.47% (static friction), 8.94% (t_max), 4.47% (t_avg), 2.58% (decay length)" in opening
     assert "exceeds the estimated bias in 10 of 10 cases" in opening
     assert "Errors at full size were not measured." in page().split("Written by")[0]
 

@@ -160,9 +160,9 @@ changes t_avg there by {change:.2%}: worth it where t_avg is pooled.
 
 The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
 or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for
-the decay length {length_ensemble}. The bias is the estimate without what its own scatter adds; in square brackets,
-it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s is neglected. Errors
-in percent:
+the decay length {length_ensemble}. The bias is the estimate without what its own scatter adds; in
+square brackets, it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s is
+neglected. Errors in percent:
 
 {budgets}
 

@@ -40,11 +40,12 @@ SCHEMA = pa.schema(
             value="mean over the realisations; decay length: l of A exp(-r/l), fitted to all",
             scale="what errors are shares of: the value at the finest step, t_max for "
             "t_max - t_avg",
-            deviation="standard deviation of one realisation; of the decay length: that of the bootstrap times "
-            "the root of the number of realisations",
+            deviation="standard deviation of one realisation; of the decay length: that of the "
+            "bootstrap times the root of the number of realisations",
             bias="value less that of the same seeds, finest step",
             bias_error="standard error of the bias; paired",
-            ci_low="lower end of the bias's 95 % interval: Student's, of the decay length bootstrap percentiles",
+            ci_low="lower end of the bias's 95 % interval: Student's; of the decay length, "
+            "bootstrap percentiles",
             ci_high="upper end",
         ),
         column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
