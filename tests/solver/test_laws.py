@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from numba import njit
-from scipy.integrate import quad
 
 from springblock import Material
 from springblock.model.material import LAWS
@@ -19,11 +18,6 @@ SCALES = [1e-3, 0.1, 0.2, 1.0, 100.0]
 @njit
 def resistance(law, way, speed, share, static=STATIC, dynamic=DYNAMIC):
     return laws.resistance(law, way, speed, share, static, dynamic)
-
-
-@njit
-def heat(law, way, further):
-    return laws.heat(law, way, further, STATIC, DYNAMIC)
 
 
 @njit(error_model="numpy")  # as in the integrators: dividing by zero is no error there
@@ -61,8 +55,6 @@ def test_python_and_compiled_callers_get_the_same(law):
     for way, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
         plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
         assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
-        plain = laws.heat(law, way, speed, STATIC, DYNAMIC)
-        assert plain == pytest.approx(heat(law, way, speed), rel=1e-15)
     assert laws.way_of(law, 1) == (law.way[1] if isinstance(law, SlipWeakening) else 0.0)
     laws.keep_way(law, 1, 0.7)
     assert laws.way_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
@@ -105,15 +97,6 @@ def test_of_two_speeds_the_larger_is_taken():
 def test_a_block_stops_where_no_speed_will_do():
     assert resistance(VelocityWeakening(0.05), 0.0, 0.4, -0.5) == np.inf
     assert after(VelocityWeakening(0.05), (0.5, 0.0), (0.3, 0.0), (0.2, 0.0)) == (0.0, 0.0)
-
-
-@pytest.mark.parametrize("way", [0.0, 0.2, 0.45, 0.7])
-@pytest.mark.parametrize("further", [1e-9, 0.1, 0.6])
-def test_heat_is_the_integral_of_friction_along_the_way(way, further):
-    law = slip(0.5)
-    exact, _ = quad(lambda s: resistance(law, s, 0.0, 0.0), way, way + further, points=[0.5])
-    assert heat(law, way, further) == pytest.approx(exact, rel=1e-12)
-    assert heat(slip(1e100), way, further) == pytest.approx(STATIC * further, rel=1e-12)
 
 
 @pytest.mark.parametrize("law", [None, slip(0.5), VelocityWeakening(0.3), slip(1e-3)])

@@ -110,24 +110,6 @@ def _resistance_at_speed(law, way, speed, share, static, dynamic):
     return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
 
 
-def _heat_dynamic(law, way, further, static, dynamic):
-    return dynamic * further
-
-
-def _heat_along_way(law, way, further, static, dynamic):
-    """Integral of T over the way, of which the rest of d_c weakens."""
-    left = max(1.0 - way * law.rate, 0.0)
-    less = max(1.0 - (way + further) * law.rate, 0.0)
-    weakening = min(further, left / law.rate) * 0.5 * (left + less)
-    return dynamic * further + max(static - dynamic, 0.0) * weakening
-
-
-def _heat_at_speed(law, way, further, static, dynamic):
-    """At the mean speed of the step: to second order."""
-    drop, c = max(static - dynamic, 0.0), law.scale
-    return (dynamic + drop * c / (c + max(further, 0.0))) * further
-
-
 def _no_way(law, b):
     return 0.0
 
@@ -149,9 +131,6 @@ def _keep_way(law, b, way):
 #: takes half of T: share is -1/2. Where V is known, share is 0. T is infinite where no V will do:
 #: the block stops.
 resistance = _for_each_law(_resistance_dynamic, _resistance_after_way, _resistance_at_speed)
-#: (law, way, further, static, dynamic) -> heat of friction on a block that moves on by `further`
-#: in one step.
-heat = _for_each_law(_heat_dynamic, _heat_along_way, _heat_at_speed)
 #: (law, b) -> way of block b since it let go, where the law asks for it.
 way_of = _for_each_law(_no_way, _way_so_far, _no_way)
 #: (law, b, way): store the slip of block b.

@@ -32,7 +32,7 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import heat, keep_way, resistance, way_of
+from springblock.solver.laws import keep_way, resistance, way_of
 from springblock.solver.release import room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
@@ -155,7 +155,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     """Let `count` blocks go at their times before step k, not half a step before it.
 
     To second order, that shifts where they are at the end of the step by what it shifts at its
-    start, and by the difference in velocity.
+    start, and by the difference in velocity. Returns the heat of friction before the step.
     """
     slide = constants.slider_x, constants.slider_y
     slider = slide[0] * k, slide[1] * k
@@ -171,6 +171,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         threshold = max(blocks.static[b], blocks.dynamic[b])
         share = share_of_step(released, threshold, constants.springs, slider, slide)
         released.share[m] = 0.5 if np.isnan(share) else share
+    heat = 0.0
     for m in range(count):
         b, share = place(released.row[m], released.x[m], constants.grid), released.share[m]
         if blocks.t_det[b] == k:
@@ -180,6 +181,10 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
         stage.dx[b] += further * released.ax[m]
         stage.dy[b] += further * released.ay[m]
+        speed = math.hypot(released.ax[m], released.ay[m])
+        taken = resistance(law, 0.0, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
+        heat += taken * (0.125 + further) * speed
+    return heat
 
 
 @njit(inline="always")
@@ -193,18 +198,18 @@ def _taken_in_stage(blocks, law, stage, b):
 
 @kernel
 def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
-    """Take one stage on the rows of a band; returns the squared speed."""
-    ux, uy, wx, wy, dynamic = blocks.ux, blocks.uy, blocks.wx, blocks.wy, blocks.dynamic
+    """Take one stage on the rows of a band; returns its part of the heat and the squared speed."""
+    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
-    total = 0.0
+    total_heat, total = 0.0, 0.0
     for row in range(band.start, band.stop):
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
-        squares = 0.0
+        heat, squares = 0.0, 0.0
         for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
-            taken = dynamic[b] if law is None else _taken_in_stage(blocks, law, stage, b)
+            taken = _taken_in_stage(blocks, law, stage, b)
             ax = s[FORCE_X + own + x] - damping * vx - taken * ex[b]
             ay = s[FORCE_Y + own + x] - damping * vy - taken * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
@@ -213,49 +218,49 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
             dv[b] += weight * vy
             qu[b] += weight * ax
             qv[b] += weight * ay
+            heat = add(heat, taken * (vx * ex[b] + vy * ey[b]))
             squares = add(squares, vx * vx + vy * vy)
             su[b] = ux[b] + reach * vx
             sv[b] = uy[b] + reach * vy
             pu[b] = wx[b] + reach * ax
             pv[b] = wy[b] + reach * ay
-        total += squares
+        total_heat, total = total_heat + heat, total + squares
         close_edge(su, sv, row, band.grid)
-    return weight * total
+    return weight * total_heat, weight * total
 
 
 @kernel
-def _finish(blocks, law, stage, grid, squares):
+def _finish(blocks, law, stage, grid, heat, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
-    `squares` is what the stages have summed up already.
+    `heat` of friction and `squares` of speed are what the stages have summed up already.
     """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    static, dynamic, ex, ey = blocks.static, blocks.dynamic, stage.ex, stage.ey
+    static, ex, ey = blocks.static, stage.ex, stage.ey
     su, sv, pu, pv = stage.ux, stage.uy, stage.wx, stage.wy
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
-    total_x, total_y, total_heat = 0.0, 0.0, 0.0
+    total_x, total_y = 0.0, 0.0
     for row in range(grid.n_y):
         i = row * grid.pitch
-        sum_x, sum_y, rubbed = 0.0, 0.0, 0.0
+        sum_x, sum_y, stopped = 0.0, 0.0, 0.0
         for x in range(ONE, grid.n_x + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
             way, further = way_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
-            work = heat(law, way, further, static[b], dynamic[b])
             keep_way(law, b, 0.0 if turned else way + further)
-            rubbed = add(rubbed, work + (lost if turned else 0.0))
+            stopped = add(stopped, lost if turned else 0.0)
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
             sum_x, sum_y = add(sum_x, there_x), add(sum_y, there_y)
             ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
-        total_x, total_y, total_heat = total_x + sum_x, total_y + sum_y, total_heat + rubbed
+        total_x, total_y, heat = total_x + sum_x, total_y + sum_y, heat + stopped
         close_edge(ux, uy, row, grid)
         close_edge(su, sv, row, grid)
-    return Totals(total_x, total_y, total_heat, squares)
+    return Totals(total_x, total_y, heat, squares)
 
 
 def _begin(blocks: Blocks, stage: Stage) -> None:
@@ -270,7 +275,7 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
     blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
     damping, switches = constants.damping, np.int64(0)
     for k in range(first, first + steps):
-        squares, count = 0.0, np.int64(0)
+        heat, squares, count = 0.0, 0.0, np.int64(0)
         for weight, node, reach in STAGES:
             slider = constants.slider_x * (k + node), constants.slider_y * (k + node)
             close_rows(stage.ux, stage.uy, grid)
@@ -284,10 +289,11 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
                 if node == 0.0:
                     keep_peaks(state.peak, band, s)
                     count = _set_out(blocks, law, stage, released, count, band, s, damping, k)
-                squares += _take_stage(blocks, law, stage, weight, reach, band, s, damping)
+                more, speeds = _take_stage(blocks, law, stage, weight, reach, band, s, damping)
+                heat, squares = heat + more, squares + speeds
         if count > 0:
-            _place_releases(blocks, law, stage, released, count, constants, k)
-        totals = _finish(blocks, law, stage, grid, squares)
+            heat += _place_releases(blocks, law, stage, released, count, constants, k)
+        totals = _finish(blocks, law, stage, grid, heat, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
 

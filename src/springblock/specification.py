@@ -1,0 +1,364 @@
+"""The model in NumPy, an equation a line, in the order and the symbols of docs/model.md.
+
+It leaves nothing out and saves nothing: all blocks are followed through all steps, in SI units. The
+compiled solver is held to it step by step (`tests/validation/test_specification.py`). A law of
+friction is a Python function here, and best tried here first:
+
+    from springblock import Pattern, draw_friction
+    from springblock.specification import follow
+
+    for state in follow(Pattern.flat(6).contact, *draw_friction(6, seed=0), steps=5000):
+        ...
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.model.defaults import INTEGRATOR, STEP
+from springblock.model.direction import heading
+from springblock.model.material import Material
+
+Array = NDArray[np.float64]
+#: (mu_static, mu_dynamic, slip, speed, step) -> mu of blocks that slide; an array of all blocks
+#: each, and the time step in s.
+Friction = Callable[..., Array]
+
+#: Neighbours of a block, as steps along y and x.
+_NEIGHBOURS = [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
+#: Nodes and weights of the Runge-Kutta method.
+_STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What does not change in a run."""
+
+    contact: NDArray[np.bool_]  #: (N_y, N_x)
+    mu_static: Array  #: (N_y, N_x)
+    mu_dynamic: Array
+    material: Material
+    slider: Array  #: (2, 1, 1) m/s
+    step: float  #: h, s
+    periodic: bool
+    friction: Friction
+
+    @classmethod
+    def of(
+        cls,
+        contact: Any,
+        mu_static: Any,
+        mu_dynamic: Any,
+        material: Material,
+        direction: str | float,
+        step: float,
+        periodic: bool,
+    ) -> "Surface":
+        """Return the surface that `simulate` would pull with these arguments."""
+        mask = np.asarray(contact, bool)
+        return cls(
+            contact=mask,
+            mu_static=np.broadcast_to(np.asarray(mu_static, float), mask.shape),
+            mu_dynamic=np.broadcast_to(np.asarray(mu_dynamic, float), mask.shape),
+            material=material,
+            slider=material.slider_velocity * np.array(heading(direction)).reshape(2, 1, 1),
+            step=step,
+            periodic=periodic,
+            friction=LAWS[material.law](material),
+        )
+
+    @property
+    def load(self) -> Array:
+        """F_n of each block: those in contact share the whole load, N."""
+        return np.where(
+            self.contact, self.material.block_load * self.contact.size / self.contact.sum(), 0.0
+        )
+
+
+@dataclass
+class State:
+    """Blocks after so many steps; the leapfrog's velocity is that of half a step before."""
+
+    k: int  #: steps taken
+    u: Array  #: displacement, (2, N_y, N_x) m
+    v: Array  #: velocity, (2, N_y, N_x) m/s
+    slip: Array  #: way since the block let go, (N_y, N_x) m
+    t_det: Array  #: first detachment, (N_y, N_x) s; infinite before
+    switches: int = 0  #: blocks that went from rest to sliding
+    work: float = 0.0  #: the slider's, J
+    heat: float = 0.0  #: of friction, J
+    path: float = 0.0  #: sum of v² h over blocks and steps, for the heat of damping, m²/s
+
+
+def coulomb(material: Material) -> Friction:
+    """Amontons-Coulomb: mu_d."""
+    return lambda mu_static, mu_dynamic, slip, speed, step: mu_dynamic
+
+
+def slip_weakening(material: Material) -> Friction:
+    """Linear weakening along d_c; at once where a step from rest leads beyond d_c."""
+
+    def friction(
+        mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+    ) -> Array:
+        drop = np.maximum(mu_static - mu_dynamic, 0.0)
+        left = np.maximum(1.0 - slip / material.slip_distance, 0.0)
+        at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= material.slip_distance)
+        return mu_dynamic + drop * np.where(at_once, 0.0, left)
+
+    return friction
+
+
+def velocity_weakening(material: Material) -> Friction:
+    """Friction falls with the speed to half of its drop at v_c."""
+
+    def friction(
+        mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+    ) -> Array:
+        drop = np.maximum(mu_static - mu_dynamic, 0.0)
+        return mu_dynamic + drop / (1.0 + speed / material.speed_scale)
+
+    return friction
+
+
+LAWS = {
+    "coulomb": coulomb,
+    "slip_weakening": slip_weakening,
+    "velocity_weakening": velocity_weakening,
+}
+
+
+def follow(
+    contact: Any,
+    mu_static: Any,
+    mu_dynamic: Any,
+    material: Material = Material(),  # noqa: B008
+    direction: str | float = "x",
+    integrator: str = INTEGRATOR,
+    step: float = STEP,
+    steps: int = 1000,
+    periodic: bool = False,
+    friction: Friction | None = None,
+) -> Iterator[State]:
+    """Pull a surface from rest; yield its state after each step.
+
+    Arguments are those of `simulate`, and the number of `steps`. A `friction` of one's own takes
+    the place of the material's law.
+    """
+    surface = Surface.of(contact, mu_static, mu_dynamic, material, direction, step, periodic)
+    if friction is not None:
+        surface = replace(surface, friction=friction)
+    zero = np.zeros((2, *surface.contact.shape))
+    state = State(0, zero, zero, zero[0], np.full(zero[0].shape, np.inf))
+    for _ in range(steps):
+        state = INTEGRATORS[integrator](surface, state)
+        yield state
+
+
+def spring_force(surface: Surface, u: Array) -> Array:
+    """F_int = k (r - L) of all springs of a block, along them; (2, N_y, N_x) N."""
+    (n_y, n_x), k_int = surface.contact.shape, surface.material.k_int
+    y, x = np.mgrid[:n_y, :n_x]
+    force = np.zeros_like(u)
+    for j, i in _NEIGHBOURS:
+        there = (y + j) % n_y, (x + i) % n_x
+        joined = surface.periodic | ((y + j == there[0]) & (x + i == there[1]))
+        rest = np.array([i, j], float).reshape(2, 1, 1) * surface.material.spacing
+        apart = u[:, *there] - u  # r_j - r_i less the rest vector
+        length = np.hypot(*(rest + apart))
+        # r - L without cancellation: (r² - L²)/(r + L)
+        longer = np.sum((2.0 * rest + apart) * apart, axis=0) / (length + np.hypot(*rest))
+        stiffness = k_int if i * j == 0 else k_int / 2.0
+        force += np.where(joined, stiffness * longer / length, 0.0) * (rest + apart)
+    return force
+
+
+def motive_force(surface: Surface, u: Array, steps: float) -> Array:
+    """F_mot = F_int + K_s (v t - u) after so many steps; (2, N_y, N_x) N."""
+    slider = surface.slider * surface.step * steps
+    return spring_force(surface, u) + surface.material.k_s * (slider - u)
+
+
+def resistance(surface: Surface, tau: float, slip: Array, speed: Array, share: float) -> Array:
+    """T, the velocity that friction takes of each block, at the mean speed V = speed + share T.
+
+    Of several V the largest, which a block comes from as it slows down. T is infinite where no V
+    will do: the block stops. Friction that rises with V has one V alone.
+    """
+
+    def taken(mean: Array) -> Array:
+        mu = surface.friction(surface.mu_static, surface.mu_dynamic, slip, mean, surface.step)
+        return tau / surface.material.mass * surface.load * mu
+
+    if share == 0.0:
+        return taken(speed)
+    still = np.zeros_like(speed)
+    low, high = still, np.maximum(speed, speed + share * taken(still))
+    mean, rises = high, taken(high) > taken(still)
+    bisected = rises | (share > 0.0)
+    for _ in range(2000):
+        right = speed + share * taken(mean)
+        low, high = np.where(mean < right, mean, low), np.where(mean < right, high, mean)
+        found = np.maximum(np.where(bisected, 0.5 * (low + high), right), 0.0)
+        if np.array_equal(found, mean):
+            break
+        mean = found
+    return np.where(bisected | (mean > 0.0), taken(mean), np.inf)
+
+
+def leapfrog(surface: Surface, state: State) -> State:
+    """Kick and drift: v at half steps, u at whole ones."""
+    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
+    a = np.exp(-gamma * h)
+    tau = (1.0 - a) / gamma if gamma else h
+    k, u, v, contact = state.k, state.u, state.v, surface.contact
+    force = motive_force(surface, u, k)
+    w = a * v + tau / m * force
+    along = np.sum(v * w, axis=0)
+    mean = np.where(along > 0.0, v + w, w)
+    taken = resistance(surface, tau, state.slip, 0.5 * np.hypot(*mean), -0.5)
+    f_n = surface.load
+    held = (along <= 0.0) & (np.hypot(*force) <= surface.mu_static * f_n)
+    slides = (np.hypot(*w) > taken) & ~held
+    with np.errstate(invalid="ignore"):
+        new = np.where(slides, w - taken * mean / np.hypot(*mean), 0.0)
+    slip = np.where(slides, state.slip + h * np.hypot(*new), 0.0)
+    loss = m / tau * np.sum((w - new) * (v + new), axis=0) * h / 2.0
+    t_det = np.where(contact & slides, np.minimum(state.t_det, k * h), state.t_det)
+    switched = contact & slides & (along <= 0.0)
+
+    # Releases lie within the step: share theta of it has passed since.
+    let_go = contact & slides & (np.hypot(*v) == 0.0)
+    threshold = np.maximum(surface.mu_static, surface.mu_dynamic) * f_n
+    before = u - h * _velocity_before(surface, tau, state.slip, force, new)
+    before = np.hypot(*motive_force(surface, before, k - 1))
+    let_go &= before <= threshold
+    theta = np.where(let_go, np.hypot(*force) - threshold, 0.0)
+    theta = np.maximum(theta, 0.0) / np.where(let_go, np.hypot(*force) - before, 1.0)
+    t_det = np.where(let_go & (t_det == k * h), (k - theta) * h, t_det)
+    k_int, k_s = surface.material.k_int, surface.material.k_s
+    near = h * tau / m * (k_s + 6.0 * k_int) / 4.0
+    theta = theta + near * (0.5 - theta)
+    moved, speed, size = theta**2 / 2.0 - near / 8.0, 0.5 + theta, np.hypot(*new)
+    slip = np.where(let_go, h * (moved + speed) * size, slip)
+    rubs = m / tau * h * resistance(surface, tau, 0.0 * slip, 0.5 * size, 0.0) * size
+    credit = 0.125 - near / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * moved**2
+    more = rubs * (moved + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
+    loss = loss + np.where(let_go, more, 0.0)
+    u = u + h * np.where(let_go, moved + speed, 1.0) * new
+    v = np.where(let_go, speed, 1.0) * new
+    pull = surface.material.k_s * (surface.slider * h * (k + 1) - u)
+    return replace(
+        state,
+        k=k + 1,
+        u=u,
+        v=v,
+        slip=slip,
+        t_det=t_det,
+        switches=state.switches + int(switched.sum()),
+        work=state.work + h * float(np.sum(pull * surface.slider)),
+        heat=state.heat + float(loss[surface.contact].sum()),
+        path=state.path + h * float(np.sum(v**2)),
+    )
+
+
+def _velocity_before(surface: Surface, tau: float, slip: Array, force: Array, new: Array) -> Array:
+    """v as far as the velocity after the step tells: of blocks that stop in it, zero."""
+    m, a = surface.material.mass, np.exp(-surface.material.gamma * surface.step)
+    mean = (1.0 + a) * new - tau / m * force
+    ahead = np.sign(np.sum(mean * new, axis=0))
+    speed = ahead * np.hypot(*mean) / (2.0 * a)
+    taken = resistance(surface, tau, slip, speed, 1.0 / (2.0 * a))
+    with np.errstate(invalid="ignore"):
+        w = new + taken * ahead * mean / np.hypot(*mean)
+    return np.where(new.any(axis=0), (w - tau / m * force) / a, 0.0)
+
+
+def runge_kutta(surface: Surface, state: State) -> State:
+    """Four stages, with friction against one direction e in all of them."""
+    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
+    k, u, v, contact, f_n = state.k, state.u, state.v, surface.contact, surface.load
+    force = motive_force(surface, u, k)
+    size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
+    at_rest = resistance(surface, h, state.slip, h / m * size / 2.0, -0.5)
+    taken = np.where(rests, at_rest, resistance(surface, h, state.slip, np.hypot(*v), 0.0))
+    let_go = rests & (size > surface.mu_static * f_n) & (h / m * size > taken)
+    e = _direction(surface, force, v, taken, let_go)
+    stays = rests & ~let_go
+
+    taken = np.where(stays, 0.0, taken)
+    a = np.where(let_go, h / m * force - taken * e, 0.0)
+    slip = np.where(let_go, h * np.hypot(*a) / 8.0, state.slip)
+    v = np.where(let_go, a / 2.0, v)  # as if it had been sliding for half a step
+    first, stage_u, stage_v = taken, u, v
+    way, gain, path, rubs = h * a / 8.0, 0.0 * v, 0.0, 0.0 * size
+    for (node, weight), reach in zip(_STAGES, (0.5, 0.5, 1.0, 0.0), strict=True):
+        so_far = slip + np.sum((stage_u - u) * e, axis=0)
+        along = np.sum(stage_v * e, axis=0)
+        taken = resistance(surface, h, so_far, np.abs(along), 0.0)
+        force = motive_force(surface, stage_u, k + node)
+        change = np.where(stays, 0.0, h / m * force - gamma * h * stage_v - taken * e)
+        way, gain = way + weight * h * stage_v, gain + weight * change
+        rubs = rubs + weight * h * taken * along
+        path += weight * h * float(np.sum(stage_v**2))
+        stage_u, stage_v = u + reach * h * stage_v, v + reach * change
+
+    # Releases lie before the step: by share theta of one, not by half of it.
+    v = np.where(let_go, 0.0, v)
+    threshold = np.maximum(surface.mu_static, surface.mu_dynamic) * f_n
+    before = np.where(np.hypot(*v) > 0.0, u - h * (v - gain / 2.0), u)
+    before = np.hypot(*motive_force(surface, before, k - 1))
+    now = np.hypot(*motive_force(surface, u, k))
+    theta = np.maximum(now - threshold, 0.0) / np.where(let_go, now - before, 1.0)
+    theta = np.where(before <= threshold, theta, 0.5)
+    t_det = np.where(let_go, np.minimum(state.t_det, (k - theta) * h), state.t_det)
+    near = h**2 / m * (surface.material.k_s + 6.0 * surface.material.k_int) / 8.0
+    theta = theta + near * (0.5 - theta)
+    more = np.where(let_go, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
+    way = way + more * h * a
+    rubs = rubs + (more + 0.125) * h * first * np.hypot(*a)
+    v = np.where(let_go, theta * a, v)
+
+    new, u = v + gain, u + way
+    turned = contact & (np.sum(new * e, axis=0) <= 0.0)
+    lost = np.where(turned, np.sum(new**2, axis=0) / 2.0, 0.0)
+    further = np.sum(way * e, axis=0)
+    slip = np.where(turned, 0.0, np.where(let_go, 0.0, slip) + further)
+    new = np.where(turned, 0.0, new)
+    pull = surface.material.k_s * (surface.slider * h * (k + 1) - u)
+    return replace(
+        state,
+        k=k + 1,
+        u=u,
+        v=new,
+        slip=slip,
+        t_det=t_det,
+        switches=state.switches + int(let_go.sum()),
+        work=state.work + h * float(np.sum(pull * surface.slider)),
+        heat=state.heat + m * float((rubs / h + lost)[contact].sum()),
+        path=state.path + path,
+    )
+
+
+def _direction(
+    surface: Surface, force: Array, v: Array, taken: Array, let_go: NDArray[np.bool_]
+) -> Array:
+    """Unit vectors e: of the velocity in the step's middle, or of the force that lets a block go.
+
+    Where friction weakens, a slow block is turned at once: the middle is then the implicit one.
+    """
+    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ahead = v / np.hypot(*v)
+        back = taken if surface.friction.__qualname__.startswith("coulomb") else 0.0
+        middle = v + (h / m * force - back * ahead) / (2.0 * (1.0 + gamma * h) ** 2)
+        on = np.sum(middle * ahead, axis=0) > 0.0
+        sliding = np.where(on, middle / np.hypot(*middle), ahead)
+        e = np.where(let_go, force / np.hypot(*force), sliding)
+    return np.where(surface.contact & (let_go | (np.hypot(*v) > 0.0)), e, 0.0)
+
+
+INTEGRATORS = {"leapfrog": leapfrog, "rk4": runge_kutta}

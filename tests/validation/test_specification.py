@@ -1,0 +1,135 @@
+"""The compiled solver, step by step, against the model in NumPy (`springblock.specification`)."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, compute_prelude, draw_friction, simulate, specification
+from springblock.model.direction import heading
+from springblock.solver.integrators import INTEGRATORS
+from springblock.solver.lattice import RUBBED, SQUARES, WORK, Samples, prepare, unpadded
+from springblock.solver.laws import way_of
+
+STEP, ANGLE = 2e-8, 30.0
+#: Loads a hundred times faster than the paper's: blocks let go, stop and let go again soon.
+FAST = Material(slider_velocity=5e-2, gamma=5e4)
+LAWS = {
+    "coulomb": FAST,
+    "no damping": replace(FAST, gamma=0.0),
+    "slip": replace(FAST, law="slip_weakening", slip_distance=2e-8),
+    "slip within a step": replace(FAST, law="slip_weakening", slip_distance=1e-11),
+    "velocity": replace(FAST, law="velocity_weakening", speed_scale=0.1),
+}
+SURFACES = {
+    "flat": Pattern.flat(5).contact,
+    "pillars": Pattern.pillars(8, 3, 1).contact,
+    "grooves": Pattern.pillars(6, 5, 1).grooved(2, 1, along="x").contact,
+}
+
+
+def coefficients(contact):
+    """Wide scatter: some blocks have mu_s < mu_d, and some nearly no friction."""
+    return draw_friction(len(contact), 1, replace(FAST, mu_static_std=0.3, mu_dynamic_std=0.2))
+
+
+class Kernel:
+    """The compiled integrator, a step at a time, seen in SI units."""
+
+    def __init__(self, contact, material, integrator, periodic):
+        self.material, self.integrator, self.k = material, INTEGRATORS[integrator], 0
+        self.state, self.constants = prepare(
+            contact,
+            *coefficients(contact),
+            material,
+            heading(ANGLE),
+            self.integrator,
+            STEP,
+            periodic=periodic,
+        )
+
+    def advance(self):
+        """Take a step; what the ledger holds is of this step alone."""
+        samples = Samples.empty(1)
+        self.state.ledger[:] = 0.0
+        assert self.integrator.advance(self.state, self.constants, self.k, 1, 1, samples)[0] == 1
+        self.k += 1
+        return self.seen(int(samples.switches[0]))
+
+    def seen(self, switches=0):
+        """The state of all blocks as the specification has it."""
+        m, spacing, law = self.material, self.material.spacing, self.state.law
+        blocks, ledger = self.state.blocks, self.state.ledger
+        fields = [unpadded(field, self.constants.grid) for field in blocks]
+        ux, uy, wx, wy, t_det = (np.array(field) for field in fields[:5])
+        way = np.array([way_of(law, b) for b in range(len(blocks.ux))])
+        joule = m.mass * spacing**2 / (STEP * self.integrator.force_time(STEP, m.gamma))
+        return specification.State(
+            k=self.k,
+            u=spacing * np.stack([ux, uy]),
+            v=spacing / STEP * np.stack([wx, wy]),
+            slip=spacing * unpadded(way, self.constants.grid),
+            t_det=STEP * t_det,
+            switches=switches,
+            work=joule * ledger[WORK],
+            heat=joule * ledger[RUBBED],
+            path=spacing**2 / STEP * ledger[SQUARES],
+        )
+
+
+def assert_same(found, exact, scale, name, rounding=1e-12):
+    np.testing.assert_allclose(found, exact, rtol=0.0, atol=rounding * scale, err_msg=name)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("surface", SURFACES)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_each_step_is_that_of_the_specification(integrator, law, surface, periodic):
+    contact, material = SURFACES[surface], LAWS[law]
+    kernel = Kernel(contact, material, integrator, periodic)
+    model = specification.Surface.of(
+        contact, *coefficients(contact), material, ANGLE, STEP, periodic
+    )
+    advance = specification.INTEGRATORS[integrator]
+    here, switches = kernel.seen(), 0
+    for _ in range(150 * contact.size // contact.sum()):
+        exact = advance(model, replace(here, switches=0, work=0.0, heat=0.0, path=0.0))
+        here = kernel.advance()
+        speed = max(np.abs(here.v).max(), material.slider_velocity)
+        assert_same(here.u, exact.u, STEP * speed, "displacement", 1e-11)
+        assert_same(here.v, exact.v, speed, "velocity", 1e-11)
+        np.testing.assert_array_equal(here.v == 0.0, exact.v == 0.0)
+        np.testing.assert_array_equal(np.isinf(here.t_det), np.isinf(exact.t_det))
+        known = np.isfinite(here.t_det)
+        assert_same(here.t_det[known], exact.t_det[known], STEP, "t_det", 1e-8)
+        if law == "slip":
+            assert_same(here.slip[contact], exact.slip[contact], STEP * speed, "slip", 1e-11)
+        assert here.switches == exact.switches
+        power = model.load.max() * speed * STEP * contact.size
+        assert_same(here.work, exact.work, power, "work")
+        assert_same(here.heat, exact.heat, power, "heat", 1e-11)
+        assert_same(here.path, exact.path, STEP * speed**2 * contact.size, "damping", 1e-11)
+        switches += here.switches
+    assert np.isfinite(here.t_det[contact]).mean() > 0.9
+    assert switches > 1.2 * contact.sum()  # some have stopped and let go again
+    assert not here.v[:, contact].all()
+
+
+@pytest.mark.parametrize("surface", SURFACES)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_so_are_whole_runs_from_a_prelude(integrator, surface):
+    """What the solver skips, stores and samples changes nothing."""
+    contact = SURFACES[surface]
+    mu = draw_friction(len(contact), 1)
+    how = {"direction": ANGLE, "integrator": integrator, "step": STEP}
+    prelude = compute_prelude(contact, FAST, sample_interval=STEP, **how)
+    run = simulate(
+        contact, *mu, FAST, prelude=prelude, sample_interval=STEP, duration=150 * STEP, **how
+    )
+    *_, last = specification.follow(contact, *mu, FAST, steps=150, **how)
+    known = np.isfinite(last.t_det) & contact
+    assert known.sum() > 3
+    np.testing.assert_array_equal(np.isfinite(run.t_det), known)
+    np.testing.assert_allclose(run.t_det[known], last.t_det[known], rtol=0.0, atol=1e-6 * STEP)
+    np.testing.assert_allclose(run.displacement, last.u, rtol=0.0, atol=1e-9 * abs(last.u).max())
