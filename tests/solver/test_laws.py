@@ -55,9 +55,9 @@ def test_python_and_compiled_callers_get_the_same(law):
     for way, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
         plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
         assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
-    assert laws.way_of(law, 1) == (law.way[1] if isinstance(law, SlipWeakening) else 0.0)
-    laws.keep_way(law, 1, 0.7)
-    assert laws.way_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
+    assert laws.slip_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
+    laws.keep_slip(law, 1, 0.7)
+    assert laws.slip_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 
 def test_friction_falls_linearly_along_the_way():
@@ -120,10 +120,10 @@ def test_the_way_is_kept_until_the_block_stops_and_heals():
     law = slip(0.5, 0.0, 0.1)
     speed = np.hypot(*after(law, (1.2, 1.6), (0.6, 0.8), (0.0, 0.0)))
     assert speed == pytest.approx(2.0 - 0.92, rel=1e-14)
-    np.testing.assert_allclose(law.way, [0.0, 0.1 + 1.08], rtol=1e-14)
+    np.testing.assert_allclose(law.slip, [0.0, 0.1 + 1.08], rtol=1e-14)
     after(law, (0.3, 0.4), (0.6, 0.8), (0.0, 0.0))
-    assert not law.way.any()
-    assert resistance(law, law.way[1], 0.0, 0.0) == STATIC
+    assert not law.slip.any()
+    assert resistance(law, law.slip[1], 0.0, 0.0) == STATIC
 
 
 @pytest.mark.parametrize("force", [1.0 + 1e-12, 1.5, 40.0])

@@ -8,8 +8,8 @@ import pytest
 from springblock import Material, Pattern, compute_prelude, draw_friction, simulate, specification
 from springblock.model.direction import heading
 from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.lattice import RUBBED, SQUARES, WORK, Samples, prepare, unpadded
-from springblock.solver.laws import way_of
+from springblock.solver.lattice import HEAT, SQUARES, WORK, Samples, prepare, unpadded
+from springblock.solver.laws import slip_of
 
 STEP, ANGLE = 2e-8, 30.0
 #: Loads a hundred times faster than the paper's: blocks let go, stop and let go again soon.
@@ -62,7 +62,7 @@ class Kernel:
         blocks, ledger = self.state.blocks, self.state.ledger
         fields = [unpadded(field, self.constants.grid) for field in blocks]
         ux, uy, wx, wy, t_det = (np.array(field) for field in fields[:5])
-        way = np.array([way_of(law, b) for b in range(len(blocks.ux))])
+        way = np.array([slip_of(law, b) for b in range(len(blocks.ux))])
         joule = m.mass * spacing**2 / (STEP * self.integrator.force_time(STEP, m.gamma))
         return specification.State(
             k=self.k,
@@ -72,7 +72,7 @@ class Kernel:
             t_det=STEP * t_det,
             switches=switches,
             work=joule * ledger[WORK],
-            heat=joule * ledger[RUBBED],
+            heat=joule * ledger[HEAT],
             path=spacing**2 / STEP * ledger[SQUARES],
         )
 

@@ -10,18 +10,18 @@ import math
 from numba import njit
 
 from springblock.solver.inverse_root import inverse_root
-from springblock.solver.laws import keep_way, resistance, way_of
+from springblock.solver.laws import keep_slip, resistance, slip_of
 
 
 @njit(inline="always")
 def slow_down(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     """Apply the Coulomb step to block `b`, with the resistance given by its friction law."""
     mean_x, mean_y = (wx + vx, wy + vy) if wx * vx + wy * vy > 0.0 else (wx, wy)
-    speed, way = 0.5 * math.sqrt(mean_x * mean_x + mean_y * mean_y), way_of(law, b)
-    taken = resistance(law, way, speed, -0.5, static, dynamic)
-    new_x, new_y, slides, along = coulomb(wx, wy, vx, vy, fx, fy, static, taken)
+    speed, slip = 0.5 * math.sqrt(mean_x * mean_x + mean_y * mean_y), slip_of(law, b)
+    friction = resistance(law, slip, speed, -0.5, static, dynamic)
+    new_x, new_y, slides, along = coulomb(wx, wy, vx, vy, fx, fy, static, friction)
     moved = math.sqrt(new_x * new_x + new_y * new_y)
-    keep_way(law, b, way + moved if slides else 0.0)
+    keep_slip(law, b, slip + moved if slides else 0.0)
     return new_x, new_y, slides, along
 
 
@@ -47,7 +47,7 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     along = wx * vx + wy * vy
     held = (along <= 0.0) & (fx * fx + fy * fy <= static * static)
     mean_x, mean_y = (wx + vx, wy + vy) if along > 0.0 else (wx, wy)
-    taken = dynamic * inverse_root(mean_x * mean_x + mean_y * mean_y)
+    lost = dynamic * inverse_root(mean_x * mean_x + mean_y * mean_y)
     slides = (wx * wx + wy * wy > dynamic * dynamic) & (not held)
-    new_x, new_y = wx - taken * mean_x, wy - taken * mean_y
+    new_x, new_y = wx - lost * mean_x, wy - lost * mean_y
     return (new_x if slides else 0.0), (new_y if slides else 0.0), slides, along

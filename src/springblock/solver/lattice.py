@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 #: Places in the ledger: the slider's work, friction's heat, and velocities squared for damping's.
-WORK, RUBBED, SQUARES = range(3)
+WORK, HEAT, SQUARES = range(3)
 
 
 class Blocks(NamedTuple):
@@ -286,7 +286,7 @@ def book(ledger, samples, constants, totals, switches, k, first, every):
     force_x = k_s * (blocks * constants.slider_x * (k + 1) - totals.x)
     force_y = k_s * (blocks * constants.slider_y * (k + 1) - totals.y)
     ledger[WORK] += force_x * constants.slider_x + force_y * constants.slider_y
-    ledger[RUBBED] += totals.heat
+    ledger[HEAT] += totals.heat
     ledger[SQUARES] += totals.squares
     if (k + 1) % every != 0:
         return switches

@@ -4,7 +4,7 @@ A block lets go at F_c = max(mu_s, mu_d) F_n. From then on, until it comes to re
 takes mu F_n from it:
 
 coulomb             mu = mu_d: Amontons-Coulomb, the paper's law.
-slip_weakening      mu = mu_d + (mu_s - mu_d) max(1 - s/d_c, 0) after a way s: linear weakening
+slip_weakening      mu = mu_d + (mu_s - mu_d) max(1 - s/d_c, 0) after a slip s: linear weakening
                     (Ida 1972, doi:10.1029/JB077i020p03796; Andrews 1976,
                     doi:10.1029/JB081i032p05679). A block that comes to rest heals at once: its
                     next slip begins with s = 0.
@@ -35,9 +35,9 @@ Array = NDArray[np.float64]
 
 
 class SlipWeakening(NamedTuple):
-    """Friction that falls along the way of a slip."""
+    """Friction that falls as a block slips."""
 
-    way: Array  #: of each block since it let go, in l; zero at rest
+    slip: Array  #: of each block since it let go, in l; zero at rest
     rate: float  #: l/d_c
 
 
@@ -72,7 +72,7 @@ def _for_each_law(coulomb, slip_weakening, velocity_weakening):
     """Return the function that calls the one of the law that it is given, compiled or not.
 
     Compiled callers have it chosen by type, and LLVM inlines it; numba, told to do so by itself,
-    loses the store in `_keep_way`.
+    loses the store in `_keep_slip`.
     """
     functions = {
         type(None): coulomb,
@@ -90,19 +90,19 @@ def _for_each_law(coulomb, slip_weakening, velocity_weakening):
     return chosen
 
 
-def _resistance_dynamic(law, way, speed, share, static, dynamic):
+def _resistance_dynamic(law, slip, speed, share, static, dynamic):
     return dynamic
 
 
-def _resistance_after_way(law, way, speed, share, static, dynamic):
+def _resistance_after_slip(law, slip, speed, share, static, dynamic):
     """From rest, a block that runs through d_c within the step weakens at once."""
     mean = speed + share * dynamic
-    left = max(1.0 - way * law.rate, 0.0)
-    at_once = (way <= _NOTHING * mean) & (0.5 * mean * law.rate >= 1.0)
+    left = max(1.0 - slip * law.rate, 0.0)
+    at_once = (slip <= _NOTHING * mean) & (0.5 * mean * law.rate >= 1.0)
     return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
 
 
-def _resistance_at_speed(law, way, speed, share, static, dynamic):
+def _resistance_at_speed(law, slip, speed, share, static, dynamic):
     """Of two V, the larger: the one that a block comes from as it slows down."""
     drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
     under_root = (fastest + c) * (fastest + c) + 4.0 * share * drop * c
@@ -110,28 +110,28 @@ def _resistance_at_speed(law, way, speed, share, static, dynamic):
     return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
 
 
-def _no_way(law, b):
+def _no_slip(law, b):
     return 0.0
 
 
-def _way_so_far(law, b):
-    return law.way[b]
+def _slip_so_far(law, b):
+    return law.slip[b]
 
 
-def _keep_none(law, b, way):
+def _keep_none(law, b, slip):
     pass
 
 
-def _keep_way(law, b, way):
-    law.way[b] = way
+def _keep_slip(law, b, slip):
+    law.slip[b] = slip
 
 
-#: (law, way, speed, share, static, dynamic) -> T after a way, at the mean speed
+#: (law, slip, speed, share, static, dynamic) -> T after a slip, at the mean speed
 #: V = speed + share T. In a step of the leapfrog, `speed` is half of |v + w|, of which friction
 #: takes half of T: share is -1/2. Where V is known, share is 0. T is infinite where no V will do:
 #: the block stops.
-resistance = _for_each_law(_resistance_dynamic, _resistance_after_way, _resistance_at_speed)
-#: (law, b) -> way of block b since it let go, where the law asks for it.
-way_of = _for_each_law(_no_way, _way_so_far, _no_way)
-#: (law, b, way): store the slip of block b.
-keep_way = _for_each_law(_keep_none, _keep_way, _keep_none)
+resistance = _for_each_law(_resistance_dynamic, _resistance_after_slip, _resistance_at_speed)
+#: (law, b) -> slip of block b since it let go, where the law asks for it.
+slip_of = _for_each_law(_no_slip, _slip_so_far, _no_slip)
+#: (law, b, slip): store the slip of block b.
+keep_slip = _for_each_law(_keep_none, _keep_slip, _keep_none)

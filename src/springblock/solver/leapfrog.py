@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from springblock.solver.compilation import add, kernel
 from springblock.solver.friction import slow_down
 from springblock.solver.lattice import (
-    RUBBED,
+    HEAT,
     Array,
     Constants,
     Samples,
@@ -29,8 +29,8 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import keep_way, resistance, way_of
-from springblock.solver.release import force_in, room, share_of_step
+from springblock.solver.laws import keep_slip, resistance, slip_of
+from springblock.solver.release import force_in, placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 from springblock.solver.stability import leapfrog_force_time
 
@@ -56,7 +56,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
     ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
     velocity = np.stack([blocks.wx + ahead.blocks.wx, blocks.wy + ahead.blocks.wy]) / 2.0
-    return velocity, float(state.ledger[RUBBED] + ahead.ledger[RUBBED]) / 2.0
+    return velocity, float(state.ledger[HEAT] + ahead.ledger[HEAT]) / 2.0
 
 
 class Rows(NamedTuple):
@@ -154,9 +154,9 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
             switch = switch | (slides & (along <= 0.0) & (static[b] > 0.0))
             sum_x = add(sum_x, there_x)
             sum_y = add(sum_y, there_y)
-            # Friction's work: the momentum that it takes, times the mean of the velocities around.
-            taken_x, taken_y = trial_x - new_x, trial_y - new_y
-            heat = add(heat, taken_x * (vx + new_x) + taken_y * (vy + new_y))
+            # Friction's work: the momentum that it removes times the mean velocity.
+            lost_x, lost_y = trial_x - new_x, trial_y - new_y
+            heat = add(heat, lost_x * (vx + new_x) + lost_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE] = slide
         more = (
@@ -211,8 +211,8 @@ def _find_released(blocks, law, released, count, band, s, row):
         if blocks.static[b] > 0.0 and (wx != 0.0 or wy != 0.0):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             force = math.hypot(fx, fy)
-            taken = resistance(law, 0.0, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b])
-            left = 1.0 - taken / force
+            friction = resistance(law, 0.0, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b])
+            left = 1.0 - friction / force
             if math.hypot(wx - left * fx, wy - left * fy) <= _SAME * math.hypot(fx, fy):
                 released.row[count], released.x[count] = np.int64(row), np.int64(x)
                 released.ax[count], released.ay[count] = wx, wy
@@ -241,27 +241,24 @@ def _look_around(blocks, law, released, row, x, constants, slider):
             # Friction acted along this vector, on the same side as w.
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
             size, forwards = math.hypot(mean_x, mean_y), mean_x * wx + mean_y * wy
-            way = max(way_of(law, b) - math.hypot(wx, wy), 0.0)
+            slip = max(slip_of(law, b) - math.hypot(wx, wy), 0.0)
             speed, share = math.copysign(size, forwards) / (2.0 * a), 1.0 / (2.0 * a)
-            taken = resistance(law, way, speed, share, blocks.static[b], blocks.dynamic[b])
-            rubbed = math.copysign(taken / size, forwards)
-            before[0, j, i] -= (wx + rubbed * mean_x - fx) / a
-            before[1, j, i] -= (wy + rubbed * mean_y - fy) / a
+            friction = resistance(law, slip, speed, share, blocks.static[b], blocks.dynamic[b])
+            along = math.copysign(friction / size, forwards)
+            before[0, j, i] -= (wx + along * mean_x - fx) / a
+            before[1, j, i] -= (wy + along * mean_y - fy) / a
 
 
 @kernel
 def place_releases(blocks, law, rows, released, count, constants, k):
     """Let `count` blocks go at their times within the step, not at its end.
 
-    At step k they are θ² a/2 on their way, and then move with (1/2 + θ) a. The energy that a
-    leapfrog conserves, a mean over neighbouring steps, lies a²/8 below the true one after such a
-    start; it is the true one that friction takes in the end, and is credited with here. Near the
-    stability limit an eighth of a² is much: towards it the block moves back by up to a/8 and its
-    release to the middle of the step, where nothing is missing.
+    At step k they have slipped by θ² a/2, and then move with (1/2 + θ) a. `release` says why the
+    slip is less near the stability limit, and what energy a start is credited with.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
-    slider, block = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
-    near = (springs.k_s + 6.0 * springs.kappa) / 4.0  # (h/limit)²
+    slider, stiffness = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
+    epsilon = (springs.k_s + 6.0 * springs.kappa) / 4.0
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = place(row, x, constants.grid)
@@ -276,19 +273,21 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         ax, ay = released.ax[m], released.ay[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
-        share += near * (0.5 - share)
-        a2, moved, speed = ax * ax + ay * ay, 0.5 * share * share - near / 8.0, 0.5 + share
-        further = moved + speed - 1.0  # than the loop has moved it
+        share = placed(share, epsilon)
+        slip, speed = 0.5 * share * share - epsilon / 8.0, 0.5 + share
+        further = slip + speed - 1.0  # than the loop has moved it
         blocks.ux[b] += further * ax
         blocks.uy[b] += further * ay
         blocks.wx[b], blocks.wy[b] = speed * ax, speed * ay
         rows.x[row] += further * ax
         rows.y[row] += further * ay
+        a2 = ax * ax + ay * ay
         a1 = math.sqrt(a2)
-        taken = resistance(law, 0.0, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
-        keep_way(law, b, (moved + speed) * a1)
-        rubbed = taken * a1 * (moved + 0.5 * (share - 0.5))
-        rows.heat[row] += rubbed + a2 * (0.125 - near / 8.0 - 0.5 * block * moved * moved)
+        friction = resistance(law, 0.0, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
+        keep_slip(law, b, (slip + speed) * a1)
+        work = friction * a1 * (slip + 0.5 * (share - 0.5))
+        credit = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)
+        rows.heat[row] += work + credit
         rows.squares[row] += (speed * speed - 1.0) * a2
         close_edge(blocks.ux, blocks.uy, U(row), constants.grid)
 

@@ -5,12 +5,21 @@ before, has let go a share θ of a step before step k,
 
     θ = (|F_k| - F_c) / (|F_k| - |F_k-1|).
 
-It has moved since: with a for the velocity that the net force adds in one step, it is θ² a/2 on its
-way at step k, with a velocity of θ a. Only the few blocks that let go need F_k-1. It follows from
-where their neighbours have been, afterwards and outside the loops over all blocks.
+It has moved since: with a for the velocity that the net force adds in one step, it has slipped by
+θ² a/2 at step k, with a velocity of θ a. Only the few blocks that let go need F_k-1. It follows
+from where their neighbours have been, afterwards and outside the loops over all blocks.
+
+The leapfrog conserves v_k-1/2 · v_k+1/2 / 2 in place of v_k²/2, which is a²/8 less once a block is
+accelerated; friction will take that energy, and not the true one, until the block stops. A start is
+therefore credited with a²/8 as heat, less what the placement itself creates: the kinetic energy
+θ² a²/2, beyond the work of the net force along the slip.
+
+Near the stability limit a²/8 would be much. With ε = (h/h_limit)² the motion starts nearer to the
+middle of the step, at θ + ε (1/2 - θ), and the slip is less by ε a/8: at the limit the block starts
+from where it rests with a velocity of a half step, and the credit is zero. t_det keeps θ.
 
 Where friction weakens as a block moves, it lets go without a drop: a is what F_mot has risen by
-since then. Its way is of third order in h and its velocity of second, whatever share that was.
+since then. Its slip is of third order in h and its velocity of second, whatever share that was.
 """
 
 import math
@@ -84,9 +93,15 @@ def force_in(patch, y, x, springs, slider):
     return fx, fy
 
 
+@njit(inline="always")
+def placed(share, epsilon):
+    """Return θ of the motion, which goes to 1/2 at the stability limit, ε = 1."""
+    return share + epsilon * (0.5 - share)
+
+
 @kernel
 def share_of_step(released, threshold, springs, slider, slide):
-    """Return θ of the block in the middle; `slide` is the slider's way in a step.
+    """Return θ of the block in the middle; `slide` is how far the slider goes in a step.
 
     NaN for a block that felt more than its threshold one step before: it was moving then, and has
     come to rest for an instant only.

@@ -18,7 +18,7 @@ from numba import njit
 
 from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
-    RUBBED,
+    HEAT,
     Array,
     Blocks,
     Constants,
@@ -32,8 +32,8 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import keep_way, resistance, way_of
-from springblock.solver.release import room, share_of_step
+from springblock.solver.laws import keep_slip, resistance, slip_of
+from springblock.solver.release import placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 
@@ -44,7 +44,7 @@ class Stage(NamedTuple):
     uy: Array
     wx: Array  #: velocity
     wy: Array
-    dx: Array  #: weighted sum of velocities over stages: the step's way
+    dx: Array  #: weighted sum of velocities over stages: what the step moves it by
     dy: Array
     ax: Array  #: of accelerations
     ay: Array
@@ -71,11 +71,11 @@ def force_time(step: float, gamma: float) -> float:
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and friction's heat until then."""
-    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[RUBBED])
+    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[HEAT])
 
 
 @njit(inline="always")
-def _friction_direction(law, fx, fy, wx, wy, static, taken, damping):
+def _friction_direction(law, fx, fy, wx, wy, static, friction, damping):
     """Unit vector that friction opposes in this step; zero for a block that stays at rest.
 
     That of a moving block is its direction in the middle of the step, unless it turns back before.
@@ -86,13 +86,13 @@ def _friction_direction(law, fx, fy, wx, wy, static, taken, damping):
     if speed > 0.0:
         ex, ey = wx / speed, wy / speed
         half = 0.5 / (1.0 + damping) ** 2  # of a step; less where damping is stiff
-        back = taken if law is None else 0.0
+        back = friction if law is None else 0.0
         mx, my = wx + half * (fx - back * ex), wy + half * (fy - back * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
     # With mu_s < mu_d the block needs more than mu_d F_n to move at all.
-    if force > static and force > taken:
+    if force > static and force > friction:
         return fx / force, fy / force
     return 0.0, 0.0
 
@@ -115,15 +115,17 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             rests = wx[b] == 0.0 and wy[b] == 0.0
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (wx[b], wy[b])
-            speed, way = math.sqrt(half_x * half_x + half_y * half_y), way_of(law, b)
+            speed, slip = math.sqrt(half_x * half_x + half_y * half_y), slip_of(law, b)
             share = -0.5 if rests else 0.0  # see `resistance`
-            taken = resistance(law, way, speed, share, static[b], dynamic[b])
-            ex[b], ey[b] = _friction_direction(law, fx, fy, wx[b], wy[b], static[b], taken, damping)
+            friction = resistance(law, slip, speed, share, static[b], dynamic[b])
+            ex[b], ey[b] = _friction_direction(
+                law, fx, fy, wx[b], wy[b], static[b], friction, damping
+            )
             if rests and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
-                excess = fx * ex[b] + fy * ey[b] - taken
+                excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
-                keep_way(law, b, 0.125 * excess)
+                keep_slip(law, b, 0.125 * excess)
                 wx[b], wy[b] = 0.5 * ax, 0.5 * ay
                 stage.wx[b], stage.wy[b] = wx[b], wy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -159,11 +161,11 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     """
     slide = constants.slider_x, constants.slider_y
     slider = slide[0] * k, slide[1] * k
-    near = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0  # (h/limit)²
+    epsilon = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0
     for m in range(count):
         b = place(released.row[m], released.x[m], constants.grid)
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
-        keep_way(law, b, 0.0)
+        keep_slip(law, b, 0.0)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = place(row, x, constants.grid)
@@ -176,24 +178,24 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         b, share = place(released.row[m], released.x[m], constants.grid), released.share[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
-        share += near * (0.5 - share)
+        share = placed(share, epsilon)
         further = 0.5 * share * share - 0.125 + share - 0.5
         blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
         stage.dx[b] += further * released.ax[m]
         stage.dy[b] += further * released.ay[m]
         speed = math.hypot(released.ax[m], released.ay[m])
-        taken = resistance(law, 0.0, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
-        heat += taken * (0.125 + further) * speed
+        friction = resistance(law, 0.0, 0.5 * speed, 0.0, blocks.static[b], blocks.dynamic[b])
+        heat += friction * (0.125 + further) * speed
     return heat
 
 
 @njit(inline="always")
-def _taken_in_stage(blocks, law, stage, b):
+def _friction_in_stage(blocks, law, stage, b):
     """Friction where a stage has got to, and at its speed."""
-    ex, ey, way = stage.ex[b], stage.ey[b], way_of(law, b)
-    way += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
+    ex, ey, slip = stage.ex[b], stage.ey[b], slip_of(law, b)
+    slip += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
     speed = abs(stage.wx[b] * ex + stage.wy[b] * ey)
-    return resistance(law, way, speed, 0.0, blocks.static[b], blocks.dynamic[b])
+    return resistance(law, slip, speed, 0.0, blocks.static[b], blocks.dynamic[b])
 
 
 @kernel
@@ -209,16 +211,16 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
         for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
-            taken = _taken_in_stage(blocks, law, stage, b)
-            ax = s[FORCE_X + own + x] - damping * vx - taken * ex[b]
-            ay = s[FORCE_Y + own + x] - damping * vy - taken * ey[b]
+            friction = _friction_in_stage(blocks, law, stage, b)
+            ax = s[FORCE_X + own + x] - damping * vx - friction * ex[b]
+            ay = s[FORCE_Y + own + x] - damping * vy - friction * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
             ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
             du[b] += weight * vx
             dv[b] += weight * vy
             qu[b] += weight * ax
             qv[b] += weight * ay
-            heat = add(heat, taken * (vx * ex[b] + vy * ey[b]))
+            heat = add(heat, friction * (vx * ex[b] + vy * ey[b]))
             squares = add(squares, vx * vx + vy * vy)
             su[b] = ux[b] + reach * vx
             sv[b] = uy[b] + reach * vy
@@ -248,8 +250,8 @@ def _finish(blocks, law, stage, grid, heat, squares):
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
-            way, further = way_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
-            keep_way(law, b, 0.0 if turned else way + further)
+            slip, further = slip_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
+            keep_slip(law, b, 0.0 if turned else slip + further)
             stopped = add(stopped, lost if turned else 0.0)
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             there_x, there_y = ux[b] + du[b], uy[b] + dv[b]

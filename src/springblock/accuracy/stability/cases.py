@@ -116,8 +116,8 @@ class Pull:
         speed = np.hypot(*run.velocity)
         drag = self.material.gamma * self.material.mass * float(np.sum(speed**2))
         load = run.normal_force / np.count_nonzero(run.contact)
-        rubbed = load * float(speed[np.isfinite(run.t_det)].sum())
-        underway = (rubbed + drag) * self.step / run.energy.work_in
+        heat = load * float(speed[np.isfinite(run.t_det)].sum())
+        underway = (heat + drag) * self.step / run.energy.work_in
         bound = min(drift, 0.2) + underway + 1e-15 * run.steps  # rounding
         return bool(abs(run.energy.relative_residual) <= bound)
 
