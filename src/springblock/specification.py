@@ -23,8 +23,8 @@ from springblock.model.direction import heading
 from springblock.model.material import Material
 
 Array = NDArray[np.float64]
-#: (mu_static, mu_dynamic, slip, speed, step) -> mu of blocks that slide; an array of all blocks
-#: each, and the time step in s.
+#: (material, mu_static, mu_dynamic, slip, speed, step) -> mu of blocks that slide; slip in m and
+#: speed in m/s, of all blocks.
 Friction = Callable[..., Array]
 
 #: Neighbours of a block, as steps along y and x.
@@ -67,7 +67,7 @@ class Surface:
             slider=material.slider_velocity * np.array(heading(direction)).reshape(2, 1, 1),
             step=step,
             periodic=periodic,
-            friction=LAWS[material.law](material),
+            friction=LAWS[material.law],
         )
 
     @property
@@ -85,7 +85,7 @@ class State:
     k: int  #: steps taken
     u: Array  #: displacement, (2, N_y, N_x) m
     v: Array  #: velocity, (2, N_y, N_x) m/s
-    slip: Array  #: way since the block let go, (N_y, N_x) m
+    slip: Array  #: since the block let go, (N_y, N_x) m
     t_det: Array  #: first detachment, (N_y, N_x) s; infinite before
     switches: int = 0  #: blocks that went from rest to sliding
     work: float = 0.0  #: the slider's, J
@@ -93,38 +93,31 @@ class State:
     path: float = 0.0  #: sum of v² h over blocks and steps, for the heat of damping, m²/s
 
 
-def coulomb(material: Material) -> Friction:
+def coulomb(
+    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+) -> Array:
     """Amontons-Coulomb: mu_d."""
-    return lambda mu_static, mu_dynamic, slip, speed, step: mu_dynamic
+    return mu_dynamic
 
 
-def slip_weakening(material: Material) -> Friction:
+def slip_weakening(
+    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+) -> Array:
     """Linear weakening along d_c; at once where a step from rest leads beyond d_c."""
-
-    def friction(
-        mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
-    ) -> Array:
-        drop = np.maximum(mu_static - mu_dynamic, 0.0)
-        left = np.maximum(1.0 - slip / material.slip_distance, 0.0)
-        at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= material.slip_distance)
-        return mu_dynamic + drop * np.where(at_once, 0.0, left)
-
-    return friction
+    d_c, drop = material.slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
+    at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= d_c)
+    return mu_dynamic + drop * np.where(at_once, 0.0, np.maximum(1.0 - slip / d_c, 0.0))
 
 
-def velocity_weakening(material: Material) -> Friction:
-    """Friction falls with the speed to half of its drop at v_c."""
-
-    def friction(
-        mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
-    ) -> Array:
-        drop = np.maximum(mu_static - mu_dynamic, 0.0)
-        return mu_dynamic + drop / (1.0 + speed / material.speed_scale)
-
-    return friction
+def velocity_weakening(
+    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+) -> Array:
+    """Friction falls with the speed, by half of its drop at v_c."""
+    drop = np.maximum(mu_static - mu_dynamic, 0.0)
+    return mu_dynamic + drop / (1.0 + speed / material.speed_scale)
 
 
-LAWS = {
+LAWS: dict[str, Friction] = {
     "coulomb": coulomb,
     "slip_weakening": slip_weakening,
     "velocity_weakening": velocity_weakening,
@@ -190,7 +183,8 @@ def resistance(surface: Surface, tau: float, slip: Array, speed: Array, share: f
     """
 
     def taken(mean: Array) -> Array:
-        mu = surface.friction(surface.mu_static, surface.mu_dynamic, slip, mean, surface.step)
+        own = surface.mu_static, surface.mu_dynamic, slip, mean, surface.step
+        mu = surface.friction(surface.material, *own)
         return tau / surface.material.mass * surface.load * mu
 
     if share == 0.0:
@@ -353,7 +347,7 @@ def _direction(
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
-        back = taken if surface.friction.__qualname__.startswith("coulomb") else 0.0
+        back = taken if surface.friction is coulomb else 0.0
         middle = v + (h / m * force - back * ahead) / (2.0 * (1.0 + gamma * h) ** 2)
         on = np.sum(middle * ahead, axis=0) > 0.0
         sliding = np.where(on, middle / np.hypot(*middle), ahead)
