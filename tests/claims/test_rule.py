@@ -191,17 +191,24 @@ def test_the_page_names_the_boundary_and_the_clearest_failure():
 def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypatch):
     before = [
         {"claim": name, "form": "general", "statement": "It grows.", "verdict": "reproduced"}
-        | {"claimed_low": low, "claimed_high": "inf", "verdict_1_0_0": "depends on"}
+        | {
+            "claimed_low": low,
+            "claimed_high": "inf",
+            "case": "n_p = 0",
+            "verdict_1_0_0": "depends on",
+        }
         for name, low in (("It grows", "0.5"), ("It is gone", "0.0"))
     ]
     monkeypatch.setattr(register, "registered", lambda: before)
     monkeypatch.setattr(register, "_REASONS", {"It grows": "0.5 was a slip"})
     text = page(rows(SOME, Evidence()))
     assert "| It grows | range | 0.5 was a slip |" in text
-    assert "| It is gone | not tested here | no reason is given |" in text
+    assert "It is gone" not in text  # not everything needs to be simulated
     assert "**reproduced** | reproduced | depends on |" in text
     before[0]["claimed_low"] = "0.0"
-    assert register.changes(rows(SOME[:1], Evidence())).count("\n") == 2  # what is gone alone
+    assert register.changes(rows(SOME[:1], Evidence())) == "Nothing has been changed since."
+    before[0]["case"] = "n_p = 6"
+    assert "| It grows | cases | 0.5 was a slip |" in register.changes(rows(SOME[:1], Evidence()))
 
 
 def test_every_statement_is_as_registered():

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from springblock.analysis.estimate import UNKNOWN, Estimate
-from springblock.analysis.statistics import load_peaks, samples_interval
+from springblock.analysis.statistics import bootstrap_interval, load_peaks
 from springblock.claims import ranges
 from springblock.claims.grooves import core, edge
 from springblock.claims.rule import Evidence, Finding, Range, claim
@@ -203,22 +203,14 @@ def peak_interval(run: Run, first: int, second: int) -> float:
     return float(run.time[second] - run.time[first]) / run.t_avg
 
 
-def trend(x: Array, samples: list[Array], statistic: str) -> Estimate:
-    """The "slope" of a line through means of samples, or the share of variance it explains; BCa.
+def slope(x: Array, y: Array) -> Estimate:
+    """Slope of a line through points, (k,) each, which are drawn from anew; BCa."""
 
-    Samples are drawn from anew, each for itself. NaN where one of them is a single number.
-    """
+    def of_points(weights: Array) -> Array:
+        away = x - (weights @ x)[:, None]
+        return (weights * away * y).sum(axis=1) / (weights * away**2).sum(axis=1)
 
-    def of_means(*parts: Array, axis: int = -1) -> Array:
-        means = np.stack([part.mean(axis=axis) for part in parts], axis=-1)
-        places, values = x - x.mean(), means - means.mean(axis=-1, keepdims=True)
-        slope = values @ places / (places @ places)
-        if statistic == "slope":
-            return slope
-        return slope**2 * (places @ places) / (values**2).sum(axis=-1)
-
-    fewest = min(map(len, samples))
-    return Estimate.of(samples_interval(samples, of_means), fewest) if fewest >= 2 else UNKNOWN
+    return Estimate.of(bootstrap_interval(of_points, len(x)), len(x))
 
 
 @claim("The lengths control the interval between the load peaks", "3.3", 9, _LENGTHS)
@@ -226,22 +218,18 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """The time interval between the first and the second peak is controlled by the difference
     between the length scales.
 
-    Tested: it grows with n_p - n_p2, which explains most of its variance, on surfaces where most
-    runs have two peaks.
+    Tested: it grows with n_p - n_p2, on surfaces where most runs have two peaks. On these
+    n_p - n_p2 goes along with n_p, which may as well be what counts.
     """
     scenes = grooved(evidence.records)
     found = dict(with_both_peaks(evidence, scenes, peak_interval))
     x = np.array([float(scene.n_p - scene.n_p2) for scene in found])
     if len(set(x)) < _FEWEST:
         return
-    time, samples = "time between the load peaks", list(found.values())
-    slope = f"change of the {time} over t_avg with n_p - n_p2, on {len(found)} surfaces"
-    control = (
-        f"share of the variance of the {time}, of means of {len(found)} surfaces, that a line in "
-        "n_p - n_p2 explains"
+    y = np.array([sample.mean() for sample in found.values()])
+    statistic = (
+        "change of the time between the load peaks over t_avg, mean of each surface, with n_p - "
+        f"n_p2; the interval is that over {len(found)} surfaces"
     )
-    for statistic, name, claimed, unit in (
-        ("slope", slope, ranges.POSITIVE, "1/block"),
-        ("control", control, ranges.MOST, "1"),
-    ):
-        yield Finding({}, name, trend(x, samples, statistic), claimed, in_files(*found), unit)
+    growth = slope(x, y) if min(map(len, found.values())) > 1 else UNKNOWN
+    yield Finding({}, statistic, growth, ranges.POSITIVE, in_files(*found), "1/block")
