@@ -56,7 +56,7 @@ def budget() -> list[Row]:
     forces = {300: (0.2, 0.4), 360: (0.15, 0.5), 420: (0.1, 0.6), 480: (0.1, 0.3)}
     return [
         {"direction": direction, "model": model, "seed": seed, "edge_share": 0.25}
-        | {"time": 1e-6 * time, "edges": edges + 0.001 * seed, "core": core, "free": 0.0}
+        | {"time": 1e-6 * time, "edge": edges + 0.001 * seed, "core": core, "free": 0.0}
         for direction in "xy"
         for model in ("simulation", "overshooting")
         for seed in (0, 1)

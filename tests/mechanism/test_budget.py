@@ -33,11 +33,11 @@ def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):
     }
     run = simulate(pulled.contact, *draw_friction(24, 0, MATERIAL), MATERIAL, "y", duration=600e-6)
     for row in found["simulation"]:
-        whole = row["edges"] + row["core"] + row["free"]
+        whole = row["edge"] + row["core"] + row["free"]
         at_time = np.interp(row["time"], run.time, run.force) / run.normal_force
         assert whole == pytest.approx(at_time, rel=2e-3)  # |ΣF_s| has a part across, too
-    before = [(row["edges"], row["core"]) for row in found["overshooting"][:2]]
-    simulated = [(row["edges"], row["core"]) for row in found["simulation"][:2]]
+    before = [(row["edge"], row["core"]) for row in found["overshooting"][:2]]
+    simulated = [(row["edge"], row["core"]) for row in found["simulation"][:2]]
     assert np.array(before) == pytest.approx(np.array(simulated), rel=0.05)
 
 

@@ -19,7 +19,7 @@ TABLE = pd.DataFrame(
 BUDGET = pd.DataFrame(
     [
         {"direction": direction, "model": model, "seed": seed, "time": 1e-6 * time}
-        | {"edges": 0.1 * time, "core": 0.2 * time, "free": 0.01 * seed}
+        | {"edge": 0.1 * time, "core": 0.2 * time, "free": 0.01 * seed}
         for direction in "xy"
         for model in ("simulation", "overshooting")
         for seed in (-1, 0, 1)

@@ -400,20 +400,19 @@ def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
 def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterator[Finding]:
     """Where static friction is lowest, a quantity is larger than on other pillars.
 
-    Where several sizes may have the lowest, the interval holds those of all of them.
+    Where several sizes may have the lowest, the interval holds those of all of them, and of one
+    of these sizes it is open above: it may be the one.
     """
     scenes = _of_all_sizes(evidence)
     lowest = _lowest_of(evidence, scenes) if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in lowest)
     there = f"{name}, at n_p = {sizes}, where static friction is lowest, minus that here"
-    for other in (scene for scene in scenes if scene not in lowest):
-        values = over_runs(quantity, evidence.records[other])
-        found = [difference(over_runs(quantity, evidence.records[s]), values) for s in lowest]
-        joint = replace(
-            found[0],
-            ci_low=min(each.ci_low for each in found),
-            ci_high=max(each.ci_high for each in found),
-        )
+    for other in (scene for scene in scenes if lowest != [scene]):
+        sample = over_runs(quantity, evidence.records[other])
+        others = [over_runs(quantity, evidence.records[s]) for s in lowest if s != other]
+        found = [difference(each, sample) for each in others]
+        most = ranges.INF if other in lowest else max(each.ci_high for each in found)
+        joint = replace(found[0], ci_low=min(each.ci_low for each in found), ci_high=most)
         yield Finding(size(other), there, joint, ranges.POSITIVE, in_files(*lowest, other))
 
 
@@ -422,7 +421,7 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so
     that the static friction is minimized.
 
-    Tested: against all sizes but those whose static friction may be the lowest as well.
+    Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
     return _largest_there(evidence, _PRECURSORS, before_peak)
 
@@ -432,7 +431,7 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """This explains why the smallest static friction is obtained for a specific intermediate value
     of n_p, and the force peak at the transition is considerably more rounded.
 
-    Tested: against all sizes but those whose static friction may be the lowest as well.
+    Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
     return _largest_there(evidence, _WIDTH, width)
 
@@ -442,6 +441,6 @@ def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """In the intermediate regime the detachments are distributed over a longer time interval around
     the maximum of the friction force: a longer duration of the transition.
 
-    Tested: against all sizes but those whose static friction may be the lowest as well.
+    Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
     return _largest_there(evidence, _DURATION, lasting)

@@ -33,8 +33,8 @@ _REASONS: dict[str, str] = {
     "Correlation length of about three blocks or more": "the paper's ~ leaves the amplitude open: "
     "A exp(-r/l_c) is tested, too",
     "Exponential decay of c_x": "the paper's ~ leaves the amplitude open: all curves have one",
-    "The most precursors where static friction is lowest": "n_p = 6 and 7 cannot be told apart as "
-    "that of the lowest friction: the intervals hold both",
+    "The most precursors where static friction is lowest": "on the registered seeds n_p = 6 and 7 "
+    "could not be told apart as those of the lowest friction: there are 300 of each",
     "The roundest force peak where static friction is lowest": "as above",
     "The longest transition where static friction is lowest": "as above",
     "c_x has a long range, c_y a short one": "sides of less than 10 blocks have been left out: at "

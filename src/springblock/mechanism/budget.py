@@ -37,7 +37,7 @@ SCHEMA = pa.schema(
         *numbers("s", time="time; in the model without time the slider's way over its velocity"),
         *numbers(
             "1",
-            edges="force on blocks in contact beside one without, over the normal force; NaN "
+            edge="force on blocks in contact beside one without, over the normal force; NaN "
             "once the model has come to its end",
             core="the same of other blocks in contact",
             free="the same of blocks without contact; 0 in the model without inertia",
@@ -71,7 +71,7 @@ def budget_rows() -> Iterator[Row]:
     for scene in SCENES:
         contact, axis = scene.contact, "xy".index(scene.direction)
         edges, normal_force = edge_blocks(contact), material.block_load * contact.size
-        groups = {"edges": edges, "core": contact & ~edges, "free": ~contact}
+        groups = {"edge": edges, "core": contact & ~edges, "free": ~contact}
         same = scene.row | setup.constants
         same |= {"edge_share": np.count_nonzero(edges) / np.count_nonzero(contact)}
         turned = contact.T if axis else contact  # the models slide along x
@@ -89,11 +89,11 @@ def budget_rows() -> Iterator[Row]:
             load = normal_force / np.count_nonzero(contact)
             static, dynamic = (load * (mu.T if axis else mu)[turned] for mu in drawn)
             curves = []
-            for name in ("edges", "core"):
+            for name in ("edge", "core"):
                 of = groups[name].T if axis else groups[name]
                 curve = overshooting(reduced, static, dynamic, of[turned])
                 slider, force = np.pad(curve, ((0, 0), (1, 0)))  # from rest on
                 curves.append(np.interp(way, slider, force, right=np.nan) / normal_force)
             for time, edge, core in zip(_TIMES, *curves, strict=True):
-                parts = {"edges": edge, "core": core, "free": 0.0}
+                parts = {"edge": edge, "core": core, "free": 0.0}
                 yield same | {"model": "overshooting", "seed": seed, "time": time, **parts}

@@ -21,13 +21,15 @@ _PAGE = """# Why static friction depends on the size of pillars, and when it has
 
 Static friction is lowest on pillars of {lowest} blocks; the elastic layer loads the blocks most
 unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest.
-Uneven stress alone explains the friction of the smallest pillars. On larger ones the redistribution
-of load lowers friction, and the inertia of single blocks, which overshoot as they slip, lowers it
-further. A model of these three, without waves, agrees with the full simulation to
-{small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes.
+On the smallest pillars stress alone comes close to the friction of the full simulation, because
+load transfer, which raises it there, and overshoot cancel. On larger ones the redistribution of
+load lowers friction, and the inertia of single blocks, which overshoot as they slip, lowers it
+further. A quasi-static model of stress, load transfer and overshoot agrees with the full simulation
+to {small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes of the first table.
 
 Grooves along the sliding direction can have two load peaks: their edges let go together, and the
-core of the pawls holds on. Across it edges let go one by one, and the load hardly falls.
+core of the pawls holds on. Across it the edges of the paper's pawls let go one by one, and the load
+hardly falls. The quasi-static model has less of either: how deep the load falls is dynamic.
 
 ## Four models
 

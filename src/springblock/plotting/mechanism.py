@@ -27,7 +27,7 @@ _LOOKS: dict[str, Look] = {
     "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
     "simulation": {"color": BLACK, "marker": "o"},
 }
-_BEARERS = {"both": ("all", BLACK), "edges": ("edges", VERMILION), "core": ("core", BLUE)}
+_BEARERS = {"both": ("all", BLACK), "edge": ("edges", VERMILION), "core": ("core", BLUE)}
 
 
 def mechanism_friction(table: pd.DataFrame) -> Figure:
@@ -53,7 +53,7 @@ def mechanism_budget(table: pd.DataFrame) -> Figure:
     """Draw friction and what edges and core bear of it over time, a) along and b) across."""
     picture, axes = style.panels(style.DOUBLE, 75.0, "ab")
     style.share_axes(axes)
-    whole = table.assign(both=table["edges"] + table["core"] + table["free"])
+    whole = table.assign(both=table["edge"] + table["core"] + table["free"])
     for ax, direction in zip(axes, "xy", strict=True):
         for model, look in (("simulation", "-"), ("overshooting", "--")):
             here = whole[(whole["direction"] == direction) & (whole["model"] == model)]
