@@ -13,7 +13,7 @@ def written() -> str:
 
 def test_the_first_sentences_give_minimum_and_agreement(written):
     assert "lowest on pillars of 20 blocks" in written
-    assert "agrees with the full simulation to\n0.3% up to n_p = 6 and to 8.3%" in written
+    assert "agrees with the full simulation\nto 0.3% up to n_p = 6 and to 8.3%" in written
     assert "0.30, at n_p = 6" in written
 
 

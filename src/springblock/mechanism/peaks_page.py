@@ -63,8 +63,8 @@ the mean prominence over {peak_seeds} seeds is 1 % or more:
 It holds for the paper's coefficients and is no guide to others. Across the grooves it expects one
 peak throughout; two are measured there on narrow pawls and with little scatter. What it misses
 along them may be overshoot. Edge blocks that slip to $(2\\mu_d - \\mu_s) F_n$ hand on twice as
-much, and the rows next to them come to $c \\mu_s + 2 T (\\mu_s - \\mu_d)$, with c their stress over that
-on edges and T the share that they take up: along grooves of 2 {swept[1]:.2f} with the paper's
+much, and the rows next to them come to $c \\mu_s + 2 T (\\mu_s - \\mu_d)$, with c their stress over
+that on edges and T the share that they take up: along grooves of 2 {swept[1]:.2f} with the paper's
 coefficients, {swept[0]:.2f} with $\\mu_d$ = 0.5, more than $\\mu_s$ = 1. The edges then take the
 core with them, and one peak is left; {swept[2]:.2f} with $\\mu_d$ = 0.7 leaves even a core of two
 rows. This was seen after the test, is no part of the prediction, and has not been tested itself.
