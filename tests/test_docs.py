@@ -32,9 +32,10 @@ PAGES = {
 def numberless(text):
     """Lines of the page on errors, which numbers and nothing else may tell apart.
 
-    Where CPU time does not suffice for a single seed, the page says so in place of numbers.
+    Where CPU time does not suffice for a single seed, or there is no error, the page says so in
+    place of numbers.
     """
-    measured = text.replace("no seed", "0 [0, 0]")
+    measured = text.replace("no seed", "0 [0, 0]").replace("| none |", "| 0 |")
     return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]\d+)?", "#", measured).splitlines()
 
 
