@@ -29,7 +29,8 @@ to {small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes o
 
 Grooves along the sliding direction can have two load peaks: their edges let go together, and the
 core of the pawls holds on. Across it the edges of the paper's pawls let go one by one, and the load
-hardly falls. The quasi-static model has less of either: how deep the load falls is dynamic.
+hardly falls. In the quasi-static model it hardly falls along the grooves either: how deep it falls
+is dynamic.
 
 ## Four models
 
