@@ -37,6 +37,8 @@ _REASONS: dict[str, str] = {
     "could not be told apart as those of the lowest friction: there are 300 of each",
     "The roundest force peak where static friction is lowest": "as above",
     "The longest transition where static friction is lowest": "as above",
+    "All blocks of a side detach at the same time on average": "sides along and across the sliding "
+    "direction are told apart, as in other statements on sides",
     "c_x has a long range, c_y a short one": "sides of less than 10 blocks have been left out: at "
     "r = 3 their corners are compared, which detach first",
     **dict.fromkeys(

@@ -162,14 +162,15 @@ def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Two points on the same pillar side have the same average value of their detachment times.
 
     Tested: place explains less than a fifth of the variance along a side, without the corners,
-    which detach before.
+    which detach before; on sides along the sliding direction and on those across it.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
         for side, name in (("x", "along"), ("y", "across")):
             times = side_times(runs, scene.pattern, side)[:, 0, 0, 1:-1]  # of the first pillar
             found = Estimate.of(repeatability(times), len(runs))
-            statistic = f"share of the variance of t_det that place explains on edges {name}"
-            yield found_on(scene, size(scene), statistic, found, ranges.ALIKE)
+            statistic = "share of the variance of t_det that place explains on a side"
+            case = {"sides": f"sides {name} the sliding direction"} | size(scene)
+            yield found_on(scene, case, statistic, found, ranges.ALIKE)
 
 
 def misfits(correlation: Array) -> dict[str, Array]:

@@ -1,6 +1,7 @@
 """Figures of the mechanism: stress before slip, friction by model, and who bears the load."""
 
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 import pandas as pd
@@ -65,7 +66,9 @@ def mechanism_budget(table: pd.DataFrame) -> Figure:
         ax.set_xlabel("time (µs)")
         ax.set_title({"x": "along the grooves", "y": "across the grooves"}[direction], loc="right")
     axes[0].set(ylabel="force over normal force", ylim=(0.0, None))
-    axes[0].legend(loc="lower left", ncols=2)
+    lines = axes[0].get_lines()
+    pairs = zip(lines[: len(_BEARERS)], lines[len(_BEARERS) :], strict=True)
+    picture.legend(handles=list(chain(*pairs)), loc="outside upper center", ncols=3)
     return picture
 
 
