@@ -9,7 +9,7 @@ from springblock.analysis.statistics import mean_interval, proportion_interval, 
 from springblock.beyond.question import by_scene
 from springblock.claims import CLAIMS, register
 from springblock.claims.page import page
-from springblock.claims.rule import Claim, Evidence, Finding, verdict
+from springblock.claims.rule import Claim, Evidence, Finding, boundary, verdict
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
 from springblock.io.parquet import rows_to_table
@@ -186,6 +186,17 @@ def test_the_page_names_the_boundary_and_the_clearest_failure():
     text = page(rows([growing([HOLDS, FAILS, (-9.0, -8.0)])], Evidence()))
     where = "It holds on pillars of 0 blocks; it fails on pillars of 1 to 2 blocks."
     assert f"**reproduced in part** | – | – | {where} A difference (n_p = 2) is -8.5 [" in text
+
+
+def test_a_boundary_is_drawn_by_the_one_key_that_draws_it():
+    cases = [
+        ({"n_p": n_p, "side": side}, "holds" if side == "x" else "fails")
+        for n_p in (4, 6)
+        for side in "xy"
+    ]
+    assert boundary(cases, "holds", "fails") == "It holds for x; it fails for y."
+    cases[0][0]["side"] = "y"
+    assert "it fails for n_p = 4, side = y and" in boundary(cases, "holds", "fails")
 
 
 def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypatch):

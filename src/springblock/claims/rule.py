@@ -172,13 +172,17 @@ _WORDS = {
 def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
     """Say in words which cases have these outcomes; nothing where all cases have the same.
 
-    Cases are told apart by the keys that differ between them. Values of a single key that follow
-    one another among those tested make a range.
+    Cases are told apart by the first key that tells their outcomes apart, or else by all keys that
+    differ between them. Values of a single key that follow one another among those tested make a
+    range.
     """
     keys = dict.fromkeys(key for case, _ in cases for key in case)
     telling = [key for key in keys if len({case.get(key) for case, _ in cases}) > 1]
     if len({outcome for _, outcome in cases}) < 2 or not telling:
         return ""
+    seen = {key: {(case.get(key), outcome) for case, outcome in cases} for key in telling}
+    alone = [key for key in telling if len(dict(seen[key])) == len(seen[key])]
+    telling = alone[:1] or telling
     parts = []
     for outcome in outcomes:
         chosen = [found == outcome for _, found in cases]
@@ -198,10 +202,10 @@ def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
 
 def _runs_of(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
     """Values that are chosen, in order; numbers next to one another among all as "a to b"."""
+    pairs = dict.fromkeys(zip(values, chosen, strict=True))
     if not all(isinstance(value, int | float) for value in values):
-        return [str(value) for value, taken in zip(values, chosen, strict=True) if taken]
-    ordered = sorted(zip(values, chosen, strict=True))
-    runs = [list(run) for taken, run in groupby(ordered, key=lambda pair: pair[1]) if taken]
+        return [str(value) for value, taken in pairs if taken]
+    runs = [list(run) for taken, run in groupby(sorted(pairs), key=lambda pair: pair[1]) if taken]
     ends = [(run[0][0], run[-1][0]) for run in runs]
     return [f"{a:g}" if a == b else f"{a:g} to {b:g}" for a, b in ends]
 
