@@ -167,7 +167,7 @@ CHANGES = [
     ("nucleation_near_edge", PILLARS, mirrored, REFUTED),
     ("centre_last", PILLARS, mirrored, REFUTED),
     ("larger_events", PILLARS, turned, REFUTED),
-    ("same_mean_time", PILLARS, tilted, REFUTED),
+    ("same_mean_time", PILLARS, tilted, PARTLY),
     ("whole_sides", PILLARS, at_once, REFUTED),
     ("most_precursors", PILLARS[1:2], shifted(-250), REFUTED),
     ("roundest_peak", PILLARS[1:2], peaks((300.0, 0.60), width=1.0), REFUTED),
@@ -377,7 +377,7 @@ def test_what_was_not_simulated_is_not_tested(name):
 def test_one_realisation_settles_nothing():
     one = paper.evidence([run for run in of_all_lengths() if run.seed == 0])
     found = {name: judge(BY_NAME[name], one) for name, *_ in CHANGES}
-    assert set(found.values()) == {"not settled", "not tested"}
+    assert set(found.values()) == {"not settled"}
 
 
 def test_a_block_is_isolated_while_its_neighbours_rest():
