@@ -211,7 +211,9 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
         for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
             vx, vy = pu[b], pv[b]
-            friction = _friction_in_stage(blocks, law, stage, b)
+            friction = (
+                blocks.dynamic[b] if law is None else _friction_in_stage(blocks, law, stage, b)
+            )
             ax = s[FORCE_X + own + x] - damping * vx - friction * ex[b]
             ay = s[FORCE_Y + own + x] - damping * vy - friction * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
@@ -220,7 +222,8 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
             dv[b] += weight * vy
             qu[b] += weight * ax
             qv[b] += weight * ay
-            heat = add(heat, friction * (vx * ex[b] + vy * ey[b]))
+            if law is not None:  # Coulomb's heat is known at the end of the step
+                heat = add(heat, friction * (vx * ex[b] + vy * ey[b]))
             squares = add(squares, vx * vx + vy * vy)
             su[b] = ux[b] + reach * vx
             sv[b] = uy[b] + reach * vy
@@ -244,22 +247,23 @@ def _finish(blocks, law, stage, grid, heat, squares):
     total_x, total_y = 0.0, 0.0
     for row in range(grid.n_y):
         i = row * grid.pitch
-        sum_x, sum_y, stopped = 0.0, 0.0, 0.0
+        sum_x, sum_y, heat_of_row = 0.0, 0.0, 0.0
         for x in range(ONE, grid.n_x + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
             slip, further = slip_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
+            work = blocks.dynamic[b] * further if law is None else 0.0
             keep_slip(law, b, 0.0 if turned else slip + further)
-            stopped = add(stopped, lost if turned else 0.0)
+            heat_of_row = add(heat_of_row, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
             sum_x, sum_y = add(sum_x, there_x), add(sum_y, there_y)
             ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
-        total_x, total_y, heat = total_x + sum_x, total_y + sum_y, heat + stopped
+        total_x, total_y, heat = total_x + sum_x, total_y + sum_y, heat + heat_of_row
         close_edge(ux, uy, row, grid)
         close_edge(su, sv, row, grid)
     return Totals(total_x, total_y, heat, squares)
@@ -294,7 +298,8 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
                 more, speeds = _take_stage(blocks, law, stage, weight, reach, band, s, damping)
                 heat, squares = heat + more, squares + speeds
         if count > 0:
-            heat += _place_releases(blocks, law, stage, released, count, constants, k)
+            early = _place_releases(blocks, law, stage, released, count, constants, k)
+            heat += 0.0 if law is None else early
         totals = _finish(blocks, law, stage, grid, heat, squares)
         switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
