@@ -63,7 +63,6 @@ _PRECURSORS = "share of the contact blocks that detach before t_max"
 _WIDTH = "time with a force above 95 % of its maximum over t_max"
 _DURATION = "time between a tenth and nine tenths of the detachments over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
-_EXAMPLE = 20  #: n_p of the paper's example of a pillar, figure 5
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SMALL = "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones"
 _LARGEST = f"realisations of pillars with n_p of {_LARGE} or more"
