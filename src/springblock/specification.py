@@ -244,18 +244,26 @@ def leapfrog(surface: Surface, state: State) -> State:
     loss = loss + np.where(let_go, more, 0.0)
     u = u + h * np.where(let_go, moved + speed, 1.0) * new
     v = np.where(let_go, speed, 1.0) * new
-    pull = surface.material.k_s * (surface.slider * h * (k + 1) - u)
+    path = h * float(np.sum(v**2))
+    return _booked(surface, State(k + 1, u, v, slip, t_det), state, switched, loss, path)
+
+
+def _booked(
+    surface: Surface,
+    now: State,
+    before: State,
+    switched: NDArray[np.bool_],
+    loss: Array,
+    path: float,
+) -> State:
+    """Add the ledger of one step to that before it; `loss` is the heat of friction, J."""
+    pull = surface.material.k_s * (surface.slider * surface.step * now.k - now.u)
     return replace(
-        state,
-        k=k + 1,
-        u=u,
-        v=v,
-        slip=slip,
-        t_det=t_det,
-        switches=state.switches + int(switched.sum()),
-        work=state.work + h * float(np.sum(pull * surface.slider)),
-        heat=state.heat + float(loss[surface.contact].sum()),
-        path=state.path + h * float(np.sum(v**2)),
+        now,
+        switches=before.switches + int(switched.sum()),
+        work=before.work + surface.step * float(np.sum(pull * surface.slider)),
+        heat=before.heat + float(loss[surface.contact].sum()),
+        path=before.path + path,
     )
 
 
@@ -322,19 +330,8 @@ def runge_kutta(surface: Surface, state: State) -> State:
     further = np.sum(way * e, axis=0)
     slip = np.where(turned, 0.0, np.where(let_go, 0.0, slip) + further)
     new = np.where(turned, 0.0, new)
-    pull = surface.material.k_s * (surface.slider * h * (k + 1) - u)
-    return replace(
-        state,
-        k=k + 1,
-        u=u,
-        v=new,
-        slip=slip,
-        t_det=t_det,
-        switches=state.switches + int(let_go.sum()),
-        work=state.work + h * float(np.sum(pull * surface.slider)),
-        heat=state.heat + m * float((rubs / h + lost)[contact].sum()),
-        path=state.path + path,
-    )
+    loss = m * (rubs / h + lost)
+    return _booked(surface, State(k + 1, u, new, slip, t_det), state, let_go, loss, path)
 
 
 def _direction(

@@ -309,6 +309,19 @@ def test_blocks_under_equal_stress_do_not_weaken_the_order(inside, rng):
     assert abs(rank_correlation(stress, rng.random(maps.shape)).value) < 0.6
 
 
+def test_where_two_sizes_may_have_the_lowest_friction_neither_speaks_against_the_other(monkeypatch):
+    """What holds wherever it is lowest stays; what one of the two alone would refute is open."""
+    evidence = paper.evidence(records())
+    known = {f.case["n_p"]: f.outcome() for f in BY_NAME["roundest_peak"].test(evidence)}
+    assert set(known.values()) == {"holds"}
+    monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, scenes: scenes[:2])
+    found = {f.case["n_p"]: f for f in BY_NAME["roundest_peak"].test(evidence)}
+    assert len(found) == len(known) + 1  # the lowest itself as well
+    may_be_lowest = list(found.values())[:2]
+    assert all(np.isinf(each.estimate.ci_high) for each in may_be_lowest)
+    assert "fails" not in [each.outcome() for each in may_be_lowest]
+
+
 @pytest.mark.parametrize(("rise", "outcome"), [(0.1, "holds"), (0.0, "open"), (-0.1, "fails")])
 def test_a_slope_is_as_certain_as_its_surfaces_are_alike(rise, outcome, rng):
     x = np.arange(10.0)

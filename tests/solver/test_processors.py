@@ -60,7 +60,10 @@ print(*("zmm" in code for code in doubled.inspect_asm().values()))
 """
 
 
-@pytest.mark.skipif(platform.machine() != "x86_64", reason="only x86-64 has AVX-512")
+@pytest.mark.skipif(
+    platform.machine() != "x86_64",
+    reason="looks for the 512-bit registers of x86-64; other processors have none",
+)
 @pytest.mark.parametrize(
     ("chosen", "wide"), [({}, "True"), ({"NUMBA_CPU_NAME": "skylake-avx512"}, "False")]
 )
