@@ -1,8 +1,7 @@
 """The model in NumPy, an equation a line, in the order and the symbols of docs/model.md.
 
 It leaves nothing out and saves nothing: all blocks are followed through all steps, in SI units. The
-compiled solver is held to it step by step (`tests/validation/test_specification.py`). A law of
-friction is a Python function here, and best tried here first:
+compiled solver is held to it step by step (`tests/validation/test_specification.py`):
 
     from springblock import Pattern, draw_friction
     from springblock.specification import follow
@@ -13,6 +12,7 @@ friction is a Python function here, and best tried here first:
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -20,17 +20,65 @@ from numpy.typing import NDArray
 
 from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.model.direction import heading
+from springblock.model.law import LawFile
 from springblock.model.material import Material
 
 Array = NDArray[np.float64]
-#: (material, mu_static, mu_dynamic, slip, speed, step) -> mu of blocks that slide; slip in m and
-#: speed in m/s, of all blocks.
-Friction = Callable[..., Array]
+#: State variables of all blocks that slide, by name, (N_y, N_x) each.
+Memory = dict[str, Array]
 
 #: Neighbours of a block, as steps along y and x.
 _NEIGHBOURS = [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
 #: Nodes and weights of the Runge-Kutta method.
 _STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of friction, whose functions say by the names of their arguments what they need."""
+
+    friction: Callable[..., Array]  #: mu of blocks that slide
+    update: Callable[..., Any]  #: state after a step, in the order of `initial`
+    initial: dict[str, float]  #: state of a block that lets go
+    constants: dict[str, Any]
+
+    @classmethod
+    def of(cls, material: Material) -> "Law":
+        """Return the law of a material."""
+        law = material.law
+        if not isinstance(law, LawFile):
+            return cls(LAWS[law], slipped, {"slip": 0.0}, dict(material.items()))
+        functions = [law.friction, law.update if law.initial else lambda: ()]
+        one_by_one = (_for_arrays(function) for function in functions)
+        return cls(*one_by_one, law.initial, dict(law.values))
+
+    def mu(
+        self, mu_static: Array, mu_dynamic: Array, memory: Memory, speed: Array, step: float
+    ) -> Array:
+        """Friction coefficient of blocks in a state, at a speed in m/s."""
+        at = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "speed": speed, "step": step}
+        return _called(self.friction, self.constants | at | memory) + 0.0 * speed
+
+    def after(self, memory: Memory, speed: Array, step: float) -> Memory:
+        """State after a step at this mean speed."""
+        known = {**self.constants, **memory, "speed": speed, "step": step}
+        after = _called(self.update, known) if self.initial else ()
+        return dict(zip(self.initial, after if len(self.initial) > 1 else (after,), strict=False))
+
+    def fresh(self, like: Array) -> Memory:
+        """State of blocks that let go."""
+        return {name: np.full_like(like, value) for name, value in self.initial.items()}
+
+
+def _called(function: Callable[..., Any], known: dict[str, Any]) -> Any:
+    return function(*(known[name] for name in signature(function).parameters))
+
+
+def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of numbers as one of arrays."""
+    each: Any = np.vectorize(function)
+    each.__signature__ = signature(function)
+    return each  # type: ignore[no-any-return]
 
 
 @dataclass(frozen=True)
@@ -44,7 +92,7 @@ class Surface:
     slider: Array  #: (2, 1, 1) m/s
     step: float  #: h, s
     periodic: bool
-    friction: Friction
+    law: Law
 
     @classmethod
     def of(
@@ -67,7 +115,7 @@ class Surface:
             slider=material.slider_velocity * np.array(heading(direction)).reshape(2, 1, 1),
             step=step,
             periodic=periodic,
-            friction=LAWS[material.law],
+            law=Law.of(material),
         )
 
     @property
@@ -85,7 +133,7 @@ class State:
     k: int  #: steps taken
     u: Array  #: displacement, (2, N_y, N_x) m
     v: Array  #: velocity, (2, N_y, N_x) m/s
-    slip: Array  #: since the block let go, (N_y, N_x) m
+    memory: Memory  #: state variables of the law, of blocks that slide
     t_det: Array  #: first detachment, (N_y, N_x) s; infinite before
     switches: int = 0  #: blocks that went from rest to sliding
     work: float = 0.0  #: the slider's, J
@@ -93,31 +141,38 @@ class State:
     path: float = 0.0  #: sum of v² h over blocks and steps, for the heat of damping, m²/s
 
 
-def coulomb(
-    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
-) -> Array:
+def coulomb(mu_dynamic: Array) -> Array:
     """Amontons-Coulomb: mu_d."""
     return mu_dynamic
 
 
 def slip_weakening(
-    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+    mu_static: Array,
+    mu_dynamic: Array,
+    slip: Array,
+    speed: Array,
+    step: float,
+    slip_distance: float,
 ) -> Array:
     """Linear weakening along d_c; at once where a step from rest leads beyond d_c."""
-    d_c, drop = material.slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
+    d_c, drop = slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
     at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= d_c)
     return mu_dynamic + drop * np.where(at_once, 0.0, np.maximum(1.0 - slip / d_c, 0.0))
 
 
 def velocity_weakening(
-    material: Material, mu_static: Array, mu_dynamic: Array, slip: Array, speed: Array, step: float
+    mu_static: Array, mu_dynamic: Array, speed: Array, speed_scale: float
 ) -> Array:
     """Friction falls with the speed, by half of its drop at v_c."""
-    drop = np.maximum(mu_static - mu_dynamic, 0.0)
-    return mu_dynamic + drop / (1.0 + speed / material.speed_scale)
+    return mu_dynamic + np.maximum(mu_static - mu_dynamic, 0.0) / (1.0 + speed / speed_scale)
 
 
-LAWS: dict[str, Friction] = {
+def slipped(slip: Array, speed: Array, step: float) -> Array:
+    """Slip since the block let go."""
+    return slip + speed * step
+
+
+LAWS: dict[str, Callable[..., Array]] = {
     "coulomb": coulomb,
     "slip_weakening": slip_weakening,
     "velocity_weakening": velocity_weakening,
@@ -134,18 +189,15 @@ def follow(
     step: float = STEP,
     steps: int = 1000,
     periodic: bool = False,
-    friction: Friction | None = None,
 ) -> Iterator[State]:
     """Pull a surface from rest; yield its state after each step.
 
-    Arguments are those of `simulate`, and the number of `steps`. A `friction` of one's own takes
-    the place of the material's law.
+    Arguments are those of `simulate`, and the number of `steps`.
     """
     surface = Surface.of(contact, mu_static, mu_dynamic, material, direction, step, periodic)
-    if friction is not None:
-        surface = replace(surface, friction=friction)
     zero = np.zeros((2, *surface.contact.shape))
-    state = State(0, zero, zero, zero[0], np.full(zero[0].shape, np.inf))
+    never = np.full(zero[0].shape, np.inf)
+    state = State(0, zero, zero, surface.law.fresh(zero[0]), never)
     for _ in range(steps):
         state = INTEGRATORS[integrator](surface, state)
         yield state
@@ -175,7 +227,9 @@ def motive_force(surface: Surface, u: Array, steps: float) -> Array:
     return spring_force(surface, u) + surface.material.k_s * (slider - u)
 
 
-def resistance(surface: Surface, tau: float, slip: Array, speed: Array, share: float) -> Array:
+def resistance(
+    surface: Surface, tau: float, memory: Memory, speed: Array, share: Array | float
+) -> Array:
     """T, the velocity that friction takes of each block, at the mean speed V = speed + share T.
 
     Of several V the largest, which a block comes from as it slows down. T is infinite where no V
@@ -183,11 +237,11 @@ def resistance(surface: Surface, tau: float, slip: Array, speed: Array, share: f
     """
 
     def taken(mean: Array) -> Array:
-        own = surface.mu_static, surface.mu_dynamic, slip, mean, surface.step
-        mu = surface.friction(surface.material, *own)
-        return tau / surface.material.mass * surface.load * mu
+        own = surface.mu_static, surface.mu_dynamic, memory, mean, surface.step
+        return tau / surface.material.mass * surface.load * surface.law.mu(*own)
 
-    if share == 0.0:
+    share = np.asarray(share)
+    if not share.any():
         return taken(speed)
     still = np.zeros_like(speed)
     low, high = still, np.maximum(speed, speed + share * taken(still))
@@ -213,21 +267,24 @@ def leapfrog(surface: Surface, state: State) -> State:
     w = a * v + tau / m * force
     along = np.sum(v * w, axis=0)
     mean = np.where(along > 0.0, v + w, w)
-    taken = resistance(surface, tau, state.slip, 0.5 * np.hypot(*mean), -0.5)
-    f_n = surface.load
+    end = _share_of_end(surface, tau, state.memory, np.hypot(*v))
+    at = np.where(along > 0.0, (1.0 - end) * v, 0.0) + end * w
+    taken = resistance(surface, tau, state.memory, np.hypot(*at), -end)
+    f_n, fresh = surface.load, surface.law.fresh(along)
     held = (along <= 0.0) & (np.hypot(*force) <= surface.mu_static * f_n)
     slides = (np.hypot(*w) > taken) & ~held
     with np.errstate(invalid="ignore"):
         new = np.where(slides, w - taken * mean / np.hypot(*mean), 0.0)
-    slip = np.where(slides, state.slip + h * np.hypot(*new), 0.0)
+    memory = _where(slides, surface.law.after(state.memory, np.hypot(*new), h), fresh)
     loss = m / tau * np.sum((w - new) * (v + new), axis=0) * h / 2.0
     t_det = np.where(contact & slides, np.minimum(state.t_det, k * h), state.t_det)
     switched = contact & slides & (along <= 0.0)
 
     # Releases lie within the step: share theta of it has passed since.
     let_go = contact & slides & (np.hypot(*v) == 0.0)
-    threshold = np.maximum(surface.mu_static, surface.mu_dynamic) * f_n
-    before = u - h * _velocity_before(surface, tau, state.slip, force, new)
+    at_rest = resistance(surface, tau, fresh, 0.0 * along, 0.0) * m / tau
+    threshold = np.maximum(surface.mu_static * f_n, at_rest)
+    before = u - h * _velocity_before(surface, tau, state.memory, force, new)
     before = np.hypot(*motive_force(surface, before, k - 1))
     let_go &= before <= threshold
     theta = np.where(let_go, np.hypot(*force) - threshold, 0.0)
@@ -237,15 +294,15 @@ def leapfrog(surface: Surface, state: State) -> State:
     near = h * tau / m * (k_s + 6.0 * k_int) / 4.0
     theta = theta + near * (0.5 - theta)
     moved, speed, size = theta**2 / 2.0 - near / 8.0, 0.5 + theta, np.hypot(*new)
-    slip = np.where(let_go, h * (moved + speed) * size, slip)
-    rubs = m / tau * h * resistance(surface, tau, 0.0 * slip, 0.5 * size, 0.0) * size
+    memory = _where(let_go, surface.law.after(fresh, (moved + speed) * size, h), memory)
+    rubs = m / tau * h * resistance(surface, tau, fresh, 0.5 * size, 0.0) * size
     credit = 0.125 - near / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * moved**2
     more = rubs * (moved + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
     loss = loss + np.where(let_go, more, 0.0)
     u = u + h * np.where(let_go, moved + speed, 1.0) * new
     v = np.where(let_go, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _booked(surface, State(k + 1, u, v, slip, t_det), state, switched, loss, path)
+    return _booked(surface, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
 
 
 def _booked(
@@ -267,13 +324,31 @@ def _booked(
     )
 
 
-def _velocity_before(surface: Surface, tau: float, slip: Array, force: Array, new: Array) -> Array:
+def _where(chosen: NDArray[np.bool_], memory: Memory, other: Memory) -> Memory:
+    """State of the chosen blocks, and another one of the others."""
+    return {name: np.where(chosen, memory[name], other[name]) for name in memory}
+
+
+def _share_of_end(surface: Surface, tau: float, memory: Memory, speed: Array) -> Array:
+    """Share of the velocity after a step in the one that friction is taken at.
+
+    1/2, but more where friction rises so steeply with speed that the velocity would ring.
+    """
+    slow = resistance(surface, tau, memory, speed, 0.0)
+    rise = resistance(surface, tau, memory, 2.0 * speed, 0.0) - slow
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where((speed > 0.0) & (rise > speed), np.maximum(0.5, 1.0 - speed / rise), 0.5)
+
+
+def _velocity_before(
+    surface: Surface, tau: float, memory: Memory, force: Array, new: Array
+) -> Array:
     """v as far as the velocity after the step tells: of blocks that stop in it, zero."""
     m, a = surface.material.mass, np.exp(-surface.material.gamma * surface.step)
     mean = (1.0 + a) * new - tau / m * force
     ahead = np.sign(np.sum(mean * new, axis=0))
     speed = ahead * np.hypot(*mean) / (2.0 * a)
-    taken = resistance(surface, tau, slip, speed, 1.0 / (2.0 * a))
+    taken = resistance(surface, tau, memory, speed, 1.0 / (2.0 * a))
     with np.errstate(invalid="ignore"):
         w = new + taken * ahead * mean / np.hypot(*mean)
     return np.where(new.any(axis=0), (w - tau / m * force) / a, 0.0)
@@ -285,20 +360,20 @@ def runge_kutta(surface: Surface, state: State) -> State:
     k, u, v, contact, f_n = state.k, state.u, state.v, surface.contact, surface.load
     force = motive_force(surface, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
-    at_rest = resistance(surface, h, state.slip, h / m * size / 2.0, -0.5)
-    taken = np.where(rests, at_rest, resistance(surface, h, state.slip, np.hypot(*v), 0.0))
+    at_rest = resistance(surface, h, state.memory, h / m * size / 2.0, -0.5)
+    taken = np.where(rests, at_rest, resistance(surface, h, state.memory, np.hypot(*v), 0.0))
     let_go = rests & (size > surface.mu_static * f_n) & (h / m * size > taken)
     e = _direction(surface, force, v, taken, let_go)
     stays = rests & ~let_go
 
     taken = np.where(stays, 0.0, taken)
     a = np.where(let_go, h / m * force - taken * e, 0.0)
-    slip = np.where(let_go, h * np.hypot(*a) / 8.0, state.slip)
+    slip = np.where(let_go, h * np.hypot(*a) / 8.0, state.memory["slip"])
     v = np.where(let_go, a / 2.0, v)  # as if it had been sliding for half a step
     first, stage_u, stage_v = taken, u, v
     way, gain, path, rubs = h * a / 8.0, 0.0 * v, 0.0, 0.0 * size
     for (node, weight), reach in zip(_STAGES, (0.5, 0.5, 1.0, 0.0), strict=True):
-        so_far = slip + np.sum((stage_u - u) * e, axis=0)
+        so_far = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
         along = np.sum(stage_v * e, axis=0)
         taken = resistance(surface, h, so_far, np.abs(along), 0.0)
         force = motive_force(surface, stage_u, k + node)
@@ -331,7 +406,7 @@ def runge_kutta(surface: Surface, state: State) -> State:
     slip = np.where(turned, 0.0, np.where(let_go, 0.0, slip) + further)
     new = np.where(turned, 0.0, new)
     loss = m * (rubs / h + lost)
-    return _booked(surface, State(k + 1, u, new, slip, t_det), state, let_go, loss, path)
+    return _booked(surface, State(k + 1, u, new, {"slip": slip}, t_det), state, let_go, loss, path)
 
 
 def _direction(
@@ -344,7 +419,7 @@ def _direction(
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
-        back = taken if surface.friction is coulomb else 0.0
+        back = taken if surface.law.friction is coulomb else 0.0
         middle = v + (h / m * force - back * ahead) / (2.0 * (1.0 + gamma * h) ** 2)
         on = np.sum(middle * ahead, axis=0) > 0.0
         sliding = np.where(on, middle / np.hypot(*middle), ahead)

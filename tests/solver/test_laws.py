@@ -43,7 +43,7 @@ def test_there_is_a_law_for_each_name():
     """In units of l and of l per step."""
     for name, constant in LAWS.items():
         material = Material(law=name, **({constant: 2e-6} if constant else {}))
-        law = law_of(material, 1e-8, lambda: np.zeros(3))
+        law = law_of(material, 1e-8, 1.0, np.ones(3, bool), lambda: np.zeros(3))
         kind = {"coulomb": type(None), "slip_weakening": SlipWeakening}
         assert isinstance(law, kind.get(name, VelocityWeakening))
     assert law.scale == pytest.approx(2e-6 * 1e-8 / 1e-5, rel=1e-15)
@@ -55,9 +55,9 @@ def test_python_and_compiled_callers_get_the_same(law):
     for way, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
         plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
         assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
-    assert laws.slip_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
-    laws.keep_slip(law, 1, 0.7)
-    assert laws.slip_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
+    assert laws.state_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
+    laws.keep(law, 1, 0.5, 0.2, True)
+    assert laws.state_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 
 def test_friction_falls_linearly_along_the_way():

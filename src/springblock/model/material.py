@@ -1,8 +1,12 @@
 """The elastic layer, its loading and its surface: every constant of the paper, in SI units."""
 
 import math
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from springblock.model.law import LawFile
 
 #: How the coefficients of the blocks may be distributed, see `springblock.model.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
@@ -12,8 +16,18 @@ LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": 
 #: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
 _MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
-#: Fields that are words, and what they may be.
-_WORDS: dict[str, Collection[str]] = {"distribution": DISTRIBUTIONS, "law": LAWS}
+
+
+def _law(given: Any) -> str | LawFile:
+    """Read a law: one of `LAWS`, a Python file, or what a table has kept of one."""
+    if isinstance(given, LawFile) or (isinstance(given, str) and given in LAWS):
+        return given
+    is_file = isinstance(given, str | Path) and str(given).endswith(".py")
+    law = LawFile.read(Path(given)) if is_file else LawFile.named(str(given))
+    if law is None:
+        known = ", ".join(LAWS)
+        raise ValueError(f"Material.law must be one of {known}, or a file FILE.py, not {given!r}")
+    return law
 
 
 @dataclass(frozen=True)
@@ -45,15 +59,18 @@ class Material:
     mu_dynamic_std: float = 0.05  #: its standard deviation
     distribution: str = "normal"  #: of both, one of `DISTRIBUTIONS`
     correlation_length: float = 0.0  #: m, over which they are alike; 0: each block for itself
-    law: str = "coulomb"  #: of friction, one of `LAWS`
+    law: str | LawFile = "coulomb"  #: of friction, one of `LAWS` or from a file
     slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
     speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "law", _law(self.law))
         for name, value in self.items():
-            if name in _WORDS:
-                if value not in _WORDS[name]:
-                    known = ", ".join(_WORDS[name])
+            if name == "law":
+                continue
+            if name == "distribution":
+                if value not in DISTRIBUTIONS:
+                    known = ", ".join(DISTRIBUTIONS)
                     raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
                 continue
             if isinstance(value, bool) or not isinstance(value, int | float):
@@ -82,10 +99,37 @@ class Material:
                 raise ValueError(f"Material.{name} must be positive with {law}, not {value!r}")
             if law != self.law and value:
                 raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
+        if isinstance(self.law, LawFile):
+            twice = dict(self.law.values).keys() & {field.name for field in fields(self)}
+            if twice:
+                raise ValueError(f"{self.law}: the name {min(twice)!r} is given twice")
 
     def items(self) -> Iterator[tuple[str, float | str]]:
-        """Yield (name, value) of every constant; all are numbers but words."""
-        return ((field.name, getattr(self, field.name)) for field in fields(self))
+        """Yield (name, value) of every constant; all are numbers but words.
+
+        Those of a law from a file are part of its text.
+        """
+        for field in fields(self):
+            value = getattr(self, field.name)
+            yield field.name, value.described if isinstance(value, LawFile) else value
+
+    def vary(self, constants: Mapping[str, Any]) -> "Material":
+        """Return a material with other constants, those of its law among them.
+
+        Raises
+        ------
+        TypeError, ValueError
+            Where there is no such constant, or it has no such value.
+        """
+        known = [field.name for field in fields(self)]
+        own = {name: value for name, value in constants.items() if name in known}
+        others = {name: value for name, value in constants.items() if name not in known}
+        material = replace(self, **own)
+        if not others:
+            return material
+        if not isinstance(material.law, LawFile):
+            raise ValueError(f"{min(others)!r} is no constant; there are {', '.join(known)}")
+        return replace(material, law=material.law.vary(others))
 
     @property
     def k_int(self) -> float:

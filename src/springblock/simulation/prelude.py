@@ -25,6 +25,7 @@ from springblock.simulation.checks import checked_surface
 from springblock.simulation.setup import PAPER, Setup
 from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
+from springblock.solver.laws import strengths
 
 Array = NDArray[np.float64]
 
@@ -94,7 +95,8 @@ class Prelude:
         """
         blocks, grid = state.blocks, constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
-        threshold = unpadded(np.maximum(blocks.static, blocks.dynamic), grid)[bound] ** 2
+        coefficients = (unpadded(field, grid)[bound] for field in (blocks.static, blocks.dynamic))
+        threshold = strengths(state.law, *coefficients) ** 2
         holds = (self.peak * (1.0 + _SLACK) <= threshold).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:

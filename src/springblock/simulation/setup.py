@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
+from springblock.model.law import LawFile
 from springblock.model.material import Material
 from springblock.simulation.checks import check_positive, whole_multiple
 from springblock.solver.stability import IS_STABLE
@@ -41,14 +42,15 @@ class Setup:
             known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
         check_positive("step", self.step)
+        self._check_law()
         self._check_stability()
         _ = self.every
 
     def vary(self, constants: Mapping[str, Any]) -> "Setup":
         """Return a setup with other constants of the material, another integrator or step."""
         own = {key: constants[key] for key in ("integrator", "step") if key in constants}
-        material = {name: value for name, value in constants.items() if name not in own}
-        return replace(self, material=replace(self.material, **material), **own)
+        others = {name: value for name, value in constants.items() if name not in own}
+        return replace(self, material=self.material.vary(others), **own)
 
     @property
     def constants(self) -> dict[str, Any]:
@@ -107,6 +109,15 @@ class Setup:
                 f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
+
+    def _check_law(self) -> None:
+        law = self.material.law
+        if isinstance(law, LawFile):
+            law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
+            if self.integrator != "leapfrog":
+                raise ValueError(
+                    f"integrator must be leapfrog with the law {law}, not {self.integrator!r}"
+                )
 
     def _check_stability(self) -> None:
         omega = np.linspace(self.material.omega_min, self.material.omega_max, 33)

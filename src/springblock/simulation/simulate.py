@@ -29,6 +29,7 @@ from springblock.solver.lattice import (
     prepare,
     unpadded,
 )
+from springblock.solver.laws import FromFile
 
 Array = NDArray[np.float64]
 
@@ -203,9 +204,15 @@ class _Motion:
         done, row, column = self.advance(
             self.state, self.constants, first, more * every, every, taken
         )
+        now, law = (first + done) * self.setup.step, self.state.law
+        if isinstance(law, FromFile) and law.failed[0] >= 0:
+            raise SimulationError(
+                f"by t = {now:.4g} s {self.setup.material.law} has returned a friction coefficient "
+                "that is negative or not finite"
+            )
         if row >= 0:
             raise SimulationError(
-                f"at t = {(first + done) * self.setup.step:.4g} s a spring at block "
+                f"at t = {now:.4g} s a spring at block "
                 f"(y, x) = ({row}, {column}) has collapsed to less than half its length, grown "
                 "to more than twice, or become NaN"
             )

@@ -10,18 +10,21 @@ import math
 from numba import njit
 
 from springblock.solver.inverse_root import inverse_root
-from springblock.solver.laws import keep_slip, resistance, slip_of
+from springblock.solver.laws import keep, resistance, share_of_end, state_of
 
 
 @njit(inline="always")
 def slow_down(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     """Apply the Coulomb step to block `b`, with the resistance given by its friction law."""
-    mean_x, mean_y = (wx + vx, wy + vy) if wx * vx + wy * vy > 0.0 else (wx, wy)
-    speed, slip = 0.5 * math.sqrt(mean_x * mean_x + mean_y * mean_y), slip_of(law, b)
-    friction = resistance(law, slip, speed, -0.5, static, dynamic)
+    state, forwards = state_of(law, b), wx * vx + wy * vy > 0.0
+    end = share_of_end(law, state, math.sqrt(vx * vx + vy * vy), static, dynamic)
+    start = 1.0 - end if forwards else 0.0
+    mean_x, mean_y = start * vx + end * wx, start * vy + end * wy
+    speed = math.sqrt(mean_x * mean_x + mean_y * mean_y)
+    friction = resistance(law, state, speed, -end, static, dynamic)
     new_x, new_y, slides, along = coulomb(wx, wy, vx, vy, fx, fy, static, friction)
     moved = math.sqrt(new_x * new_x + new_y * new_y)
-    keep_slip(law, b, slip + moved if slides else 0.0)
+    keep(law, b, state, moved, slides)
     return new_x, new_y, slides, along
 
 

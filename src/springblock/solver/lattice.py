@@ -63,8 +63,8 @@ class State(NamedTuple):
     law: Law  #: of friction; a prelude, whose blocks never let go, needs none
 
     def copy(self) -> "State":
-        """Return a state that shares no memory with this one."""
-        return deepcopy(self)
+        """Return a state that shares no memory with this one, but for the law's functions."""
+        return deepcopy(self, {id(part): part for part in self.law or () if callable(part)})
 
 
 class Constants(NamedTuple):
@@ -177,22 +177,25 @@ def prepare(
 
     static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
     dynamic = np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)
+    blocks = Blocks(
+        ux=field(),
+        uy=field(),
+        wx=field(),
+        wy=field(),
+        t_det=padded(np.full((n_y, n_x), np.inf), np.inf),
+        static=padded(static, 0.0),
+        dynamic=padded(dynamic, np.inf),
+    )
     state = State(
-        blocks=Blocks(
-            ux=field(),
-            uy=field(),
-            wx=field(),
-            wy=field(),
-            t_det=padded(np.full((n_y, n_x), np.inf), np.inf),
-            static=padded(static, 0.0),
-            dynamic=padded(dynamic, np.inf),
-        ),
+        blocks=blocks,
         scratch=scratch(),
         work=tuple(field() for _ in range(integrator.WORK_FIELDS)),
         ledger=np.zeros(3),
         peak=field() if keep_peak else None,
         in_contact=np.asarray(contact.any(axis=1)),
-        law=None if keep_peak else law_of(material, step, field),
+        law=None
+        if keep_peak
+        else law_of(material, step, load * velocity_per_force, blocks.static > 0.0, field),
     )
     slide = material.slider_velocity * step / material.spacing
     constants = Constants(

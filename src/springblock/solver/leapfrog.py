@@ -29,7 +29,7 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import keep_slip, resistance, slip_of
+from springblock.solver.laws import fresh, keep, resistance, state_before, state_of, strength
 from springblock.solver.release import force_in, placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 from springblock.solver.stability import leapfrog_force_time
@@ -211,7 +211,9 @@ def _find_released(blocks, law, released, count, band, s, row):
         if blocks.static[b] > 0.0 and (wx != 0.0 or wy != 0.0):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             force = math.hypot(fx, fy)
-            friction = resistance(law, 0.0, 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b])
+            friction = resistance(
+                law, fresh(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
+            )
             left = 1.0 - friction / force
             if math.hypot(wx - left * fx, wy - left * fy) <= _SAME * math.hypot(fx, fy):
                 released.row[count], released.x[count] = np.int64(row), np.int64(x)
@@ -241,9 +243,9 @@ def _look_around(blocks, law, released, row, x, constants, slider):
             # Friction acted along this vector, on the same side as w.
             mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
             size, forwards = math.hypot(mean_x, mean_y), mean_x * wx + mean_y * wy
-            slip = max(slip_of(law, b) - math.hypot(wx, wy), 0.0)
+            state = state_before(law, state_of(law, b), math.hypot(wx, wy))
             speed, share = math.copysign(size, forwards) / (2.0 * a), 1.0 / (2.0 * a)
-            friction = resistance(law, slip, speed, share, blocks.static[b], blocks.dynamic[b])
+            friction = resistance(law, state, speed, share, blocks.static[b], blocks.dynamic[b])
             along = math.copysign(friction / size, forwards)
             before[0, j, i] -= (wx + along * mean_x - fx) / a
             before[1, j, i] -= (wy + along * mean_y - fy) / a
@@ -263,7 +265,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         row, x = released.row[m], released.x[m]
         b = place(row, x, constants.grid)
         _look_around(blocks, law, released, row, x, constants, slider)
-        threshold = max(blocks.static[b], blocks.dynamic[b])
+        threshold = strength(law, blocks.static[b], blocks.dynamic[b])
         released.share[m] = share_of_step(released, threshold, springs, slider, slide)
     for m in range(count):
         row, share = released.row[m], released.share[m]
@@ -283,8 +285,9 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         rows.y[row] += further * ay
         a2 = ax * ax + ay * ay
         a1 = math.sqrt(a2)
-        friction = resistance(law, 0.0, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
-        keep_slip(law, b, (slip + speed) * a1)
+        state = fresh(law)
+        friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
+        keep(law, b, state, (slip + speed) * a1, True)
         work = friction * a1 * (slip + 0.5 * (share - 0.5))
         credit = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)
         rows.heat[row] += work + credit

@@ -32,7 +32,7 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import keep_slip, resistance, slip_of
+from springblock.solver.laws import keep, resistance, state_of
 from springblock.solver.release import placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
@@ -115,7 +115,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
             rests = wx[b] == 0.0 and wy[b] == 0.0
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (wx[b], wy[b])
-            speed, slip = math.sqrt(half_x * half_x + half_y * half_y), slip_of(law, b)
+            speed, slip = math.sqrt(half_x * half_x + half_y * half_y), state_of(law, b)
             share = -0.5 if rests else 0.0  # see `resistance`
             friction = resistance(law, slip, speed, share, static[b], dynamic[b])
             ex[b], ey[b] = _friction_direction(
@@ -125,7 +125,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
-                keep_slip(law, b, 0.125 * excess)
+                keep(law, b, 0.0, 0.125 * excess, True)
                 wx[b], wy[b] = 0.5 * ax, 0.5 * ay
                 stage.wx[b], stage.wy[b] = wx[b], wy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -165,7 +165,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     for m in range(count):
         b = place(released.row[m], released.x[m], constants.grid)
         blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
-        keep_slip(law, b, 0.0)
+        keep(law, b, 0.0, 0.0, False)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = place(row, x, constants.grid)
@@ -192,7 +192,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
 @njit(inline="always")
 def _friction_in_stage(blocks, law, stage, b):
     """Friction where a stage has got to, and at its speed."""
-    ex, ey, slip = stage.ex[b], stage.ey[b], slip_of(law, b)
+    ex, ey, slip = stage.ex[b], stage.ey[b], state_of(law, b)
     slip += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
     speed = abs(stage.wx[b] * ex + stage.wy[b] * ey)
     return resistance(law, slip, speed, 0.0, blocks.static[b], blocks.dynamic[b])
@@ -235,6 +235,15 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
 
 
 @kernel
+def _displacement_of_row(ux, uy, i, n):
+    """Sums over a row, in an order that does not depend on the law: preludes know none."""
+    sum_x, sum_y = 0.0, 0.0
+    for x in range(ONE, n + ONE):
+        sum_x, sum_y = add(sum_x, ux[i + x]), add(sum_y, uy[i + x])
+    return sum_x, sum_y
+
+
+@kernel
 def _finish(blocks, law, stage, grid, heat, squares):
     """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
 
@@ -247,22 +256,22 @@ def _finish(blocks, law, stage, grid, heat, squares):
     total_x, total_y = 0.0, 0.0
     for row in range(grid.n_y):
         i = row * grid.pitch
-        sum_x, sum_y, heat_of_row = 0.0, 0.0, 0.0
+        heat_of_row = 0.0
         for x in range(ONE, grid.n_x + ONE):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
-            slip, further = slip_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
+            slip, further = state_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
             work = blocks.dynamic[b] * further if law is None else 0.0
-            keep_slip(law, b, 0.0 if turned else slip + further)
+            keep(law, b, slip, further, not turned)
             heat_of_row = add(heat_of_row, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
-            sum_x, sum_y = add(sum_x, there_x), add(sum_y, there_y)
             ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
+        sum_x, sum_y = _displacement_of_row(ux, uy, i, grid.n_x)
         total_x, total_y, heat = total_x + sum_x, total_y + sum_y, heat + heat_of_row
         close_edge(ux, uy, row, grid)
         close_edge(su, sv, row, grid)

@@ -1,0 +1,207 @@
+"""Laws of friction read from files: see `docs/howto.md`, "A law of one's own"."""
+
+import hashlib
+import inspect
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+#: Arguments that `friction` and `update` may name, besides constants and state variables.
+_OF_FRICTION = ("mu_static", "mu_dynamic", "speed")
+_OF_UPDATE = ("speed", "step")
+#: Speeds in m/s at which a law is tried before any run, besides rest.
+_TRIED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
+
+
+@dataclass(frozen=True)
+class LawFile:
+    """A law of friction from a Python file, with the values of its constants.
+
+    The file holds `friction`, which returns mu of a block that slides, and may hold `CONSTANTS`,
+    name: (value, unit), and `STATE`, the variables that each block keeps while it slides, name:
+    initial value or the constant that gives it. With a state it also holds `update`, which returns
+    the state after a step. Both functions name what they depend on as their arguments:
+    `mu_static`, `mu_dynamic` (of the block) and `speed` (m/s) in `friction`, `speed` (mean of the
+    step, m/s) and `step` (s) in `update`, and constants and state variables in both.
+
+    The name holds a digest of the file: a file that has changed is another law.
+    """
+
+    name: str  #: of the file and eight digits, as ageing-1a2b3c4d
+    values: tuple[tuple[str, float], ...] = ()  #: of its constants
+    file: Path | None = field(default=None, compare=False, repr=False)  #: None: its name alone
+    source: str = field(default="", compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return self.name
+
+    @classmethod
+    def read(cls, file: Path, **constants: float) -> "LawFile":
+        """Read a law; `constants` take the place of values in the file.
+
+        Raises
+        ------
+        ValueError
+            With one sentence on what is wrong with the file, or if it has no such constant.
+        """
+        try:
+            source = file.read_text(encoding="utf-8")
+        except FileNotFoundError:
+            raise ValueError(f"{file} does not exist") from None
+        except (OSError, UnicodeDecodeError) as error:
+            raise ValueError(f"{file} cannot be read: {error}") from None
+        stem = re.sub(r"[^\w.-]", "_", file.stem)
+        digest = hashlib.sha256(source.encode()).hexdigest()[:8]
+        law = cls(f"{stem}-{digest}", file=file, source=source)
+        law._check()
+        given = {name: value for name, (value, _) in law._constants.items()}
+        return replace(law, values=tuple(given.items())).vary(constants)
+
+    @classmethod
+    def named(cls, text: str) -> "LawFile | None":
+        """Return the law of which a table has kept `described`, without its functions."""
+        name, *pairs = text.split(" ")
+        if not re.fullmatch(r"[\w.-]+-[0-9a-f]{8}", name):
+            return None
+        values = (pair.split("=") for pair in pairs)
+        return cls(name, tuple((key, float(value)) for key, value in values))
+
+    @property
+    def described(self) -> str:
+        """Name and constants, as tables and captions have them."""
+        return " ".join([self.name, *(f"{name}={value!r}" for name, value in self.values)])
+
+    def vary(self, constants: Mapping[str, Any]) -> "LawFile":
+        """Return the law with other values of its constants.
+
+        Raises
+        ------
+        ValueError
+            Where it has no such constant, or the value is no finite number.
+        """
+        known = dict(self.values)
+        for name, value in constants.items():
+            if name not in known:
+                there_are = ", ".join(known) or "none"
+                raise ValueError(f"{name!r} is no constant of {self.name}; there are {there_are}")
+            if not _is_number(value):
+                raise ValueError(f"{name} must be a finite number, not {value!r}")
+            known[name] = float(value)
+        return replace(self, values=tuple(known.items()))
+
+    def run(self) -> dict[str, Any]:
+        """Run the file, and return what it defines."""
+        module: dict[str, Any] = {}
+        try:
+            exec(compile(self.source, str(self.file), "exec"), module)
+        except Exception as error:
+            raise ValueError(f"{self.file} cannot be run: {error!r}") from None
+        return module
+
+    @cached_property
+    def _module(self) -> dict[str, Any]:
+        return self.run()
+
+    @property
+    def friction(self) -> Callable[..., float]:
+        """(arguments by name) -> mu."""
+        return self._function("friction")
+
+    @property
+    def update(self) -> Callable[..., Any]:
+        """(arguments by name) -> the state after a step: a number, or a tuple of several."""
+        return self._function("update")
+
+    def _function(self, name: str) -> Callable[..., Any]:
+        if not inspect.isfunction(self._module.get(name)):
+            raise ValueError(f"{self.file} must define the function {name}")
+        function: Callable[..., Any] = self._module[name]
+        return function
+
+    @property
+    def _constants(self) -> dict[str, tuple[float, str]]:
+        return dict(self._module.get("CONSTANTS", {}))
+
+    @property
+    def initial(self) -> dict[str, float]:
+        """State of a block that lets go, by name."""
+        values, state = dict(self.values), self._module.get("STATE", {})
+        return {name: float(values.get(given, given)) for name, given in state.items()}
+
+    def arguments(self, name: str) -> list[str]:
+        """Names of the arguments of `friction` or `update`."""
+        return list(inspect.signature(self._function(name)).parameters)
+
+    def _check(self) -> None:
+        """Refuse, in one sentence, a file that is no law."""
+        for table in ("CONSTANTS", "STATE"):
+            if not isinstance(self._module.get(table, {}), dict):
+                raise ValueError(f"{self.file}: {table} must be a dictionary")
+        for name, given in self._module.get("CONSTANTS", {}).items():
+            if not (isinstance(given, tuple) and len(given) == 2 and _is_number(given[0])):
+                raise ValueError(
+                    f"{self.file}: CONSTANTS[{name!r}] must be (value, unit), not {given!r}"
+                )
+        for name, given in self._module.get("STATE", {}).items():
+            if not (_is_number(given) or given in self._constants):
+                raise ValueError(
+                    f"{self.file}: STATE[{name!r}] must be a number or the name of a constant, "
+                    f"not {given!r}"
+                )
+        own = [*self._constants, *self._module.get("STATE", {})]
+        for name in own:
+            if name in (*_OF_FRICTION, *_OF_UPDATE) or own.count(name) > 1:
+                raise ValueError(f"{self.file}: the name {name!r} is given twice")
+        for function, more in {"friction": _OF_FRICTION, "update": _OF_UPDATE}.items():
+            if function == "update" and not self._module.get("STATE"):
+                continue
+            for name in self.arguments(function):
+                if name not in (*own, *more):
+                    raise ValueError(
+                        f"{self.file}: {function} has the argument {name!r}; it may have "
+                        f"{', '.join([*more, *own])}"
+                    )
+
+    def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
+        """Try the law at several speeds with the mean coefficients.
+
+        Raises
+        ------
+        ValueError
+            Where it fails, returns no friction coefficient, or another state than it declares.
+        """
+        known = {**dict(self.values), "mu_static": mu_static, "mu_dynamic": mu_dynamic}
+        if self.file is None:
+            raise ValueError(f"of the law {self} nothing is known here but its name")
+        for speed in _TRIED:
+            at = {**known, "speed": speed, "step": step}
+            mu = self._tried("friction", {**at, **self.initial})
+            if not (_is_number(mu) and mu >= 0.0):
+                raise ValueError(
+                    f"{self.file}: friction must be finite and not negative, not {mu!r} at "
+                    f"{speed} m/s"
+                )
+            state = self._tried("update", {**at, **self.initial}) if self.initial else ()
+            after = state if isinstance(state, tuple) else (state,)
+            if len(after) != len(self.initial) or not all(map(_is_number, after)):
+                raise ValueError(
+                    f"{self.file}: update must return {len(self.initial)} finite numbers, "
+                    f"not {state!r} at {speed} m/s"
+                )
+
+    def _tried(self, name: str, known: Mapping[str, float]) -> Any:
+        try:
+            return self._function(name)(*(known[each] for each in self.arguments(name)))
+        except Exception as error:
+            raise ValueError(
+                f"{self.file}: {name} fails at {known['speed']} m/s: {error!r}"
+            ) from None
+
+
+def _is_number(value: Any) -> bool:
+    """Whether it is a finite real number; numpy's are, too."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
