@@ -13,7 +13,7 @@ compiled solver is held to it step by step (`tests/validation/test_specification
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from inspect import signature
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,9 +48,8 @@ class Law:
         law = material.law
         if not isinstance(law, LawFile):
             return cls(LAWS[law], slipped, {"slip": 0.0}, dict(material.items()))
-        functions = [law.friction, law.update if law.initial else lambda: ()]
-        one_by_one = (_for_arrays(function) for function in functions)
-        return cls(*one_by_one, law.initial, dict(law.values))
+        update = _for_arrays(law.update) if law.initial else tuple
+        return cls(_for_arrays(law.friction), update, law.initial, law.constants)
 
     def mu(
         self, mu_static: Array, mu_dynamic: Array, memory: Memory, speed: Array, step: float
@@ -78,7 +77,7 @@ def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of numbers as one of arrays."""
     each: Any = np.vectorize(function)
     each.__signature__ = signature(function)
-    return each  # type: ignore[no-any-return]
+    return cast(Callable[..., Any], each)
 
 
 @dataclass(frozen=True)

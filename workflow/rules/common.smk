@@ -13,7 +13,6 @@ from shlex import quote
 import yaml
 from snakemake.exceptions import WorkflowError
 
-from springblock import Material
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
 from springblock.study import cost, record
@@ -78,8 +77,10 @@ def scene(wildcards):
 
 
 def own_files(wildcards):
-    """Masks and coefficients that a scene is read from."""
-    return [str(file) for file in ENSEMBLE[wildcards.scene].scene.files.values()]
+    """Masks, coefficients and laws that a scene is read from."""
+    of_study = {"law": getattr(SETUP.material.law, "file", None)}
+    files = of_study | ENSEMBLE[wildcards.scene].scene.files
+    return [str(file) for file in files.values() if file]
 
 
 def duration(wildcards):

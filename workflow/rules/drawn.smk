@@ -59,5 +59,5 @@ def options_of(figure):
 
 def caption(figure):
     """What a figure shows, and what of this study it is drawn from."""
-    lengths, material = config["figures"].get(figure, {}), Material(**config["material"])
+    lengths, material = config["figures"].get(figure, {}), SETUP.material
     return FIGURES[figure].caption_in(PAPERS, lengths, material)

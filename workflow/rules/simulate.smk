@@ -6,7 +6,7 @@ HOW = " ".join(
     [
         f"--integrator {config['integrator']} --step {config['step']}",
         f"--sample-interval {config['sample_interval']}",
-        *(f"--material {name}={value}" for name, value in config["material"].items()),
+        *(f"--material {quote(f'{name}={value}')}" for name, value in config["material"].items()),
     ]
 )
 #: Integrators and laws of friction that are compiled before any job needs them.
@@ -14,7 +14,7 @@ SETUPS = [SETUP.vary(dict(ensemble.scene.varied)) for ensemble in ENSEMBLE.value
 COMPILED = {setup.integrator for setup in SETUPS}
 if config["accuracy"]:
     COMPILED |= {"leapfrog", "rk4"}
-LAWS = {setup.material.law for setup in SETUPS}
+LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS}
 #: Cuts of measured surfaces by the name of the mask that they make.
 CUTS = {
     ensemble.scene.mask.name: ensemble.scene.mask.cut
@@ -24,6 +24,8 @@ CUTS = {
 
 
 rule compile:
+    input:
+        [law for law in LAWS if law.endswith(".py")],
     output:
         touch(f"{RESULTS}/compiled"),
     log:
@@ -36,7 +38,7 @@ rule compile:
     params:
         code=code("compile"),
         integrators=" ".join(f"--integrator {name}" for name in sorted(COMPILED)),
-        laws=" ".join(f"--law {name}" for name in sorted(LAWS)),
+        laws=" ".join(f"--law {quote(name)}" for name in sorted(LAWS)),
     message:
         "Compiling the solver"
     shell:

@@ -45,8 +45,8 @@ def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
     return value_of
 
 
-def _varied(pairs: tuple[str, ...]) -> Varied:
-    """Read name=value pairs."""
+def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
+    """Read constants from their options."""
     return in_order(dict(pair.partition("=")[::2] for pair in pairs))
 
 
@@ -94,7 +94,7 @@ _SCENE = [
         "--vary",
         "varied",
         multiple=True,
-        callback=given(_varied),
+        callback=given(name_value_pairs),
         help="A constant of its own: step=1e-8.",
     ),
 ]

@@ -20,6 +20,7 @@ from springblock.cli.options import (
     OUTPUT,
     code_version,
     given,
+    name_value_pairs,
     one_sentence,
     scene_options,
     with_options,
@@ -31,7 +32,7 @@ from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.asperities import draw_friction
 from springblock.model.defaults import SAMPLE_INTERVAL, STEP
 from springblock.model.material import LAWS, Material
-from springblock.model.scene import TEXTS, Scene
+from springblock.model.scene import Scene
 from springblock.provenance import configuration_digest, same_code
 from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.prelude import Prelude, compute_prelude
@@ -40,27 +41,16 @@ from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import SimulationError, simulate
 from springblock.solver.integrators import INTEGRATORS
 
-
-def _material(pairs: tuple[str, ...]) -> Material:
-    """Read name=value pairs; what is not named has the paper's value."""
-    constants: dict[str, Any] = dict(Material().items())
-    for pair in pairs:
-        name, _, number = pair.partition("=")
-        if name not in constants:
-            raise ValueError(f"{name!r} is no constant; there are {', '.join(constants)}")
-        try:
-            constants[name] = number if name in TEXTS else float(number)
-        except ValueError:
-            raise ValueError(f"{name} must be a number, not {number!r}") from None
-    return Material(**constants)
-
-
 _SETUP = [
     click.option(
         "--material",
         multiple=True,
-        callback=given(_material),
+        callback=given(name_value_pairs),
         help="A constant in SI units: youngs_modulus=1e7, in Pa. May be given several times.",
+    ),
+    click.option(
+        "--law",
+        help="Law of friction: coulomb, slip_weakening, velocity_weakening or a file FILE.py.",
     ),
     click.option(
         "--integrator",
@@ -86,8 +76,10 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(command)
     def with_setup(*, scene: Scene, **options: Any) -> Any:
         given = {field.name: options.pop(field.name) for field in fields(Setup)}
+        law = options.pop("law")
+        constants = dict(given.pop("material")) | ({} if law is None else {"law": law})
         with one_sentence():
-            setup = Setup(**given).vary(dict(scene.varied))
+            setup = Setup(Material().vary(constants), **given).vary(dict(scene.varied))
         return command(scene=scene, setup=setup, **options)
 
     return scene_options(with_options(_SETUP, with_setup))
@@ -271,13 +263,14 @@ def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
 
 @click.command("compile")
 @click.option("--integrator", "integrators", type=click.Choice(list(INTEGRATORS)), multiple=True)
-@click.option("--law", "laws", type=click.Choice(LAWS), multiple=True)
+@click.option("--law", "laws", multiple=True, help="As of `springblock simulate`.")
 def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
     """Compile integrators once, with laws of friction, so that no job has to."""
     surface = Scene(n_blocks=4).contact
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
-        constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS[law] else {}
-        how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
-        loaded = compute_prelude(surface, **how)
-        simulate(surface, *draw_friction(4, 0), prelude=loaded, **how)
+        constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
+        with one_sentence():
+            how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
+            loaded = compute_prelude(surface, **how)
+            simulate(surface, *draw_friction(4, 0), prelude=loaded, duration=1e-6, **how)
         click.echo(f"{integrator} is compiled with the law {law}")

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from springblock.files import BLANK, MENDING, read_sealed, write_sealed
 from springblock.io.schemas import SCENE, SETUP
+from springblock.model.material import expanded, law_units
 from springblock.model.scene import Scene
 
 
@@ -150,8 +151,10 @@ def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     for path, table in tables:
         for row in _constants(table):
             own = {pair.partition("=")[0] for pair in row.pop("varied").split(", ")}
-            for name in [name for name in row if name not in own]:
-                value, (before, first) = row[name], known.setdefault(name, (row[name], path))
+            own |= law_units(row).keys() if "law" in own else set()
+            shared = {name: value for name, value in expanded(row).items() if name not in own}
+            for name, value in shared.items():
+                before, first = known.setdefault(name, (value, path))
                 if value != before:
                     raise ValueError(
                         f"{name} is {before!r} in {first} and {value!r} in {path}: runs of "

@@ -58,7 +58,9 @@ SETUP = pa.schema(
         column("mu_dynamic_std", pa.float64(), "1", "their standard deviation"),
         column("distribution", pa.string(), "1", "of both coefficients, where they are drawn"),
         column("correlation_length", pa.float64(), "m", "of both: exp(-r²/ℓ²) of their normals"),
-        column("law", pa.string(), "1", "of friction: coulomb, slip_ or velocity_weakening"),
+        column(
+            "law", pa.string(), "1", "of friction; of one from a file name, digest and constants"
+        ),
         column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 with other laws"),
         column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 with others"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),

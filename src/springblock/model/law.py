@@ -19,7 +19,7 @@ _TRIED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
 
 @dataclass(frozen=True)
 class LawFile:
-    """A law of friction from a Python file, with the values of its constants.
+    """A law of friction from a Python file, and what was given for its constants.
 
     The file holds `friction`, which returns mu of a block that slides, and may hold `CONSTANTS`,
     name: (value, unit), and `STATE`, the variables that each block keeps while it slides, name:
@@ -32,9 +32,10 @@ class LawFile:
     """
 
     name: str  #: of the file and eight digits, as ageing-1a2b3c4d
-    values: tuple[tuple[str, float], ...] = ()  #: of its constants
+    given: tuple[tuple[str, float], ...] = ()  #: values of constants other than in the file
     file: Path | None = field(default=None, compare=False, repr=False)  #: None: its name alone
     source: str = field(default="", compare=False, repr=False)
+    units: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
 
     def __str__(self) -> str:
         return self.name
@@ -58,22 +59,30 @@ class LawFile:
         digest = hashlib.sha256(source.encode()).hexdigest()[:8]
         law = cls(f"{stem}-{digest}", file=file, source=source)
         law._check()
-        given = {name: value for name, (value, _) in law._constants.items()}
-        return replace(law, values=tuple(given.items())).vary(constants)
+        units = {name: unit for name, (_, unit) in law._module.get("CONSTANTS", {}).items()}
+        no_unit = {"1": ""}
+        units = {name: no_unit.get(unit, unit) for name, unit in units.items()}
+        return replace(law, units=units).vary(constants)
 
     @classmethod
     def named(cls, text: str) -> "LawFile | None":
         """Return the law of which a table has kept `described`, without its functions."""
-        name, *pairs = text.split(" ")
-        if not re.fullmatch(r"[\w.-]+-[0-9a-f]{8}", name):
+        described = re.fullmatch(r"([\w.-]+-[0-9a-f]{8})(?: \((.*)\))?", text)
+        if not described:
             return None
-        values = (pair.split("=") for pair in pairs)
-        return cls(name, tuple((key, float(value)) for key, value in values))
+        name, constants = described.groups(default="")
+        found = re.findall(r"(\w+) = (\S+?)(?: (\S+))?(?:, |$)", constants)
+        units = {key: unit for key, _, unit in found}
+        return cls(name, tuple((key, float(value)) for key, value, _ in found), units=units)
 
     @property
     def described(self) -> str:
         """Name and constants, as tables and captions have them."""
-        return " ".join([self.name, *(f"{name}={value!r}" for name, value in self.values)])
+        constants = (
+            f"{name} = {value!r} {self.units[name]}".strip()
+            for name, value in self.constants.items()
+        )
+        return f"{self.name} ({', '.join(constants)})" if self.constants else self.name
 
     def vary(self, constants: Mapping[str, Any]) -> "LawFile":
         """Return the law with other values of its constants.
@@ -83,15 +92,15 @@ class LawFile:
         ValueError
             Where it has no such constant, or the value is no finite number.
         """
-        known = dict(self.values)
+        given = dict(self.given)
         for name, value in constants.items():
-            if name not in known:
-                there_are = ", ".join(known) or "none"
+            if name not in self.constants:
+                there_are = ", ".join(self.constants) or "none"
                 raise ValueError(f"{name!r} is no constant of {self.name}; there are {there_are}")
             if not _is_number(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
-            known[name] = float(value)
-        return replace(self, values=tuple(known.items()))
+            given[name] = float(value)
+        return replace(self, given=tuple(sorted(given.items())))
 
     def run(self) -> dict[str, Any]:
         """Run the file, and return what it defines."""
@@ -123,14 +132,16 @@ class LawFile:
         return function
 
     @property
-    def _constants(self) -> dict[str, tuple[float, str]]:
-        return dict(self._module.get("CONSTANTS", {}))
+    def constants(self) -> dict[str, float]:
+        """Values of its constants by name."""
+        in_file = self._module.get("CONSTANTS", {}) if self.source else {}
+        return {name: float(value) for name, (value, _) in in_file.items()} | dict(self.given)
 
     @property
     def initial(self) -> dict[str, float]:
         """State of a block that lets go, by name."""
-        values, state = dict(self.values), self._module.get("STATE", {})
-        return {name: float(values.get(given, given)) for name, given in state.items()}
+        constants, state = self.constants, self._module.get("STATE", {})
+        return {name: float(constants.get(given, given)) for name, given in state.items()}
 
     def arguments(self, name: str) -> list[str]:
         """Names of the arguments of `friction` or `update`."""
@@ -147,12 +158,12 @@ class LawFile:
                     f"{self.file}: CONSTANTS[{name!r}] must be (value, unit), not {given!r}"
                 )
         for name, given in self._module.get("STATE", {}).items():
-            if not (_is_number(given) or given in self._constants):
+            if not (_is_number(given) or given in self.constants):
                 raise ValueError(
                     f"{self.file}: STATE[{name!r}] must be a number or the name of a constant, "
                     f"not {given!r}"
                 )
-        own = [*self._constants, *self._module.get("STATE", {})]
+        own = [*self.constants, *self._module.get("STATE", {})]
         for name in own:
             if name in (*_OF_FRICTION, *_OF_UPDATE) or own.count(name) > 1:
                 raise ValueError(f"{self.file}: the name {name!r} is given twice")
@@ -174,7 +185,7 @@ class LawFile:
         ValueError
             Where it fails, returns no friction coefficient, or another state than it declares.
         """
-        known = {**dict(self.values), "mu_static": mu_static, "mu_dynamic": mu_dynamic}
+        known = {**self.constants, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
         if self.file is None:
             raise ValueError(f"of the law {self} nothing is known here but its name")
         for speed in _TRIED:

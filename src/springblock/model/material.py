@@ -18,8 +18,14 @@ _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_
 _MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
 
 
-def _law(given: Any) -> str | LawFile:
-    """Read a law: one of `LAWS`, a Python file, or what a table has kept of one."""
+def as_law(given: Any) -> str | LawFile:
+    """Read a law: one of `LAWS`, a Python file, or what a table has kept of one.
+
+    Raises
+    ------
+    ValueError
+        Where it is none of these, or on what is wrong with the file.
+    """
     if isinstance(given, LawFile) or (isinstance(given, str) and given in LAWS):
         return given
     is_file = isinstance(given, str | Path) and str(given).endswith(".py")
@@ -28,6 +34,19 @@ def _law(given: Any) -> str | LawFile:
         known = ", ".join(LAWS)
         raise ValueError(f"Material.law must be one of {known}, or a file FILE.py, not {given!r}")
     return law
+
+
+def expanded(constants: Mapping[str, Any]) -> dict[str, Any]:
+    """Return constants of a table with those of a law from a file each under its own name."""
+    law = as_law(constants["law"])
+    own = law.constants if isinstance(law, LawFile) else {}
+    return {**constants, **own, "law": str(law)}
+
+
+def law_units(constants: Mapping[str, Any]) -> dict[str, str]:
+    """Return the units of the constants of a law from a file, by name."""
+    law = as_law(constants["law"])
+    return dict(law.units) if isinstance(law, LawFile) else {}
 
 
 @dataclass(frozen=True)
@@ -64,7 +83,7 @@ class Material:
     speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "law", _law(self.law))
+        object.__setattr__(self, "law", as_law(self.law))
         for name, value in self.items():
             if name == "law":
                 continue
@@ -100,7 +119,7 @@ class Material:
             if law != self.law and value:
                 raise ValueError(f"Material.{name} must be zero with {self.law}, not {value!r}")
         if isinstance(self.law, LawFile):
-            twice = dict(self.law.values).keys() & {field.name for field in fields(self)}
+            twice = self.law.constants.keys() & {field.name for field in fields(self)}
             if twice:
                 raise ValueError(f"{self.law}: the name {min(twice)!r} is given twice")
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from springblock.model.blockmap import BlockMap
 from springblock.model.direction import normalised
-from springblock.model.material import Material
+from springblock.model.law import LawFile
+from springblock.model.material import Material, as_law
 from springblock.model.pattern import Pattern
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: of a scene, two for each level
@@ -239,7 +240,8 @@ class Scene:
         varied, files, options = dict(self.varied), self.files, []
         for name, value in self.named.items():
             if name in varied:
-                options.append(f"--vary {name}={value}")
+                given = getattr(varied[name], "file", None) or value
+                options.append(f"--vary {quote(f'{name}={given}')}")
             elif name in files:
                 options.append(f"{MAPS[name]} {quote(str(files[name]))}")
             elif name != "level" and not (self.mask and name in ("n_blocks", "n_rows")):
@@ -248,26 +250,34 @@ class Scene:
 
     @property
     def files(self) -> dict[str, Path]:
-        """Files that its maps are read from, by column."""
+        """Files that its maps and its law are read from, by column."""
         maps = {key: getattr(self, key) for key in MAPS}
-        return {key: each.file for key, each in maps.items() if each and each.file}
+        maps["law"] = dict(self.varied).get("law")
+        files = {key: getattr(each, "file", None) for key, each in maps.items()}
+        return {key: file for key, file in files.items() if file}
 
 
 def in_order(constants: Mapping[str, Any]) -> Varied:
     """Constants in the one order, and numbers as numbers, even where they come as text.
 
+    Names other than `CONSTANTS`, which come last, are those of a law from a file: `Setup.vary`
+    refuses what the law has not.
+
     Raises
     ------
     ValueError
-        Where there is no constant of that name, or it is no number.
+        Where that cannot be the name of a constant, or it is no number.
     """
     for name in constants:
-        if name not in CONSTANTS:
+        if not name.isidentifier():
             raise ValueError(f"{name!r} is no constant; there are {', '.join(CONSTANTS)}")
-    return tuple((name, _value(name, constants[name])) for name in CONSTANTS if name in constants)
+    names = [*CONSTANTS, *sorted(constants.keys() - set(CONSTANTS))]
+    return tuple((name, _value(name, constants[name])) for name in names if name in constants)
 
 
-def _value(name: str, value: Any) -> str | float:
+def _value(name: str, value: Any) -> str | float | LawFile:
+    if name == "law":
+        return as_law(value)
     if name in TEXTS:
         return str(value)
     try:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.direction import degrees
+from springblock.model.material import expanded, law_units
 from springblock.model.scene import LENGTHS, Scene
 from springblock.plotting import points, style
 from springblock.plotting.caption import sample_in_words
@@ -56,7 +57,8 @@ def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
 
     Scenes that share a line with no other are left out, if some do.
     """
-    if over not in AXES:
+    rows = list(rows)
+    if over not in AXES and not all(over in law_units(row) for row in rows):
         raise ValueError(f"{over!r} is no axis; there are {', '.join(AXES)}")
     found: dict[Names, dict[float, list[Row]]] = {}
     for row in rows:
@@ -80,7 +82,7 @@ def drawn(rows: Iterable[Row], over: str) -> list[Row]:
 
 
 def _place(row: Row, over: str) -> float:
-    return degrees(row[over]) if over == "direction" else float(row[over])
+    return degrees(row[over]) if over == "direction" else float(expanded(row)[over])
 
 
 def _others(row: Row, over: str) -> Names:
@@ -128,15 +130,16 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
         ax.set_ylabel(label)
         if log:
             points.name_places(ax, every)
-    panels[-1].set_xlabel(_axis(over))
+    panels[-1].set_xlabel(_axis(over, rows[0]))
     if len(found) > 1:
         named = panels[0].get_legend_handles_labels()
         picture.legend(*named, loc="outside upper left", ncols=columns)
     return picture
 
 
-def _axis(over: str) -> str:
+def _axis(over: str, row: Row) -> str:
     """Return the meaning and unit of an axis, as the tables say."""
-    field = next(field for field in (*SCENE, *SETUP) if field.name == over)
-    unit = "degrees" if over == "direction" else field.metadata[b"unit"].decode()
+    units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
+    units |= {"direction": "degrees"} | law_units(row)
+    unit = units[over]
     return _math(over) + ("" if unit == "1" else f" ({unit})")

@@ -102,7 +102,7 @@ def _read(path: Path) -> dict[str, Any]:
     return kept
 
 
-def _fields(state: State) -> list[Array]:
+def _fields(state: State) -> list[NDArray[Any]]:
     """All that a run goes on from; what it works in is filled anew."""
     of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
     return [*state.blocks, *state.work, state.ledger, *of_law]

@@ -94,7 +94,7 @@ def law_of(
         return FromFile(
             state=np.tile(initial, (2 * len(contact) + 1, 1)),
             contact=np.concatenate([contact, contact, [True]]),
-            constants=np.array([value for _, value in law.values]),
+            constants=np.array(list(law.constants.values())),
             load=load,
             speed=material.spacing / step,
             step=step,
@@ -120,8 +120,8 @@ def _compiled(law: LawFile) -> dict[str, Any]:
     ValueError
         Where numba does not compile them, with its reason.
     """
-    state, values = list(law.initial), [name for name, _ in law.values]
-    place = {name: f"constants[{i}]" for i, name in enumerate(values)}
+    state = list(law.initial)
+    place = {name: f"constants[{i}]" for i, name in enumerate(law.constants)}
     place |= {name: f"state[row, {i}]" for i, name in enumerate(state)}
 
     def call(name: str) -> str:

@@ -13,8 +13,9 @@ import numpy as np
 from springblock.io.schemas import AXES
 from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
-from springblock.model.material import Material
-from springblock.model.scene import LENGTHS, MAPS, Scene, Varied
+from springblock.model.law import LawFile
+from springblock.model.material import Material, as_law
+from springblock.model.scene import LENGTHS, MAPS, TEXTS, Scene, Varied
 from springblock.simulation.checks import checked_surface, count_samples
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
@@ -128,9 +129,17 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
     for group in sweep["groups"]:
         if group not in configuration["scenes"]:
             raise ValueError(f"{key}.groups: unknown group {group!r}; choose from {known}")
-    if sweep["over"] not in AXES:
-        axes = ", ".join(AXES)
-        raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {axes}")
+    members = ensembles(configuration)
+    own = (
+        name
+        for group in sweep["groups"]
+        for each in members[group]
+        for name, _ in each.scene.varied
+    )
+    axes = list(dict.fromkeys([*AXES, *(name for name in own if name not in TEXTS)]))
+    if sweep["over"] not in axes:
+        known = ", ".join(axes)
+        raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {known}")
 
 
 def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
@@ -215,7 +224,7 @@ def setup(configuration: Configuration) -> Setup:
     """Return how scenes are computed that have nothing of their own."""
     times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
     with _named("material"):
-        material = Material(**configuration["material"])
+        material = Material().vary(configuration["material"])
     return Setup(material, **times)
 
 
@@ -321,9 +330,11 @@ def _gap(given: int | str, n_p: int) -> int:
 
 def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
     """Each combination of the constants that a grid lists, without those that the study has."""
-    study = {**dict(Material().items()), **configuration["material"], **configuration}
+    law = as_law(configuration["material"].get("law", "coulomb"))
+    own = law.constants if isinstance(law, LawFile) else {}
+    study = {**dict(Material().items()), **own, **configuration["material"], **configuration}
     lists = {key: grid[key] for key in ("integrator", "step") if key in grid}
     lists |= grid.get("material", {})
     for values in product(*lists.values()):
         constants = dict(zip(lists, values, strict=True))
-        yield tuple((key, value) for key, value in constants.items() if value != study[key])
+        yield tuple((key, value) for key, value in constants.items() if value != study.get(key))
