@@ -1,0 +1,264 @@
+"""Laws of friction from files: closed forms, other solvers, and what they may not be."""
+
+import math
+import os
+import re
+import signal
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from springblock import Material, Pattern, compute_prelude, draw_friction, read, simulate
+from springblock.accuracy.specimens import uniform
+from springblock.model.law import LawFile
+from springblock.simulation.setup import Setup
+from studies import PAPER as STUDY
+from studies import TINY, Study
+
+EXAMPLES = Path(__file__).parents[2] / "config/examples"
+EXPONENTIAL, AGEING = EXAMPLES / "exponential_weakening.py", EXAMPLES / "rate_and_state.py"
+PAPER = Material(gamma=0.0, mu_static_std=0.0, mu_dynamic_std=0.0)
+#: The lattice of one block: it hangs on the slider alone.
+K_S, MASS, LOAD = PAPER.k_s, PAPER.mass, PAPER.block_load
+
+
+def ageing(**constants):
+    """A material whose blocks creep from the start."""
+    return replace(PAPER, mu_static=0.0, law=LawFile.read(AGEING, **constants))
+
+
+def one_block(material, duration, step=2e-8, **options):
+    how = {"step": step, "duration": duration, **options}
+    return simulate(*uniform(1, material.mu_static, material.mu_dynamic), material, **how)
+
+
+def test_slip_weakening_from_a_file_is_the_built_in_law(tmp_path):
+    """Blocks slip, stop and slip again: the same states in the same steps, but for rounding."""
+    file = tmp_path / "linear.py"
+    file.write_text(
+        "CONSTANTS = {'d_c': (2e-8, 'm')}\nSTATE = {'slip': 0.0}\n"
+        "def friction(mu_static, mu_dynamic, slip, d_c):\n"
+        "    return mu_dynamic + max(mu_static - mu_dynamic, 0.0) * max(1.0 - slip / d_c, 0.0)\n"
+        "def update(slip, speed, step):\n    return slip + speed * step\n"
+    )
+    surface = Pattern.flat(4).contact, *draw_friction(4, seed=2)
+    own, built_in = (
+        simulate(*surface, Material(**law), duration=2e-4)
+        for law in ({"law": file}, {"law": "slip_weakening", "slip_distance": 2e-8})
+    )
+    assert built_in.switches.sum() > 1.5 * 16
+    np.testing.assert_array_equal(own.switches, built_in.switches)
+    np.testing.assert_allclose(own.t_det, built_in.t_det, rtol=1e-12)
+    np.testing.assert_allclose(own.displacement, built_in.displacement, rtol=1e-9)
+
+
+def test_a_slip_that_weakens_exponentially_converges_at_second_order():
+    """To the answer of DOP853, over the first slip: m s" = K_s (v t - s) - F_n mu(s)."""
+    material = replace(PAPER, law=EXPONENTIAL, slider_velocity=5e-3)
+    law, release = material.law.constants, LOAD / (K_S * material.slider_velocity)
+    end = math.ceil(release / 1e-7) * 1e-7 + 8e-7
+
+    def motion(t, state):
+        mu = max(0.6 + 0.4 * math.exp(-state[0] / law["d_0"]), law["floor"])
+        pull = K_S * (material.slider_velocity * t - state[0])
+        return state[1], (pull - LOAD * mu) / MASS
+
+    exact = solve_ivp(motion, (release, end), (0.0, 0.0), "DOP853", rtol=1e-12, atol=1e-20)
+    slip = exact.y[0, -1]
+    assert exact.y[1, -1] > 0.0
+    assert slip > law["d_0"]
+    errors = [
+        one_block(material, end, step, sample_interval=1e-7).displacement[0, 0, 0] / slip - 1.0
+        for step in (5e-9, 1.25e-9)
+    ]
+    assert abs(errors[1]) < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.15)
+
+
+def test_ageing_converges_at_first_order_to_an_implicit_solver():
+    """The creep before sliding is stiff: friction is that at the end of a step there."""
+    material = replace(ageing(a=0.02, b_2=0.005, d_1=1e-8, d_2=3e-8), slider_velocity=5e-3)
+    law = material.law
+
+    def mu(speed, *theta):
+        state = dict(zip(law.initial, theta, strict=True))
+        known = {**law.constants, **state, "mu_dynamic": 0.6, "speed": speed}
+        return law.friction(*(known[name] for name in law.arguments("friction")))
+
+    def motion(t, state):
+        slip, speed, *theta = state
+        pull = K_S * (material.slider_velocity * t - slip)
+        ages = (
+            1.0 - speed * x / law.constants[d] for x, d in zip(theta, ("d_1", "d_2"), strict=True)
+        )
+        return speed, (pull - LOAD * mu(speed, *theta)) / MASS, *ages
+
+    start = (0.0, 0.0, *law.initial.values())
+    end = 2e-5
+    scale = np.array([1e-12, 1e-9, 1e-9, 1e-9])
+    exact = solve_ivp(motion, (0.0, end), start, "Radau", rtol=1e-10, atol=1e-10 * scale)
+    runs = [one_block(material, end, step) for step in (2e-8, 1e-8, 5e-9)]
+    slips = np.array([run.displacement[0, 0, 0] for run in runs])
+    errors = slips / exact.y[0, -1] - 1.0
+    assert abs(errors[-1]) < 1e-3
+    assert errors[:-1] / errors[1:] == pytest.approx(2.0, rel=0.2)
+    assert abs(runs[0].energy.relative_residual) < 1e-6
+
+
+def test_friction_of_steady_sliding_follows_from_its_speed():
+    """mu_d + (a - b_1 - b_2) ln(V/v_0) at the slider's velocity, V."""
+    material = ageing(a=0.03, b_1=0.008, b_2=0.002, d_1=1e-8, d_2=2e-8)
+    run = one_block(material, 8e-4)
+    steady = 0.6 + 0.02 * math.log(material.slider_velocity / 1e-3)
+    assert run.force[-1] / run.normal_force == pytest.approx(steady, abs=1e-6)
+    assert run.velocity[0, 0, 0] == pytest.approx(material.slider_velocity, rel=1e-6)
+
+
+@pytest.mark.parametrize("faster", [0.1, 3.0, 100.0])
+def test_a_step_in_velocity_raises_friction_at_once_and_lowers_it_along_the_slip(faster):
+    """a ln(V_2/V_1), then Σ b ln(θ V_1/d) with θ = d/V_2 + (d/V_1 - d/V_2) exp(-slip/d)."""
+    law = LawFile.read(AGEING)
+    of = law.constants
+    distances, before, after = np.array([of["d_1"], of["d_2"]]), of["v_0"], of["v_0"] * faster
+    theta, step = distances / before, 1e-6
+    for i in range(40):
+        known = {**of, "mu_dynamic": 0.6, "speed": after, "step": step}
+        known |= dict(zip(law.initial, theta, strict=True))
+        slip = i * after * step
+        left = distances * (1.0 / after + (1.0 / before - 1.0 / after) * np.exp(-slip / distances))
+        evolved = np.log(left * before / distances) @ [of["b_1"], of["b_2"]]
+        expected = 0.6 + of["a"] * math.log(faster) + evolved
+        found = law.friction(*(known[name] for name in law.arguments("friction")))
+        assert found == pytest.approx(expected, rel=1e-10)
+        theta = law.update(*(known[name] for name in law.arguments("update")))
+
+
+@pytest.mark.parametrize("softer", [0.85, 1.15])
+def test_a_block_sticks_and_slips_below_a_critical_stiffness(softer):
+    """K_s < F_n (b - a)/d (1 + m V²/(F_n a d)): Rice & Ruina 1983, doi:10.1115/1.3167042.
+
+    With d in the place of the stiffness: `softer` is its ratio to the d at which they are equal.
+    """
+    a, b, speed = 0.01, 0.02, PAPER.slider_velocity
+    inertia = MASS * speed**2 / (LOAD * a)
+    ratio = LOAD * (b - a) / K_S
+    critical = 0.5 * ratio + math.sqrt(0.25 * ratio**2 + ratio * inertia)
+    d = softer * critical
+    law = {"a": a, "b_1": b, "b_2": 0.0, "d_1": d, "v_0": speed, "theta_0": d / speed}
+    run = one_block(ageing(**law), 3e-4)
+    late = (run.force / run.normal_force)[3 * len(run.force) // 4 :]
+    assert (np.ptp(late) > 0.1) == (softer < 1.0)
+    if softer > 1.0:
+        assert np.ptp(late) < 2e-3
+
+
+@pytest.mark.parametrize("law", [EXPONENTIAL, AGEING], ids=lambda file: file.stem)
+def test_energy_closes_and_nothing_depends_on_prelude_or_cores(law):
+    stuck = {"mu_static": 0.0, "mu_static_std": 0.0} if law == AGEING else {}
+    material = Material(law=law, slider_velocity=5e-3, **stuck)
+    pattern = Pattern.pillars(24, 4, 4).contact
+    surface = pattern, *draw_friction(24, seed=3, material=material)
+    how = {"material": material, "duration": 3e-5}
+    run = simulate(*surface, **how)
+    assert abs(run.energy.relative_residual) < 1e-3
+    for other in ({"cores": 2}, {"prelude": compute_prelude(pattern, material)}):
+        again = simulate(*surface, **how, **other)
+        np.testing.assert_array_equal(again.force, run.force)
+        np.testing.assert_array_equal(again.displacement, run.displacement)
+
+
+FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("friction = 1\n", "must define the function friction"),
+        ("import nothing_of_this_name\n", "cannot be run: ModuleNotFoundError"),
+        ("def friction(:\n", "cannot be run: SyntaxError"),
+        ("def friction(mu):\n    return mu\n", "argument 'mu'; it may have mu_static, mu_dynamic"),
+        ("CONSTANTS = {'a': 1.0}\n" + FRICTION, r"CONSTANTS\['a'\] must be \(value, unit\)"),
+        ("CONSTANTS = {'speed': (1.0, '')}\n" + FRICTION, "the name 'speed' is given twice"),
+        ("CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION, "the name 'gamma' is given twice"),
+        ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),
+        ("STATE = {'s': 0.0}\n" + FRICTION, "must define the function update"),
+        (
+            "STATE = {'s': 0.0}\ndef update(s):\n    return s, s\n" + FRICTION,
+            r"update must return 1 finite numbers, not \(0.0, 0.0\)",
+        ),
+        ("def friction(speed):\n    return -1.0\n", "finite and not negative, not -1.0 at 0.0 m/s"),
+        (
+            "def friction(speed):\n    return 1.0 / speed\n",
+            "friction fails at 0.0 m/s: ZeroDivision",
+        ),
+    ],
+)
+def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_path):
+    file = tmp_path / "law.py"
+    file.write_text(text)
+    with pytest.raises(ValueError, match=sentence) as refused:
+        Setup(Material(law=file))
+    assert re.match(rf"{re.escape(str(tmp_path))}/law.py|law-[0-9a-f]{{8}}", str(refused.value))
+    assert "\n" not in str(refused.value)
+
+
+def test_what_numba_cannot_compile_and_what_turns_negative_is_refused(tmp_path):
+    (tmp_path / "set.py").write_text("def friction(speed):\n    return len({1: speed, 'a': 2})\n")
+    surface = uniform(1, 1.0, 0.6)
+    with pytest.raises(ValueError, match=r"set\.py cannot be compiled by numba"):
+        simulate(*surface, Material(law=tmp_path / "set.py"))
+    falling = "STATE = {'s': 0.5}\ndef friction(s):\n    return s\n"
+    falling += "def update(s, speed):\n    return s - speed\n"
+    (tmp_path / "falling.py").write_text(falling.replace("- speed", "- 0.1 * (speed < 1.0)"))
+    with pytest.raises(RuntimeError, match=r"falling-.* has returned a friction coefficient"):
+        simulate(*surface, Material(law=tmp_path / "falling.py"))
+    with pytest.raises(ValueError, match="integrator must be leapfrog with the law exponential"):
+        Setup(Material(law=EXPONENTIAL), integrator="rk4")
+    with pytest.raises(ValueError, match=r"'d_1' is no constant of .*; there are d_0, floor"):
+        Material(law=EXPONENTIAL).vary({"d_1": 1.0})
+
+
+def test_a_table_keeps_the_law_with_its_constants():
+    law = LawFile.read(AGEING, a=0.02)
+    kept = LawFile.named(law.described)
+    assert kept.constants == law.constants
+    assert kept.units == law.units
+    assert kept.described == law.described
+    assert LawFile.read(AGEING) != law
+    with pytest.raises(ValueError, match="nothing is known here but its name"):
+        Setup(Material(law=law.described))
+
+
+def test_a_study_that_varies_a_constant_of_its_law_goes_on_after_a_kill(tmp_path):
+    """A sweep over d_0, with the table's rows those of Python."""
+    grid = {"n_p": [2], "n_s": [2], "direction": ["x"], "seeds": 2, "duration": 3e-5}
+    own = grid | {"material": {"d_0": [1e-8, 2e-8, 4e-8]}}
+    study = Study.begun(
+        tmp_path / "study",
+        material=TINY["material"] | {"law": "config/examples/exponential_weakening.py"},
+        scenes=TINY["scenes"] | {"own": own},
+        figures=TINY["figures"] | {"sweeps": {"own": {"groups": ["own"], "over": "d_0"}}},
+    )
+    run = study.start("--cores", "1", "--", "sweep_own")
+    while not list(study.folder.glob("results/realisations/**/*.parquet")):
+        assert run.poll() is None, run.communicate()[0]
+        time.sleep(0.05)
+    os.killpg(run.pid, signal.SIGKILL)
+    run.communicate()
+    study.run("--unlock")
+    study.run("--cores", "2", "--rerun-incomplete", "--", "sweep_own")
+    assert (study / "results/figures/sweep_own.png").exists()
+    files = sorted(study.folder.glob("results/realisations/**/*.parquet"))
+    assert len(files) == 3
+    for record in (record for file in files for record in read(file)):
+        d_0 = dict(record.scene.varied).get("d_0", 2e-8)
+        assert f"(d_0 = {d_0!r} m, floor = 0.3)" in record.constants["law"]
+        law = LawFile.read(EXPONENTIAL, d_0=d_0)
+        material = replace(record.material, law=law)
+        mu = draw_friction(record.scene.shape, record.seed, material)
+        again = simulate(record.contact, *mu, material, duration=3e-5, step=STUDY["step"])
+        np.testing.assert_array_equal(record.force, again.force)
