@@ -7,7 +7,7 @@ from pathlib import Path
 from statistics import median
 
 from springblock.accuracy import budget
-from springblock.accuracy.budget import STUDY_SEEDS, Bias, choices, finest_bias
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, choices, finest_bias, measured
 from springblock.accuracy.conventions import (
     DELAY,
     ENERGY_TOLERANCE,
@@ -129,19 +129,19 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=most, **_KNOWN)
-    cases = _cases(rows, (*MEANS, LENGTH))
-    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases]
+    cases = measured(rows, (*MEANS, LENGTH))
+    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
     biases, errors = (_largest(share, cases) for share in (_largest_bias, _scatter))
     return _OPENING.format(
         biases=biases, errors=errors, larger=sum(larger), n=len(larger), **_KNOWN
     )
 
 
-def _largest(share: Callable[[list[Row]], float], cases: list[list[Row]]) -> str:
+def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
     """Name the largest share of each quantity."""
     most: dict[str, float] = {}
-    for case in cases:
-        name = _name(case[0]["quantity"])
+    for (quantity, _), case in cases.items():
+        name = _name(quantity)
         most[name] = max(most.get(name, 0.0), share(case))
     return ", ".join(f"{number:.2%} ({name})" for name, number in most.items())
 
@@ -150,10 +150,11 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
     """Fill the section in from the rows of the table `production`; without them say so."""
     if not rows:
         return _WITHOUT
-    cases, means = _cases(rows, STUDY_SEEDS), _cases(rows, ("t_max", "t_avg"))
+    cases = list(measured(rows, STUDY_SEEDS).values())
+    means = measured(rows, ("t_max", "t_avg"))
     finest, following = sorted({row["step"] for row in rows})[:2]
-    pooled, alone = _worst(cases, _FOLD), _worst(means)
-    (pillars,) = _cases(select(rows, scene="pillared"), ["t_avg"])
+    pooled, alone = _worst(cases, _FOLD), _worst(means.values())
+    pillars = means["t_avg", "pillared"]
     seconds = {choice.step: choice.spent(10) for choice in choices(pillars)}
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _FULL_SIZE.read_text(encoding="utf-8").format(
@@ -180,15 +181,8 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         seconds=seconds[STEP],
         change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
         budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        excess=_excesses({"of those above": cases, "of t_max and t_avg": means}),
+        excess=_excesses({"of those above": cases, "of t_max and t_avg": means.values()}),
     )
-
-
-def _cases(rows: Sequence[Row], quantities: Iterable[str]) -> list[list[Row]]:
-    """Return the rows of each quantity and scene that was measured."""
-    pairs = [(quantity, scene) for quantity in quantities for scene in SCENES]
-    found = [select(rows, scene=scene, quantity=quantity) for quantity, scene in pairs]
-    return [case for case in found if case]
 
 
 def _by_scene(
@@ -289,13 +283,13 @@ def _budget(rows: list[Row]) -> list[str]:
     ]
 
 
-def _worst(cases: list[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
+def _worst(cases: Iterable[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
     """Return the largest excess of each step, for so many times the study's seeds."""
     found = [budget.excess(choices(rows, bias), budget.study_budget(rows, fold)) for rows in cases]
     return {step: max(each[step] for each in found) for step in found[0]}
 
 
-def _excesses(groups: dict[str, list[list[Row]]]) -> str:
+def _excesses(groups: dict[str, Iterable[list[Row]]]) -> str:
     """Lay out the largest excess of each step in each group of cases."""
     lines = []
     for (name, cases), fold in product(groups.items(), (1, _FOLD)):
