@@ -179,12 +179,11 @@ CONTENDERS = {
 def kernel() -> Iterator[Row]:
     """Both integrators and their peers, step by step, all blocks in motion."""
     runs: Runs = {}
-    absent: dict[str, Missing] = {}
     for name, contender in CONTENDERS.items():
         try:
             advance = contender.make(N)
         except Missing as why:
-            absent[name] = why
+            yield Row("kernel", name, BLOCK_STEP, np.nan, "flat", N, note=str(why))
             continue
         advance(min(WARM_UP, contender.steps))
         runs[name] = partial(advance, contender.steps)
@@ -193,19 +192,15 @@ def kernel() -> Iterator[Row]:
         runs[MULTIPLY_ADDS] = peak.run
     seconds = interleaved(runs, REPETITIONS)
     operation: Array | float = np.nan  # at the core's peak, ns
-    if MULTIPLY_ADDS in runs:
-        rate = 1e-9 * peak.operations / seconds[MULTIPLY_ADDS]
+    if MULTIPLY_ADDS in seconds:
+        rate = 1e-9 * peak.operations / seconds.pop(MULTIPLY_ADDS)
         operation = 1.0 / rate
         yield Row("kernel", MULTIPLY_ADDS, "Gflop/s", rate, note="the peak of one core")
-    leapfrog = 1e9 * seconds["leapfrog"] / STEPS / N**2
-    for name, contender in CONTENDERS.items():
-        here = partial(Row, "kernel", name, BLOCK_STEP, scene="flat", n_blocks=N)
-        if name in absent:
-            yield here(np.nan, note=str(absent[name]))
-        else:
-            cost = 1e9 * seconds[name] / contender.steps / N**2
-            at_peak = contender.operations * operation
-            yield here(cost, reference=leapfrog, at_peak=at_peak, note=contender.note)
+    cost = {name: 1e9 * each / CONTENDERS[name].steps / N**2 for name, each in seconds.items()}
+    for name, each in cost.items():
+        contender = CONTENDERS[name]
+        ends = cost["leapfrog"], contender.operations * operation, contender.note
+        yield Row("kernel", name, BLOCK_STEP, each, "flat", N, *ends)
 
 
 def realisation() -> Iterator[Row]:
