@@ -179,12 +179,11 @@ CONTENDERS = {
 def kernel() -> Iterator[Row]:
     """Both integrators and their peers, step by step, all blocks in motion."""
     runs: Runs = {}
-    absent: dict[str, Missing] = {}
     for name, contender in CONTENDERS.items():
         try:
             advance = contender.make(N)
         except Missing as why:
-            absent[name] = why
+            yield Row("kernel", name, BLOCK_STEP, np.nan, "flat", N, note=str(why))
             continue
         advance(min(WARM_UP, contender.steps))
         runs[name] = partial(advance, contender.steps)
@@ -193,52 +192,41 @@ def kernel() -> Iterator[Row]:
         runs[MULTIPLY_ADDS] = peak.run
     seconds = interleaved(runs, REPETITIONS)
     operation: Array | float = np.nan  # at the core's peak, ns
-    if MULTIPLY_ADDS in runs:
-        rate = 1e-9 * peak.operations / seconds[MULTIPLY_ADDS]
+    if MULTIPLY_ADDS in seconds:
+        rate = 1e-9 * peak.operations / seconds.pop(MULTIPLY_ADDS)
         operation = 1.0 / rate
         yield Row("kernel", MULTIPLY_ADDS, "Gflop/s", rate, note="the peak of one core")
-    leapfrog = 1e9 * seconds["leapfrog"] / STEPS / N**2
-    for name, contender in CONTENDERS.items():
-        here = partial(Row, "kernel", name, BLOCK_STEP, scene="flat", n_blocks=N)
-        if name in absent:
-            yield here(np.nan, note=str(absent[name]))
-        else:
-            cost = 1e9 * seconds[name] / contender.steps / N**2
-            at_peak = contender.operations * operation
-            yield here(cost, reference=leapfrog, at_peak=at_peak, note=contender.note)
+    cost = {name: 1e9 * each / CONTENDERS[name].steps / N**2 for name, each in seconds.items()}
+    for name, each in cost.items():
+        contender = CONTENDERS[name]
+        ends = cost["leapfrog"], contender.operations * operation, contender.note
+        yield Row("kernel", name, BLOCK_STEP, each, "flat", N, *ends)
 
 
 def realisation() -> Iterator[Row]:
-    """Whole runs of the paper's scenes, and of a small surface by the plain method as well."""
-    for name, scene in SCENES.items():
-        contact, mu = scene.pattern.contact, draw_friction(N, seed=0)
+    """Whole runs of the paper's scenes, and of a small surface by the plain method as well.
+
+    The ratio is to the C loop from zero, as long, at the paper's step.
+    """
+    for name, scene in [*SCENES.items(), ("flat", Scene(PLAIN_N))]:
+        contact, mu = scene.pattern.contact, draw_friction(scene.n_blocks, seed=0)
         run = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
+        duration = float(run().time[-1])
         runs: Runs = {
             "from zero": partial(simulate, contact, *mu),
             WITH_PRELUDE: run,
             "prelude, once for all seeds": partial(compute_prelude, contact),
         }
-        yield from against_c(name, N, runs, float(run().time[-1]))
-    contact, mu = Scene(PLAIN_N).pattern.contact, draw_friction(PLAIN_N, seed=0)
-    run = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
-    duration = float(run().time[-1])
-    plain = partial(plain_rk4.solve, contact, *mu, duration, PAPER_STEP, SAMPLE_INTERVAL)
-    plain()
-    yield from against_c(
-        "flat", PLAIN_N, {WITH_PRELUDE: run, "plain rk4, from zero": plain}, duration
-    )
-
-
-def against_c(scene: str, n: int, runs: Runs, duration: float) -> Iterator[Row]:
-    """Rows of these runs; the ratio is to the C loop from zero, as long, at the paper's step."""
-    bound: Array | float = np.nan
-    with suppress(Missing):
-        runs = {**runs, "C": partial(c_loop_in_motion(n), STEPS)}
-    seconds = interleaved(runs, FEW)
-    if "C" in seconds:
-        bound = seconds.pop("C") / STEPS * round(duration / PAPER_STEP)
-    for name, each in seconds.items():
-        yield Row("realisation", name, "s", each, scene, n, bound)
+        if scene.n_blocks == PLAIN_N:
+            plain = partial(plain_rk4.solve, contact, *mu, duration, PAPER_STEP, SAMPLE_INTERVAL)
+            plain()  # compiled first
+            runs["plain rk4, from zero"] = plain
+        with suppress(Missing):
+            runs["C"] = partial(c_loop_in_motion(scene.n_blocks), STEPS)
+        seconds = interleaved(runs, FEW)
+        bound = seconds.pop("C", np.nan) / STEPS * round(duration / PAPER_STEP)
+        for what, each in seconds.items():
+            yield Row("realisation", what, "s", each, name, scene.n_blocks, bound)
 
 
 def scaling() -> Iterator[Row]:

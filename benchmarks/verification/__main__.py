@@ -27,9 +27,9 @@ def main() -> None:
 def compare(problem: str, t_det: Path, force: Path | None) -> None:
     """Say what TABLE, with the columns y, x and t_det, is off by."""
     with one_sentence():
-        chosen = PROBLEMS[problem]
-        answer, reference = read_answer(chosen, t_det, force), read_reference(chosen)
-    off_by, uncertain = errors(chosen, answer, reference), uncertainties(chosen, reference)
+        answer = read_answer(PROBLEMS[problem], t_det, force)
+    reference = read_reference(PROBLEMS[problem])
+    off_by, uncertain = errors(answer, reference), uncertainties(reference)
     for name, error, uncertainty in zip(NAMES, off_by, uncertain, strict=True):
         known = "no force table" if math.isnan(error) else f"{error:.3g} ± {uncertainty:.2g}"
         click.echo(f"{name:<54} {known}")

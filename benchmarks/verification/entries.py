@@ -38,7 +38,7 @@ def solved_by(
 ) -> tuple[Answer, int]:
     """Return what one of our integrators says, and the force evaluations that it took."""
     run = solve_with(integrator, step, surface, problem.duration, SAMPLE_INTERVAL)
-    return Answer(run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
+    return Answer(problem, run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
 
 
 def page() -> str:
@@ -52,9 +52,9 @@ def page() -> str:
 
 def _lines(problem: Problem) -> Iterator[tuple[str, ...]]:
     surface, reference = read_surface(problem), read_reference(problem)
-    yield "uncertainty", "", "", *cells(uncertainties(problem, reference))
+    yield "uncertainty", "", "", *cells(uncertainties(reference))
     for integrator, steps in STEPS.items():
         for step in steps:
             answer, evaluations = solved_by(integrator, step, problem, surface)
-            off_by = errors(problem, answer, reference)
+            off_by = errors(answer, reference)
             yield integrator, f"{step:g}", f"{evaluations}", *cells(off_by)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.verification.problems import Answer, Problem, Reference
+from benchmarks.verification.problems import Answer, Reference
 from springblock.accuracy.specimens import Array
 from springblock.accuracy.work_precision import root_mean_square
 
@@ -27,20 +27,20 @@ NAMES = (
 )
 
 
-def errors(problem: Problem, answer: Answer, reference: Reference) -> Metrics:
+def errors(answer: Answer, reference: Reference) -> Metrics:
     """What an answer is off by."""
     compared = reference.t_det < reference.horizon
     shift = (answer.t_det - reference.t_det)[compared]
     sequence = answer.t_det[compared][np.argsort(reference.t_det[compared])]
     return Metrics(
-        root_mean_square(shift) / t_max(problem, reference.force),
+        root_mean_square(shift) / reference.t_max,
         float(abs(answer.force.max() / reference.force.max() - 1.0)),
         _before_peak(np.abs(answer.force - reference.force), reference),
         len(sequence) - _longest_rise(sequence),
     )
 
 
-def uncertainties(problem: Problem, reference: Reference) -> Metrics:
+def uncertainties(reference: Reference) -> Metrics:
     """What an answer may be off by because the reference is.
 
     For the order: blocks as close to another one as both are uncertain.
@@ -49,8 +49,8 @@ def uncertainties(problem: Problem, reference: Reference) -> Metrics:
     t_det, by = reference.t_det[compared], reference.t_det_uncertainty[compared]
     close = np.abs(t_det[:, None] - t_det) <= by[:, None] + by
     return Metrics(
-        root_mean_square(by) / t_max(problem, reference.force),
-        reference.friction_uncertainty / static_friction(problem, reference.force),
+        root_mean_square(by) / reference.t_max,
+        reference.friction_uncertainty / reference.static_friction,
         _before_peak(reference.force_uncertainty, reference),
         int((close.sum(axis=1) > 1).sum()),
     )
@@ -59,16 +59,6 @@ def uncertainties(problem: Problem, reference: Reference) -> Metrics:
 def cells(metrics: Metrics) -> list[str]:
     """Numbers of a line in a table."""
     return [*(f"{value:.2e}" for value in metrics[:3]), f"{metrics.out_of_order}"]
-
-
-def static_friction(problem: Problem, force: Array) -> float:
-    """Largest force over P l² N²."""
-    return float(force.max()) / problem.normal_force
-
-
-def t_max(problem: Problem, force: Array) -> float:
-    """Time of the largest force, s."""
-    return float(problem.time[force.argmax()])
 
 
 def _before_peak(difference: Array, reference: Reference) -> float:

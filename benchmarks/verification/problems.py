@@ -43,11 +43,6 @@ class Problem:
         """(n,) s, times of the force curve."""
         return SAMPLE_INTERVAL * np.arange(round(self.duration / SAMPLE_INTERVAL) + 1.0)
 
-    @property
-    def normal_force(self) -> float:
-        """P l² N², N."""
-        return Material().block_load * self.pattern.n_blocks**2
-
 
 _ALL = (
     Problem("flat", Pattern.flat(6), seed=2, duration=1.3e-4),
@@ -61,8 +56,20 @@ PROBLEMS = {problem.name: problem for problem in _ALL}
 class Answer:
     """What a code says about a problem."""
 
+    problem: Problem
     t_det: Array  #: (N, N) s, [y, x], first detachment; NaN where never or not in contact
     force: Array  #: (n,) N, |ΣF_s| at the problem's times; NaN where not given
+
+    @property
+    def static_friction(self) -> float:
+        """Largest force over P l² N²."""
+        normal_force = Material().block_load * self.problem.pattern.n_blocks**2
+        return float(self.force.max()) / normal_force
+
+    @property
+    def t_max(self) -> float:
+        """Time of the largest force, s."""
+        return float(self.problem.time[self.force.argmax()])
 
 
 @dataclass(frozen=True)
@@ -123,7 +130,7 @@ def read_reference(problem: Problem) -> Reference:
     t_det, t_det_by = _on_blocks(problem, path, read_table(path, (*T_DET, "uncertainty")))
     force, force_by = read_table(problem.folder / "force.csv", ("force", "uncertainty"))
     value, by = read_table(problem.folder / "scalars.csv", SCALARS[1:3])
-    return Reference(t_det, force, t_det_by, force_by, float(value[0]), float(by[2]))
+    return Reference(problem, t_det, force, t_det_by, force_by, float(value[0]), float(by[2]))
 
 
 def read_answer(problem: Problem, t_det: Path, force: Path | None) -> Answer:
@@ -135,7 +142,8 @@ def read_answer(problem: Problem, t_det: Path, force: Path | None) -> Answer:
         Where they do not fit the problem, or leave out what is compared.
     """
     absent = np.full(len(problem.time), np.nan)
-    return Answer(_t_det(problem, t_det), absent if force is None else _force(problem, force))
+    curve = absent if force is None else _force(problem, force)
+    return Answer(problem, _t_det(problem, t_det), curve)
 
 
 def _on_blocks(problem: Problem, path: Path, table: Array) -> Array:

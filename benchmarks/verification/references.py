@@ -3,7 +3,7 @@
 import numpy as np
 
 from benchmarks.verification.entries import solved_by
-from benchmarks.verification.metrics import Metrics, cells, errors, static_friction, t_max
+from benchmarks.verification.metrics import Metrics, cells, errors
 from benchmarks.verification.problems import (
     FORCE,
     SCALARS,
@@ -43,9 +43,9 @@ def write_reference(problem: Problem) -> None:
     published = _located(problem, surface, PUBLISHED)
     checks = {f"event-located {COARSE:g}": _located(problem, surface, COARSE)}
     checks |= {f"leapfrog {h:g} s": solved_by("leapfrog", h, problem, surface)[0] for h in STEPS}
-    _write_answer(problem, surface, published, list(checks.values()))
+    _write_answer(surface, published, list(checks.values()))
     read = read_reference(problem)
-    rows = ((name, *cells(errors(problem, check, read))) for name, check in checks.items())
+    rows = ((name, *cells(errors(check, read))) for name, check in checks.items())
     write_table(problem.folder / "agreement.csv", ("check", *Metrics._fields), rows)
 
 
@@ -53,14 +53,12 @@ def _located(problem: Problem, surface: Surface, accuracy: float) -> Answer:
     run = reference.solve(
         *surface, duration=problem.duration, sample_interval=SAMPLE_INTERVAL, accuracy=accuracy
     )
-    return Answer(run.t_det, run.force)
+    return Answer(problem, run.t_det, run.force)
 
 
-def _write_answer(
-    problem: Problem, surface: Surface, published: Answer, checks: list[Answer]
-) -> None:
+def _write_answer(surface: Surface, published: Answer, checks: list[Answer]) -> None:
     """Write what is published; its uncertainty is the largest disagreement with a check."""
-    t_det, force = published.t_det, published.force
+    problem, t_det, force = published.problem, published.t_det, published.force
     t_det_by = np.max([np.abs(check.t_det - t_det) for check in checks], axis=0)
     force_by = np.max([np.abs(check.force - force) for check in checks], axis=0)
     blocks = [
@@ -72,10 +70,10 @@ def _write_answer(
         for time, value, by in zip(problem.time, force, force_by, strict=True)
     ]
     scalars = [("horizon", f"{_horizon(problem, surface):.10g}", "", "s")]
-    for quantity, unit in ((t_max, "s"), (static_friction, "1")):
-        value, *others = (quantity(problem, answer.force) for answer in (published, *checks))
+    for quantity, unit in (("t_max", "s"), ("static_friction", "1")):
+        value, *others = (getattr(answer, quantity) for answer in (published, *checks))
         by = max(abs(other - value) for other in others)
-        scalars.append((quantity.__name__, f"{value:.12g}", f"{by:.2e}", unit))
+        scalars.append((quantity, f"{value:.12g}", f"{by:.2e}", unit))
     write_table(problem.folder / "t_det.csv", (*T_DET, "uncertainty"), blocks)
     write_table(problem.folder / "force.csv", (*FORCE, "uncertainty"), curve)
     write_table(problem.folder / "scalars.csv", SCALARS, scalars)

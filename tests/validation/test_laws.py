@@ -18,8 +18,6 @@ from scipy.integrate import solve_ivp
 from springblock import Material, Pattern, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.accuracy.stability.one_block import force_of_steady_sliding
-from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.lattice import Samples, prepare
 
 FAST = Material(gamma=0.0, slider_velocity=5e-3)
 MASS, K_S, LOAD, SPEED = FAST.mass, FAST.k_s, FAST.block_load, FAST.slider_velocity
@@ -94,18 +92,6 @@ def test_a_slip_grows_as_friction_weakens_against_the_spring(
 @pytest.mark.parametrize("rate", [1e-2, 1.0, 1e4])
 def test_steady_sliding_takes_the_force_of_its_speed_to_rounding(rate, integrator):
     assert abs(force_of_steady_sliding(integrator, rate).relative_error) < 1e-11
-
-
-@pytest.mark.parametrize("step", [2.0e-8, 1.9e-8, 1.7e-8])
-def test_the_first_slip_is_the_displacement(step, integrator):
-    """Wherever in its step the release was placed: friction has weakened as far as that."""
-    method, steps = INTEGRATORS[integrator], math.ceil(RELEASE / step) + 1
-    state, constants = prepare(*uniform(1, 1.0, 0.6), SLIP, (0.6, 0.8), method, step)
-    for first, more in ((0, steps), (steps, 1), (steps + 1, 5)):
-        method.advance(state, constants, first, more, more, Samples.empty(1))
-        moved = np.hypot(state.blocks.ux[1], state.blocks.uy[1])
-        assert moved > 0.0
-        assert state.law.slip[1] == pytest.approx(moved, rel=1e-9, abs=0)
 
 
 def test_a_block_heals_as_it_comes_to_rest(integrator):

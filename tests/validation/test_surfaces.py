@@ -41,22 +41,20 @@ def assert_moved(run, other, move, signs=(1, 1)):
     np.testing.assert_allclose(other.force, run.force, rtol=0, atol=1e-12 * run.force.max())
 
 
+@pytest.mark.parametrize(
+    ("mirror", "direction", "signs"),
+    [(np.s_[::-1], 0, (1, -1)), (np.s_[:, ::-1], 180, (-1, 1))],
+    ids=["across the slide", "along it"],
+)
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("surface", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
-def test_a_surface_mirrored_across_the_slide_moves_as_its_mirror_image(
-    surface, integrator, periodic
+def test_a_mirrored_surface_moves_as_the_mirror_image(
+    surface, periodic, mirror, direction, signs, integrator
 ):
     how = {**RUN, "integrator": integrator, "periodic": periodic}
-    mirrored = [field[::-1] for field in surface]
-    runs = simulate(*surface, **how), simulate(*mirrored, **how)
-    assert_moved(*runs, lambda field: field[::-1], (1, -1))
-
-
-def test_a_surface_mirrored_along_the_slide_is_pulled_the_other_way(integrator):
-    surface, how = drawn(SQUARE, seed=3), {**RUN, "integrator": integrator}
-    mirrored = [field[:, ::-1] for field in surface]
-    runs = simulate(*surface, **how), simulate(*mirrored, **how, direction=180)
-    assert_moved(*runs, lambda field: field[:, ::-1], (-1, 1))
+    mirrored = [field[mirror] for field in surface]
+    runs = simulate(*surface, **how), simulate(*mirrored, **how, direction=direction)
+    assert_moved(*runs, lambda field: field[mirror], signs)
 
 
 @pytest.mark.parametrize(

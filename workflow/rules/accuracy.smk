@@ -18,8 +18,8 @@ rule compare_scene:
     # The longest jobs begin first, lest one of them ends alone.
     priority: 1
     resources:
-        mem_mb=600,
-        runtime=20,
+        mem_mb=800,
+        runtime=30,
     params:
         code=code("accuracy"),
     message:
@@ -61,31 +61,9 @@ rule precision_table:
         "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule production_scene:
-    input:
-        rules.compile.output,
-    output:
-        f"{RESULTS}/accuracy/production/{{scene}}.parquet",
-    log:
-        f"{RESULTS}/logs/accuracy/production/{{scene}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/accuracy/production/{{scene}}.tsv"
-    wildcard_constraints:
-        scene="|".join(conventions.SCENES),
-    resources:
-        mem_mb=800,
-        runtime=30,
-    params:
-        code=code("accuracy"),
-    message:
-        "Measuring errors of ensembles at full size: {wildcards.scene}"
-    shell:
-        "springblock --code {params.code} make production-{wildcards.scene} --output {output:q} > {log:q} 2>&1"
-
-
 rule production_table:
     input:
-        expand(rules.production_scene.output, scene=conventions.SCENES),
+        expand(rules.compare_scene.output, comparison="production", scene=conventions.SCENES),
     output:
         f"{RESULTS}/tables/production.parquet",
     log:

@@ -11,13 +11,15 @@ bias of half the standard error, and E falls with CPU time to the power 2/5.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from math import inf, sqrt
 from typing import NamedTuple
 
-from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH
-from springblock.io.rows import Row
+from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, SCENES
+from springblock.io.rows import Row, select
 from springblock.model.defaults import STEP
 
+Cases = dict[tuple[str, str], list[Row]]  #: rows at each step, by quantity and scene
 #: Realisations of a scene in the study, by what errors are asked of; the decay length needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
@@ -69,6 +71,14 @@ class Choice:
         """CPU time of such a total error, s; infinite where the bias alone is as large."""
         left = error**2 - self.bias**2
         return self.spent(max(self.deviation**2 / left, 1.0)) if left > 0.0 else inf
+
+
+def measured(rows: Iterable[Row], quantities: Iterable[str]) -> Cases:
+    """Return the rows of each quantity and scene that has any, finest step first."""
+    ordered = sorted(rows, key=lambda row: row["step"])
+    keys = product(quantities, SCENES)
+    found = {key: select(ordered, quantity=key[0], scene=key[1]) for key in keys}
+    return {key: rows for key, rows in found.items() if rows}
 
 
 def choices(rows: Iterable[Row], bias: str = "estimate") -> list[Choice]:

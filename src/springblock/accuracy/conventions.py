@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from springblock.analysis.statistics import students_t
 from springblock.io.rows import Row
 
 SCENES = ("flat", "pillared", "grooved")
@@ -34,17 +35,14 @@ OUT_OF_LINE = 10.0
 
 def half_width(deviation: float, count: int) -> float:
     """Return half of Student's 95 % interval of a mean over `count` seeds."""
-    from scipy.stats import t  # slow to import, and needed in these two alone
-
-    return float(t.ppf(0.975, count - 1) * deviation / np.sqrt(count))
+    return float(students_t(count - 1) * deviation / np.sqrt(count))
 
 
 def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> float:
     """Return the standard error of a mean over so many seeds, from another number's interval."""
-    from scipy.stats import t
-
     half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
-    deviation = half / t.ppf(0.975, scatter["realisations"] - 1) * scatter["realisations"] ** 0.5
+    count = scatter["realisations"]
+    deviation = half / students_t(count - 1) * count**0.5
     return float(deviation / realisations**0.5)
 
 

@@ -3,18 +3,11 @@
 from collections.abc import Callable, Iterable, Sequence
 from itertools import product
 from math import floor, isfinite, log10, sqrt
+from pathlib import Path
 from statistics import median
 
-from springblock.accuracy.budget import (
-    STUDY_SEEDS,
-    Bias,
-    best,
-    choices,
-    excess,
-    finest_bias,
-    halving,
-    study_budget,
-)
+from springblock.accuracy import budget
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, choices, finest_bias, measured
 from springblock.accuracy.conventions import (
     DELAY,
     ENERGY_TOLERANCE,
@@ -34,76 +27,10 @@ from springblock.io.rows import Row, markdown_table, select
 from springblock.model.defaults import STEP
 from springblock.model.material import Material
 
-_PAGE = """# What to trust, and how far
+_PAGE = Path(__file__).with_name("page.md")
+_FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the study's own ensembles
 
-{opening}
-Written by `snakemake accuracy` from the tables `work_precision`, `stability` and `realisations`.
-The default is the leapfrog with a step of {step:.0e} s.
-
-## At full size
-
-{full_size}
-## Not to be trusted
-
-- Detachment times of single blocks on patterned surfaces beyond the horizon (last section), and
-  everything after the force peak of a single run.
-- Steps near the stability limit of {limit:.1e} s: at {coarsest:.0e} s static friction, t_max and
-  t_avg are biased by up to {coarse_bias:.1%}.
-- Runge-Kutta with the friction of each stage, as one would first write it: at the paper's step of
-  {paper:.0e} s its errors of static friction, t_max and t_avg reach {plain}, and it does not
-  converge.
-- Large strains: the model's springs stay linear in their length, real rubber does not. A spring at
-  half or twice its length ends the run.
-
-## Every production run
-
-The largest energy residual of {n_runs} realisations is {worst_energy:.1e} of the slider's work,
-the median {median_energy:.1e}. The study warns of any above {tolerance:.0e}, or above
-{out_of_line:.0f} times the median of its scene.
-
-## Stiff and extreme cases
-
-{n_agree} of {n_cases} cases came out as expected, in these families: {families}.
-
-## Ensembles of small surfaces
-
-Bias of the mean at the default with its 95 % interval over {n_paired} or more paired seeds
-({n_ensemble} x {n_ensemble} blocks, against {against:.1e} s); in brackets the standard error of a
-mean over {ensemble} seeds. All in percent:
-
-{paired}
-
-## Single runs on small surfaces
-
-With {smallest} to {largest} blocks a side, one detachment is up to several percent of the force:
-where it comes early or late, errors are far larger than those of means at full size. The reference
-shares no code with the solver: DOP853 with every detachment and stop located as an event. Errors at
-the default, root mean square over {fewest} seeds or more; t_max is told to the interval between
-samples of the force, which are at the same instants in both:
-
-{singles}
-
-Both integrators are of second order across detachments with steps of {paper:.0e} s and finer. At
-the default the orders of single runs scatter: a peak may still fall on another detachment. Mean
-orders, with their 95 % intervals over the seeds (leapfrog; rk4):
-
-{orders}
-
-With the finest step, {finest:.0e} s, static friction and t_det before the horizon differ from the
-reference by no more than {floor:.0e}: the floor of every error plot.
-
-Avalanches reorder. Thresholds nudged by {nudge:.0e} shift detachments by more than 0.1 % of t_max
-from {pillared:.0%} (pillared), {grooved:.0%} (grooved) and {flat:.0%} (flat) of t_max on, or not
-before the run ends; on patterned surfaces of full size, well before the force peak. Beyond this
-horizon no step makes single runs agree, and ensembles are compared instead.
-
-Runge-Kutta with the friction of each stage does not converge. Errors at the paper's step, and in
-brackets at {plain_finest:.1e} s:
-
-{plains}
-"""
-
-#: How the page begins, and its section on ensembles of the study's own size, without and with them.
+#: The same section, and how the page begins, of a study that has not measured these.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
 by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standard error of a mean
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
@@ -119,60 +46,6 @@ ends of 95 % intervals. Scatter from seed to seed dominates: the standard error 
 estimated bias in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias
 where hundreds of realisations are pooled, and compare ensembles: on patterned surfaces single runs
 part before the force peak, at any step.
-"""
-
-_WITH = """Ensembles of flat, pillared (20 wide, 20 apart) and grooved surfaces (58 wide, 62 apart,
-with pawls of 8 and grooves of 2), {n_blocks} x {n_blocks} blocks, pulled along x, {fewest} to
-{most} seeds each: the table `production`, made with `production: true`. Means over them at
-the default, and the decay length l of c(r) = A exp(-r/l) along x, ± half the 95 % interval (the
-statistical error) ± the largest modulus in the 95 % interval of the bias, and of what the finest
-step adds (the numerical error):
-
-{values}
-
-On grooves t_max is the time of the first load peak in some realisations and of the second in
-others: the means of t_max and of t_max - t_avg describe no realisation, and their errors are mostly
-those of the share of each peak.
-
-These biases, against a step of {finest:.0e} s with the same seeds, and their 95 % intervals:
-Student's, and of the decay length bootstrap percentiles; ± the largest bias of {finest:.0e} s
-itself. In brackets the standard error of a mean over {ensemble} seeds, of the decay length from
-{length_ensemble}. All in percent; t_max - t_avg in percent of t_max:
-
-{biases}
-
-The bias of {finest:.0e} s follows from that of {following:.0e} s against it: at second order it is
-a third of that, at first order all of it. The table has all of it, at the far end of its interval;
-on patterned surfaces this is mostly scatter.
-Single runs at {finest:.0e} s on flat surfaces of {n_flat} x {n_flat} blocks miss the event-located
-reference of the last section by {flat_friction:.1e} (static friction) and {flat_t_avg:.1e} (t_avg).
-
-## Error against run time
-
-The default stays at {step:.0e} s, though {coarse:.0e} s has the least total error in {wins} of the
-{cases} cases below, where scatter dominates. A bias does not average out: with {fold} times the
-seeds, as where realisations of many surfaces are pooled, {coarse:.0e} s misses up to
-{coarse_pooled:.1f} times the least error, the default {pooled:.1f} times. Of t_max and t_avg it
-misses {coarse_means:.2f} times the least with the study's own seeds, the default {means:.2f}; and
-it is {coarse_margin:.1f} times below the stability limit, the default {margin:.1f}. A step of
-{fine:.0e} s takes {fine_seconds:.1f} CPU s in place of {seconds:.1f} for ten seeds on pillars, and
-changes t_avg there by {change:.2%}: worth it where t_avg is pooled.
-
-The total error of an ensemble is the root of bias² + variance/seeds. Another step buys more seeds
-or fewer for the CPU time that the study's seeds cost at the default: {ensemble} seeds, for
-the decay length {length_ensemble}. The bias is the estimate without what its own scatter adds; in
-square brackets, it is the lower or the upper end of its 95 % interval. That of {finest:.0e} s is
-neglected. Errors in percent:
-
-{budgets}
-
-Halving the error costs so many times the CPU time: four where only scatter is left, less where the
-prelude is a large share, more where a finer step must take over.
-
-One step has to serve them all. Total errors over those of the best step, in the worst case, for the
-CPU time of the study's seeds, and of {fold} times as many:
-
-{excess}
 """
 
 #: Of what is not called by its symbol.
@@ -218,7 +91,7 @@ def page(
     scatter = select(precision, comparison="scatter")
     coarsest = max(row["step"] for row in paired)
     residuals = [abs(row["energy_error"]) for row in realisations]
-    return _PAGE.format(
+    return _PAGE.read_text(encoding="utf-8").format(
         **_KNOWN,
         opening=_opening(production, select(paired, step=STEP)),
         smallest=min(row["n_blocks"] for row in single),
@@ -256,19 +129,19 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=most, **_KNOWN)
-    cases = _cases(rows, (*MEANS, LENGTH))
-    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases]
+    cases = measured(rows, (*MEANS, LENGTH))
+    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
     biases, errors = (_largest(share, cases) for share in (_largest_bias, _scatter))
     return _OPENING.format(
         biases=biases, errors=errors, larger=sum(larger), n=len(larger), **_KNOWN
     )
 
 
-def _largest(share: Callable[[list[Row]], float], cases: list[list[Row]]) -> str:
+def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
     """Name the largest share of each quantity."""
     most: dict[str, float] = {}
-    for case in cases:
-        name = _name(case[0]["quantity"])
+    for (quantity, _), case in cases.items():
+        name = _name(quantity)
         most[name] = max(most.get(name, 0.0), share(case))
     return ", ".join(f"{number:.2%} ({name})" for name, number in most.items())
 
@@ -277,13 +150,14 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
     """Fill the section in from the rows of the table `production`; without them say so."""
     if not rows:
         return _WITHOUT
-    cases, means = _cases(rows, STUDY_SEEDS), _cases(rows, ("t_max", "t_avg"))
+    cases = list(measured(rows, STUDY_SEEDS).values())
+    means = measured(rows, ("t_max", "t_avg"))
     finest, following = sorted({row["step"] for row in rows})[:2]
-    pooled, alone = _worst(cases, _FOLD), _worst(means)
-    (pillars,) = _cases(select(rows, scene="pillared"), ["t_avg"])
+    pooled, alone = _worst(cases, _FOLD), _worst(means.values())
+    pillars = means["t_avg", "pillared"]
     seconds = {choice.step: choice.spent(10) for choice in choices(pillars)}
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
-    return _WITH.format(
+    return _FULL_SIZE.read_text(encoding="utf-8").format(
         **_KNOWN,
         n_blocks=rows[0]["n_blocks"],
         fewest=min(row["realisations"] for row in rows),
@@ -295,7 +169,9 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         flat_t_avg=missed["t_avg"],
         values=_by_scene("value", _QUANTITIES, rows, _value),
         biases=_by_scene("bias", _QUANTITIES, rows, _bias),
-        wins=sum(best(choices(case), study_budget(case)).step == _COARSE for case in cases),
+        wins=sum(
+            budget.best(choices(case), budget.study_budget(case)).step == _COARSE for case in cases
+        ),
         cases=len(cases),
         coarse_pooled=pooled[_COARSE],
         pooled=pooled[STEP],
@@ -305,15 +181,8 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         seconds=seconds[STEP],
         change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
         budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        excess=_excesses({"of those above": cases, "of t_max and t_avg": means}),
+        excess=_excesses({"of those above": cases, "of t_max and t_avg": means.values()}),
     )
-
-
-def _cases(rows: Sequence[Row], quantities: Iterable[str]) -> list[list[Row]]:
-    """Return the rows of each quantity and scene that was measured."""
-    pairs = [(quantity, scene) for quantity in quantities for scene in SCENES]
-    found = [select(rows, scene=scene, quantity=quantity) for quantity, scene in pairs]
-    return [case for case in found if case]
 
 
 def _by_scene(
@@ -396,31 +265,31 @@ def _bias(*rows: Row) -> str:
 
 def _budget(rows: list[Row]) -> list[str]:
     """Say what the study's CPU time buys in one scene, at the default step and at the best."""
-    budget, cases = study_budget(rows), [choices(rows, bias) for bias in Bias._fields]
-    chosen = best(cases[0], budget)
+    seconds, cases = budget.study_budget(rows), [choices(rows, bias) for bias in Bias._fields]
+    chosen = budget.best(cases[0], seconds)
 
     def error(wanted: float) -> str:
         steps = [step for case in cases for step in case if step.step == wanted]
-        return _between(".3f", [_PERCENT * step.error(budget) for step in steps])
+        return _between(".3f", [_PERCENT * step.error(seconds) for step in steps])
 
     return [
         _name(rows[0]["quantity"]),
         rows[0]["scene"],
-        f"{budget:.1f}",
+        f"{seconds:.1f}",
         error(STEP),
-        f"{chosen.step:.0e} x {chosen.seeds(budget):.0f}",
+        f"{chosen.step:.0e} x {chosen.seeds(seconds):.0f}",
         error(chosen.step),
-        _between(".1f", [halving(case, budget) for case in cases]),
+        _between(".1f", [budget.halving(case, seconds) for case in cases]),
     ]
 
 
-def _worst(cases: list[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
+def _worst(cases: Iterable[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
     """Return the largest excess of each step, for so many times the study's seeds."""
-    found = [excess(choices(rows, bias), study_budget(rows, fold)) for rows in cases]
+    found = [budget.excess(choices(rows, bias), budget.study_budget(rows, fold)) for rows in cases]
     return {step: max(each[step] for each in found) for step in found[0]}
 
 
-def _excesses(groups: dict[str, list[list[Row]]]) -> str:
+def _excesses(groups: dict[str, Iterable[list[Row]]]) -> str:
     """Lay out the largest excess of each step in each group of cases."""
     lines = []
     for (name, cases), fold in product(groups.items(), (1, _FOLD)):

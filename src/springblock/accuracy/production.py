@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 import pyarrow as pa
-from scipy.stats import t
 from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
 from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
+from springblock.analysis.statistics import mean_interval, standard_error
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
@@ -148,12 +148,10 @@ def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
 
 def of_mean(values: Array, exact: Array) -> PairedBias:
     """Return the bias of a mean over k seeds, (k,), from that of the same seeds."""
-    differences, k = values - exact, len(values)
-    bias, error = differences.mean(), differences.std(ddof=1) / np.sqrt(k)
-    half = t.ppf(0.975, k - 1) * error
-    return PairedBias(
-        *map(float, (values.mean(), values.std(ddof=1), bias, error, bias - half, bias + half))
-    )
+    differences = values - exact
+    bias, *limits = mean_interval(differences)
+    error = standard_error(differences)
+    return PairedBias(*map(float, (values.mean(), values.std(ddof=1), bias, error, *limits)))
 
 
 def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
@@ -165,18 +163,18 @@ def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
     curves = {step: Correlation(times) for step, times in sides.items()}
     span = slice(1, curves[STEP].last + 1)
     errors = curves[STEP].resampled[:, span].std(axis=0)
-    fits = {
-        step: (
-            *fit_tail(curve.mean[None, span], errors),
-            fit_tail(curve.resampled[:, span], errors),
-        )
-        for step, curve in curves.items()
-    }
-    exact, exact_resampled = fits[min(sides)]
-    root, estimates = np.sqrt(len(sides[STEP])), {}
-    for step, (value, resampled) in fits.items():
-        differences = resampled - exact_resampled
+
+    def fits(step: float) -> tuple[Array, Array]:
+        """Length of all seeds, and of resamples."""
+        alone = fit_tail(curves[step].mean[None, span], errors)[0]
+        return alone, fit_tail(curves[step].resampled[:, span], errors)
+
+    exact, exact_resampled = fits(min(sides))
+    found = {}
+    for step, times in sides.items():
+        value, resampled = fits(step)
+        deviation, differences = np.sqrt(len(times)) * resampled.std(), resampled - exact_resampled
         limits = np.percentile(differences, (2.5, 97.5))
-        numbers = (value, root * resampled.std(), value - exact, differences.std(), *limits)
-        estimates[step] = PairedBias(*map(float, numbers))
-    return estimates
+        numbers = (value, deviation, value - exact, differences.std(), *limits)
+        found[step] = PairedBias(*map(float, numbers))
+    return found

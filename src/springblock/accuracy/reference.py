@@ -40,11 +40,10 @@ from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq, minimize_scalar
 
+from springblock.accuracy.specimens import Array, Surface
 from springblock.model.material import Material
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Surface = tuple[Flags, Array, Array]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)
 

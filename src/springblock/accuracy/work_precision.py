@@ -177,7 +177,7 @@ def single_rows(scene: str) -> Iterator[Row]:
         if integrator != PLAIN:
             for steps in (SETTLED_STEPS, (STEP, STEP / 2.0)):
                 orders = {name: orders_of(steps, found, name) for name in ORDERED}
-                yield from rows_of("order", scene, integrator, steps[0], orders, (0.0, 0.0))
+                yield from rows_of("order", scene, integrator, steps[0], orders)
 
 
 def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str) -> Array:
@@ -190,33 +190,28 @@ def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str)
 def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
-    exact = means(ensemble(scene, "leapfrog", FINE_STEP, seeds))
+    exact, _ = ensemble(scene, "leapfrog", FINE_STEP, seeds)
     for integrator, steps in PAIRED_STEPS.items():
         few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
         for step in steps:
-            runs = ensemble(scene, integrator, step, few)
-            errors = {name: found / exact[name][:few] - 1.0 for name, found in means(runs).items()}
-            yield from rows_of("paired", scene, integrator, step, errors, cost_of(integrator, runs))
+            means, cost = ensemble(scene, integrator, step, few)
+            errors = {name: found / exact[name][:few] - 1.0 for name, found in means.items()}
+            yield from rows_of("paired", scene, integrator, step, errors, cost)
     spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
-    yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread, (0.0, 0.0))
+    yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread)
 
 
-def means(runs: Iterable[tuple[Realisation, float]]) -> Errors:
-    """Return what ensembles are used for, of each of these timed runs."""
-    return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
-
-
-def ensemble(
-    scene: str, integrator: str, step: float, seeds: int
-) -> list[tuple[Realisation, float]]:
-    """Compute realisations of so many seeds, each with its CPU seconds."""
+def ensemble(scene: str, integrator: str, step: float, seeds: int) -> tuple[Errors, Cost]:
+    """Return what ensembles are used for, of each of so many seeds, and what one of them costs."""
     pattern = _SURFACES[scene].ensemble
     how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
     pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
-    return [
+    runs = [
         timed(partial(pull, *drawn(pattern, seed)))
         for seed in tqdm(range(seeds), desc=f"{integrator} {step:g}")
     ]
+    means = {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
+    return means, cost_of(integrator, runs)
 
 
 def twin_rows(scene: str) -> Iterator[Row]:
@@ -254,7 +249,7 @@ def rows_of(
     integrator: str,
     step: float,
     errors: Errors,
-    cost: Cost,
+    cost: Cost = (0.0, 0.0),
     nudge: float = 0.0,
 ) -> Iterator[Row]:
     """Summarise the errors of several realisations, a row per quantity."""

@@ -1,7 +1,6 @@
 """Errors of single runs and of ensembles against what they cost."""
 
 from collections.abc import Iterator, Sequence
-from itertools import product
 from typing import Any, cast
 
 import numpy as np
@@ -15,7 +14,7 @@ from numpy.typing import ArrayLike
 from pandas import DataFrame
 
 from springblock.accuracy import budget, conventions
-from springblock.accuracy.budget import Bias, Choice
+from springblock.accuracy.budget import Bias, Cases, Choice
 from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, PAPER_STEP, PLAIN, SCENES
 from springblock.io.rows import Row
 from springblock.model.defaults import INTEGRATOR, STEP
@@ -24,8 +23,6 @@ from springblock.plotting.looks import shades
 from springblock.plotting.points import draw_points, name_places
 from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, Look
 from springblock.simulation.run import Array
-
-Cases = dict[tuple[str, str], list[Row]]  #: by quantity and scene, finest step first
 
 #: Names, colours and markers. Runge-Kutta lies on top where it covers the leapfrog.
 _METHODS: dict[str, tuple[str, Look]] = {
@@ -181,7 +178,8 @@ def total_error(table: DataFrame) -> Figure:
     """Draw the table `production`: biases, and total errors."""
     picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|.jL", height_ratios=(3, 1))
     *panels, legend = panels
-    cases, colors = _cases(table), shades(table.step)
+    rows = cast(list[Row], table.to_dict("records"))
+    cases, colors = budget.measured(rows, _QUANTITIES), shades(table.step)
     _draw_biases(panels[:3], cases)
     for ax, rows in zip(panels[3:], cases.values(), strict=True):
         _draw_errors(ax, rows, colors)
@@ -194,17 +192,6 @@ def total_error(table: DataFrame) -> Figure:
         row[0].set_ylim(0.25 * ends.min(), ends.max())  # room for words
     _name_steps(legend, colors)
     return picture
-
-
-def _cases(table: DataFrame) -> Cases:
-    """Return the rows of each quantity and scene that were measured together."""
-    ordered = table.sort_values("step")
-    cases = {}
-    for quantity, scene in product(_QUANTITIES, SCENES):
-        rows = ordered[(ordered.quantity == quantity) & (ordered.scene == scene)]
-        if len(rows):
-            cases[quantity, scene] = cast(list[Row], rows.to_dict("records"))
-    return cases
 
 
 def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:

@@ -35,6 +35,7 @@ from springblock.simulation.run import Realisation
 SPEED, MU_STATIC, MU_DYNAMIC = 0.01, 1.0, 0.6
 DROP = MU_STATIC - MU_DYNAMIC
 MILLION, TENTH = 1_000_000, 100_000  #: steps at rest
+DURING_SLIP = "spring force during the slip, F_n"
 AFTER_SLIP = "spring force after the slip, F_n"
 
 
@@ -77,11 +78,8 @@ def frictions(integrator: str) -> Iterator[Case]:
             limits = [limit_of_damping(scheme, material) for scheme in ("leapfrog", "rk4")]
             yield case(name, gamma, LARGEST, beyond_the_limit, (material, *limits), "refused")
         else:
-            name, during = (
-                f"block with gamma = {gamma:g} omega",
-                "spring force during the slip, F_n",
-            )
-            yield case(name, gamma, during, force_while_slipping, (gamma,))
+            name = f"block with gamma = {gamma:g} omega"
+            yield case(name, gamma, DURING_SLIP, force_while_slipping, (gamma,))
     case = partial(Case, "speed", integrator)
     for speed in (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0):
         name = f"block at v = {speed:g} F_n omega/K_s"
