@@ -30,7 +30,7 @@ from springblock.claims.flat import lonely
 from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.load_peaks import both_peaks, slope, valley
 from springblock.claims.rule import Claim, Evidence, Finding, verdict
-from springblock.claims.samples import difference, first_patch, isolated, position, rates
+from springblock.claims.samples import difference, first_patch, isolated, magnitude, position, rates
 from springblock.claims.sides import events, mixed, paired_difference, unpaired_difference
 from springblock.claims.stress import rank_correlation
 from springblock.io.records import Record
@@ -150,7 +150,7 @@ CHANGES = [
     ("weakest_first", [FLAT], elsewhere, REFUTED),
     ("onset", [FLAT], shifted(9), REFUTED),
     ("avalanche_follows", [FLAT], shifted(9), REFUTED),
-    ("peaks_apart", [FLAT], shifted(3), REFUTED),
+    ("peaks_apart", [FLAT], shifted(5), REFUTED),
     ("average_is_propagation", [FLAT], late_avalanche, REFUTED),
     ("localized_stick_slip", [FLAT], all_again, REFUTED),
     ("nucleation_anywhere", [FLAT], cornered, REFUTED),
@@ -414,6 +414,18 @@ def test_a_position_has_no_interval_where_its_ends_are_not_told_apart():
     assert found.value == pytest.approx(1.0 / 49.5)
     assert found.ci_low < found.value < found.ci_high
     assert np.isnan(position(sample, zero, zero).ci_low)
+
+
+@pytest.mark.parametrize(
+    ("limits", "expected"),
+    [((1.0, 3.0), (1.0, 3.0)), ((-3.0, -1.0), (1.0, 3.0)), ((-3.0, 1.0), (-1.0, 3.0))],
+)
+def test_a_magnitude_may_be_as_large_as_the_further_end_of_its_interval(limits, expected):
+    for sign in (1.0, -1.0):
+        low, high = sorted(sign * limit for limit in limits)
+        found = magnitude(Estimate((low + high) / 2.0, low, high, 20))
+        assert (found.ci_low, found.ci_high) == expected
+    assert magnitude(Estimate(0.5, -3.0, 1.0, 20)).ci_high == 3.0
 
 
 def test_differences_of_intervals_add_errors_or_their_squares():

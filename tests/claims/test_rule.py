@@ -144,6 +144,12 @@ def test_the_boundary_is_what_tells_the_cases_apart(cases, expected):
     assert refuted[1].startswith("It fails")
 
 
+def test_a_refuted_statement_names_what_may_yet_hold():
+    findings = [finding(*FAILS, n_p2=8), finding(*OPEN, n_p2=10)]
+    expected = "It fails with pawls of 8 blocks; it is open with pawls of 10 blocks."
+    assert verdict("general", findings) == ("not reproduced", expected)
+
+
 def test_the_boundary_names_a_text_as_it_is():
     findings = [finding(*HOLDS, part="the core"), finding(*FAILS, part="the edge")]
     expected = "It holds for the core; it fails for the edge."

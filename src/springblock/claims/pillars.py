@@ -191,7 +191,8 @@ def inside(run: Record) -> Array:
 def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
     """Detachment waves are triggered from nucleation points located near the edge.
 
-    Tested: in the outer quarter of what the border, two blocks wide, encloses.
+    Tested: in the outer quarter of what the border, two blocks wide, encloses. The same for borders
+    of 1 to 4 blocks and patches of 2 to 5; on the flat surface the first patch lies half way.
     """
     name = (
         f"share of places inside the border that are nearer to it than the {_PATCH} x {_PATCH} "

@@ -155,10 +155,10 @@ def relative(first: Array, second: Array, base: Array) -> Estimate:
 
 
 def magnitude(estimate: Estimate) -> Estimate:
-    """The same seen from the other side, where it is negative."""
-    if not estimate.value < 0.0:
-        return estimate
-    return Estimate(-estimate.value, -estimate.ci_high, -estimate.ci_low, estimate.n)
+    """The same seen from the other side, where it is negative, as far as its further end."""
+    value, ends = estimate.value, (estimate.ci_low, estimate.ci_high)
+    nearer = -ends[1] if value < 0.0 else ends[0]
+    return Estimate(abs(value), nearer, float(np.max(np.abs(ends))), estimate.n)
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
