@@ -158,7 +158,7 @@ def record(scene: Scene, seed: int) -> Record:
     return Record(
         scene=scene,
         seed=seed,
-        constants=dict(Material(mu_dynamic=0.0).items()),  # far below the load peaks
+        constants=dict(Material(mu_dynamic=0.05).items()),  # far below the load peaks
         time=time,
         force=force,
         normal_force=1.0,
