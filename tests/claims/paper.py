@@ -8,8 +8,8 @@ import numpy as np
 
 from springblock import draw_friction
 from springblock.analysis.statistics import pillar_ring
-from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.rule import Evidence
+from springblock.claims.surfaces import edge, grooved_parts
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.material import Material
