@@ -30,6 +30,7 @@ _AFFECTS = 0.1  #: change in proportion that is an effect
 _ALIKE = 0.05  #: change in proportion that leaves results the same
 _SLIDING = 1.15  #: t/t_avg from which on the surface slides as a whole
 _LOADED = "flat surfaces with other constants"
+_SAME_RATIO = f"{_LOADED} at the same ratio"
 #: Constants that the paper says affect the number of fronts.
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 _EARLY = 0.9  #: of t_max
@@ -38,6 +39,7 @@ _SMALL = 0.2  #: difference in standard deviations that is called small (Cohen 1
 _PATCH = 5  #: blocks, side of the patch that counts as a nucleation point
 _BURST = 0.02  #: of t_max, over which detachments are counted
 _FLAT = "realisations of the flat surface"
+_THREE = f"three {_FLAT} or more"
 
 
 @claim("A step of 1e-8 s suffices", "2", 1, "the table `work_precision`")
@@ -116,13 +118,7 @@ def damping(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim(
-    "Only the ratio of modulus and pressure matters",
-    "2",
-    1,
-    f"{_LOADED} at the same ratio",
-    "universal",
-)
+@claim("Only the ratio of modulus and pressure matters", "2", 1, _SAME_RATIO, "universal")
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """The relevant parameter is the ratio between Young's modulus and applied pressure; results are
     qualitatively the same for all larger moduli, if the pressure is also increased.
@@ -132,18 +128,12 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
         case = {"E in Pa": dict(scene.varied)["youngs_modulus"]}
-        own, paper = (
-            over_runs(samples.static_friction, evidence.records[s]) for s in (scene, flat)
-        )
-        yield Finding(
-            case,
-            "static friction minus that of the paper's material, over the latter",
-            samples.relative(own, paper, paper),
-            within(_ALIKE),
-            in_files(scene, flat),
-        )
+        own, paper = (samples.friction(evidence, s) for s in (scene, flat))
+        name, apart = "static friction minus that of the paper's material", within(_ALIKE)
+        more = samples.relative(own, paper, paper)
+        yield found_on(scene, f"{name}, over the latter", more, apart, case=case, beside=[flat])
         lag = samples.mean(over_runs(samples.relative_lag, evidence.records[scene]))
-        yield Finding(case, "(t_max - t_avg)/t_max", lag, ranges.NEGATIVE, in_files(scene))
+        yield found_on(scene, "(t_max - t_avg)/t_max", lag, ranges.NEGATIVE, case=case)
 
 
 def fronts(run: Run) -> float:
@@ -301,9 +291,9 @@ def average_is_propagation(run: Record) -> float:
     """t_avg corresponds roughly to the propagation instant of the wave fronts over the whole
     surface.
 
-    Tested: the time of the most detachments is nearer to it than half the time from a tenth to
-    nine tenths of the detachments, the duration; t_max is 0.77 durations away. The same for any
-    bound from 0.3 on, and for detachments within 0.2 to 5 % of t_max.
+    Tested: the time of the most detachments differs from it by less than half the duration of the
+    transition, from a tenth to nine tenths of the detachments; t_max differs by 0.77 of it. The
+    same for any bound from 0.3 on, and for detachments within 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 
@@ -318,9 +308,9 @@ def localized_stick_slip(run: Record) -> float:
     """At the beginning of the dynamic phase localized stick-slip motions of small fractions of the
     contact area take place.
 
-    Tested: after the first force minimum, less than a tenth of the blocks slide anew in as long a
-    time as from a tenth to nine tenths of the first detachments, the duration. The same if only the
-    first 1 to 50 durations after the minimum are looked at.
+    Tested: after the first force minimum, less than a tenth of the blocks slide anew within the
+    duration of the transition, from a tenth to nine tenths of the first detachments. The same over
+    the first 1 to 50 durations after the minimum alone.
     """
     minimum = first_minimum(run.force)
     if minimum is None:
@@ -337,16 +327,14 @@ def peak_before_average(run: Record) -> float:
     return run.t_max - run.t_avg
 
 
-@claim(
-    "Detachment times are uniform on flat surfaces", "3.2", 3, f"three {_FLAT} or more", "universal"
-)
+@claim("Detachment times are uniform on flat surfaces", "3.2", 3, _THREE, "universal")
 def uniform(evidence: Evidence) -> Iterator[Finding]:
     """In repeated simulations the spatial distribution of the initial detachment time is
     uniform.
 
     Tested: place explains less than a fifth of the variance in the core, and the outermost blocks
     are not early or late by more than a fifth of a standard deviation, a small effect. The
-    same for the two outermost rings; a bound above 0.38 would hold.
+    same for the two outermost rings; with a bound above 0.38 it would hold.
     """
     name = "share of the variance of t_det that place explains (jackknife)"
     lateness, unit = "mean t_det minus that of the core", "standard deviations of t_det"
@@ -371,6 +359,6 @@ def nucleation_anywhere(run: Record) -> float:
     """On average, each point of the surface has the same probability of being a nucleation point.
 
     Tested: how far from the edge the first patch of 5 x 5 blocks detaches. The same for patches of
-    1 to 20 blocks a side, each by itself.
+    1 to 17 blocks a side, each by itself.
     """
     return samples.first_patch(run.t_det, _PATCH)

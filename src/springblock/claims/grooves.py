@@ -14,7 +14,7 @@ import numpy as np
 from springblock.analysis.statistics import pillar_map, prominence
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Case, Evidence, Finding, Range, claim
-from springblock.claims.samples import found_on, over_runs
+from springblock.claims.samples import found_on
 from springblock.claims.surfaces import ALONG, across, slid_both_ways
 from springblock.model.direction import degrees
 from springblock.model.scene import Scene
@@ -28,6 +28,7 @@ _GROOVES = "realisations of a grooved surface"
 _NO_HIERARCHY = "realisations of pillars with n_p of 4 or more, or of grooves without pillars"
 _WAYS = f"{_GROOVES} that slides along and across its grooves"
 _THREE_LEVELS = f"{_WAYS}, with a third level"
+_WITH_AND_WITHOUT = "pillars with grooves and without"
 _SUPPORTED = "time with a force above 95 % of its maximum"
 _LASTING = "time between a tenth and nine tenths of the detachments"
 _BARE_WAYS = "realisations of grooves without pillars that slide along and across them"
@@ -43,7 +44,7 @@ def prominent(
     evidence: Evidence,
     scene: Scene,
     claimed: Range,
-    case: Case,
+    case: Case | None = None,
     statistic: str = _LESSER,
     rank: int = 2,
 ) -> Finding:
@@ -61,7 +62,7 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     force.
     """
     for scene in slid_both_ways(evidence.records):
-        yield prominent(evidence, scene, _TWO_PEAKS, surfaces.case_of(scene))
+        yield prominent(evidence, scene, _TWO_PEAKS)
 
 
 @claim("Two load peaks only along grooves", "3.3", 9, _WAYS, "universal")
@@ -92,7 +93,7 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
         case = {"surface": f"pillars of {scene.n_p} blocks"}
         yield prominent(evidence, scene, _ONE_PEAK, case)
     for scene in surfaces.bare_grooves(evidence.records):
-        yield prominent(evidence, scene, _ONE_PEAK, surfaces.bare(scene))
+        yield prominent(evidence, scene, _ONE_PEAK)
 
 
 @claim("Square pawls have one load peak", "3.3", 9, "realisations of square pawls", "universal")
@@ -101,8 +102,8 @@ def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
     another fundamental factor.
 
     Tested: on pillars cut by equal grooves in both directions, a lesser peak stands out by less
-    than 1 % of the largest force. The same for any bound below 1.3 %; one above 2.1 % would hold,
-    which grooves in one direction exceed with 2.8 %.
+    than 1 % of the largest force. The same for any bound below 1.3 %; with one above 2.1 %, which
+    grooves in one direction exceed with 2.8 %, it would hold.
     """
     for scene in surfaces.grooved(evidence.records, 3):
         if (scene.n_p2, scene.n_s2) == (scene.n_p3, scene.n_s3):
@@ -171,9 +172,7 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
         yield prominent(evidence, scene, _TWO_PEAKS, case, name, rank=3)
 
 
-@claim(
-    "Hierarchy makes the transition rapid but smooth", "5", 9, "pillars with grooves and without"
-)
+@claim("Hierarchy makes the transition rapid but smooth", "5", 9, _WITH_AND_WITHOUT)
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     """Multiple scale levels allow a rapid but smooth transition to sliding.
 
@@ -189,7 +188,7 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
         for scene, plain in pairs:
             statistic = f"{name} over t_max, with pawls of {scene.n_p2} minus without"
             case = {"transition": f"a {word} transition"}
-            yield samples.compared(evidence, case, statistic, quantity, scene, plain, claimed)
+            yield samples.compared(evidence, statistic, quantity, scene, plain, claimed, case)
 
 
 @claim("Static friction is greater across grooves than along", "1", 9, _BARE_WAYS)
@@ -202,15 +201,7 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in (s for s in _bare_both_ways(evidence) if s.n_s2 < s.n_p2):
-        yield samples.paired(
-            evidence,
-            surfaces.bare(along),
-            name,
-            samples.static_friction,
-            across(along),
-            along,
-            ranges.POSITIVE,
-        )
+        yield samples.paired(evidence, name, samples.static_friction, across(along), along)
 
 
 @claim("Fronts run faster along grooves", "1", 9, _BARE_WAYS)
@@ -222,10 +213,8 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """
     name = f"{_LASTING}, along minus across, over t_max"
     for along in _bare_both_ways(evidence):
-        case = surfaces.bare(along)
-        yield samples.paired(
-            evidence, case, name, samples.lasting, along, across(along), ranges.NEGATIVE
-        )
+        scenes = along, across(along)
+        yield samples.paired(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)
 
 
 @claim("The length of pillars changes static friction", "3.3", 9, f"two {_ALONG_X}", "existential")
@@ -239,13 +228,7 @@ def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
         shortest, *_, longest = [*group] * 2
         if shortest.n_p == longest.n_p:
             continue
-        last, first = (
-            over_runs(samples.static_friction, evidence.records[s]) for s in (longest, shortest)
-        )
-        yield Finding(
-            surfaces.case_of(shortest),
-            f"change of static friction from n_p = {shortest.n_p} to {longest.n_p}, over the first",
-            samples.magnitude(samples.relative(last, first, first)),
-            _MANIPULATED,
-            surfaces.in_files(shortest, longest),
-        )
+        first, last = (samples.friction(evidence, scene) for scene in (shortest, longest))
+        change = samples.magnitude(samples.relative(last, first, first))
+        name = f"static friction from n_p = {shortest.n_p} to {longest.n_p}, over the first"
+        yield found_on(shortest, f"change of {name}", change, _MANIPULATED, beside=[longest])

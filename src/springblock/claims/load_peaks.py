@@ -142,8 +142,8 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """The transition is characterized by two load peaks separated by an intermediate quasi-static
     phase.
 
-    Tested: detachments fall below half of their mean rate; in the quietest time between the peaks,
-    which takes 1 or 5 % of t_avg, or from one peak to the other.
+    Tested: detachments fall below half of their mean rate: in the quietest 1 % or 5 % of t_avg
+    between the peaks, or from one peak to the other.
     """
     name = "rate of detachments between the load peaks over the mean rate"
     for part, quantity in (
@@ -167,8 +167,8 @@ def edges_make_first_peak(peaks: Peaks) -> float:
     """Slip precursors lead to a faster detachment of the boundary regions and, consequently, to the
     first load peak.
 
-    Tested: more than nine tenths of the edges have detached between the peaks. A bound below 0.84
-    would hold with pawls of 8 and of 10 blocks, one above 0.92 with neither.
+    Tested: more than nine tenths of the edges have detached between the peaks. With a bound below
+    0.84 it would hold with pawls of 8 and of 10 blocks, with one above 0.92 with neither.
     """
     return share_detached(peaks, edge)
 
@@ -211,7 +211,7 @@ def stick_slip(evidence: Evidence) -> Iterator[Finding]:
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Between the load peaks the whole contact surface is in a stressed state.
 
-    Tested: it bears more than if all blocks slid, which after the second peak it does not.
+    Tested: it bears more than if all blocks slid; after the second peak it bears less.
     """
     return (peaks.lowest - peaks.sliding) / peaks.run.normal_force
 
@@ -221,8 +221,8 @@ def small_force_suffices(evidence: Evidence) -> Iterator[Finding]:
     """The stressed state can lead to full detachment in the presence of a small additional force.
 
     Tested: from the lowest force between the load peaks until nine tenths of the blocks have
-    detached, it grows by less than a tenth; of itself, or of what static friction exceeds the mean
-    mu_dynamic by.
+    detached, it grows by less than a tenth of itself, or of the excess of static friction over the
+    mean mu_dynamic.
     """
 
     def over_lowest(peaks: Peaks) -> float:

@@ -30,6 +30,7 @@ _PATCH = 3  #: blocks, side of the patch that counts as a nucleation point
 _RING = {"corners": "corners", "y": "edges across", "x": "edges along"}
 _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_SEVERAL = "realisations of several pillars with n_p of 4 or more"
 _CORED_PILLARS = f"realisations of pillars with n_p of {_CORE} or more"
 _BROAD_PILLARS = f"realisations of pillars with n_p of {_BROAD} or more"
 _PRECURSORS = "share of the contact blocks that detach before t_max"
@@ -49,13 +50,7 @@ _broad = partial(pillars, smallest=_BROAD)
 _large = partial(pillars, smallest=_LARGE)
 
 
-@claim(
-    "All pillars are alike",
-    "3.2",
-    4,
-    "realisations of several pillars with n_p of 4 or more",
-    "universal",
-)
+@claim("All pillars are alike", "3.2", 4, _SEVERAL, "universal")
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
     """With a margin of n_s/2 all pillars have the same average statistical properties for
     n_p >= 4.
@@ -237,13 +232,10 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     for flat, larger, scene in product(surfaces.flat(evidence.records), examples, small):
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
-            yield Finding(
-                surfaces.case_of(scene),
-                f"{name}: distance from the flat surface, over that of n_p = {larger.n_p}",
-                samples.magnitude(samples.position(*three)),
-                ranges.FEWER_THAN_HALF,
-                surfaces.in_files(scene, flat, larger),
-            )
+            away = samples.magnitude(samples.position(*three))
+            statistic = f"{name}: distance from the flat surface, over that of n_p = {larger.n_p}"
+            claimed, beside = ranges.FEWER_THAN_HALF, (flat, larger)
+            yield found_on(scene, statistic, away, claimed, beside=beside)
 
 
 def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
@@ -251,8 +243,8 @@ def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Itera
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, pillars(evidence.records, _RELEVANT)):
         for name, quantity in quantities.items():
-            case, statistic = surfaces.case_of(scene), f"{name}, minus that of the flat surface"
-            yield samples.compared(evidence, case, statistic, quantity, scene, flat)
+            statistic = f"{name}, minus that of the flat surface"
+            yield samples.compared(evidence, statistic, quantity, scene, flat)
 
 
 @claim("More and earlier precursors on pillars", "3.2", 6, _BOTH)
@@ -270,14 +262,9 @@ def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     return _above_flat(evidence, {_WIDTH: samples.width})
 
 
-def _friction(evidence: Evidence, scene: Scene) -> Array:
-    """Static friction of each realisation."""
-    return over_runs(samples.static_friction, evidence.records[scene])
-
-
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
     """Scene with the lowest mean static friction."""
-    return min(scenes, key=lambda scene: float(_friction(evidence, scene).mean()))
+    return min(scenes, key=lambda scene: float(samples.friction(evidence, scene).mean()))
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
@@ -296,7 +283,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     for end in (scenes[0], scenes[-1]) if scenes else ():
         lowest = _lowest(evidence, scenes[1:-1])
         name = f"static friction at n_p = {end.n_p} minus the lowest between, at n_p = {lowest.n_p}"
-        yield samples.compared(evidence, {}, name, samples.static_friction, end, lowest)
+        yield samples.compared(evidence, name, samples.static_friction, end, lowest, case={})
 
 
 @claim("Sharper transition of very large pillars", "3.2", 6, _SIZES)
@@ -306,7 +293,9 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     if scenes:
         lowest, largest = _lowest(evidence, scenes[:-1]), scenes[-1]
         name = f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}"
-        yield samples.compared(evidence, {}, name, samples.width, largest, lowest, ranges.NEGATIVE)
+        yield samples.compared(
+            evidence, name, samples.width, largest, lowest, ranges.NEGATIVE, case={}
+        )
 
 
 @claim("Precursors are negligible on very large pillars", "3.2", 6, _LARGEST, "universal")
@@ -356,8 +345,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
     """Scenes whose static friction cannot be told from the lowest, by a 95 % interval."""
-    least = _friction(evidence, _lowest(evidence, scenes))
-    more = {s: samples.difference(_friction(evidence, s), least) for s in scenes}
+    least = samples.friction(evidence, _lowest(evidence, scenes))
+    more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
     return [scene for scene in scenes if not more[scene].ci_low > 0.0]
 
 

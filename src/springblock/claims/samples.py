@@ -36,6 +36,11 @@ def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
     return values[np.isfinite(values)]
 
 
+def friction(evidence: Evidence, scene: Scene) -> Array:
+    """Static friction of each realisation of a scene, (k,)."""
+    return over_runs(static_friction, evidence.records[scene])
+
+
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
     """A value of a row with its interval."""
     low, high = float(row[f"{limits}_low"]), float(row[f"{limits}_high"])
@@ -103,10 +108,11 @@ def found_on(
     claimed: Range,
     unit: str = "1",
     case: Case | None = None,
+    beside: Iterable[Scene] = (),
 ) -> Finding:
-    """Finding that rests on the realisations of a scene; its case are the scene's lengths."""
+    """Finding on a scene, whose lengths are its case, from the realisations of it and of others."""
     case = surfaces.case_of(scene) if case is None else case
-    return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene), unit)
+    return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
 
 
 def mean_over(
@@ -139,12 +145,11 @@ def share_over(
 
 def paired(
     evidence: Evidence,
-    case: Case,
     statistic: str,
     quantity: Quantity,
     first: Scene,
     second: Scene,
-    claimed: Range,
+    claimed: Range = ranges.POSITIVE,
 ) -> Finding:
     """Mean difference of a quantity between two scenes of one surface, seed by seed.
 
@@ -152,22 +157,21 @@ def paired(
     """
     samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
     apart = [samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]]
-    return Finding(case, statistic, mean(apart), claimed, surfaces.in_files(first, second))
+    return found_on(first, statistic, mean(apart), claimed, beside=[second])
 
 
 def compared(
     evidence: Evidence,
-    case: Case,
     statistic: str,
     quantity: Quantity,
     first: Scene,
     second: Scene,
     claimed: Range = ranges.POSITIVE,
+    case: Case | None = None,
 ) -> Finding:
     """Mean of a quantity over the realisations of one scene minus that over those of another."""
     samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
-    found, source = difference(*samples), surfaces.in_files(first, second)
-    return Finding(case, statistic, found, claimed, source)
+    return found_on(first, statistic, difference(*samples), claimed, case=case, beside=[second])
 
 
 def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:

@@ -39,6 +39,7 @@ _LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or m
 _WITH_GROOVES = f"{_LENGTHS}, with grooves and without"
 _ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_SHORT_PILLARS = "realisations of pillars with n_p of 4 to 10"
 _BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
@@ -158,24 +159,21 @@ def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, statistic, found, ranges.ALIKE, case=case)
 
 
-def misfits(correlation: Array) -> dict[str, Array]:
+def misfits(correlation: Array) -> list[Array]:
     """Root mean square distance of c(r), (b, r) from r = 1 on, from curves of one length.
 
-    The best curve of each shape times an amplitude, on a grid of lengths; (b,) each.
+    From the best exponential, power law and straight line, each times an amplitude, on a grid of
+    lengths; (b,) each.
     """
     r = np.arange(1.0, correlation.shape[-1] + 1.0)
     lengths = np.geomspace(0.1, 100.0, 200)[:, None]
-    shapes = {
-        "an exponential": np.exp(-r / lengths),
-        "a power law": (1.0 + r) ** (-1.0 / lengths),
-        "a straight line": np.maximum(0.0, 1.0 - r / lengths),
-    }
-    found = {}
-    for name, curves in shapes.items():
+    power_law, line = (1.0 + r) ** (-1.0 / lengths), np.maximum(0.0, 1.0 - r / lengths)
+    found = []
+    for curves in (np.exp(-r / lengths), power_law, line):
         square = np.maximum((curves**2).sum(axis=-1), np.finfo(float).tiny)
         explained = (correlation @ curves.T) ** 2 / square  # by the best amplitude of each
         left = (correlation**2).sum(axis=-1) - explained.max(axis=-1)
-        found[name] = np.sqrt(np.maximum(left, 0.0) / len(r))
+        found.append(np.sqrt(np.maximum(left, 0.0) / len(r)))
     return found
 
 
@@ -191,7 +189,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
         span = slice(1, LAST + 1)
 
         def distances(weights: Array, found: Correlation = found, span: slice = span) -> Array:
-            exponential, *others = misfits(found.weighted(weights)[:, span]).values()
+            exponential, *others = misfits(found.weighted(weights)[:, span])
             return np.column_stack([exponential, *(exponential - other for other in others)])
 
         intervals = bootstrap_interval(distances, len(runs))
@@ -241,13 +239,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     )
 
 
-@claim(
-    "One event can detach a whole side",
-    "3.2",
-    7,
-    "realisations of pillars with n_p of 4 to 10",
-    "existential",
-)
+@claim("One event can detach a whole side", "3.2", 7, _SHORT_PILLARS, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
     detachment of the whole side.
@@ -322,7 +314,7 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
 
     Tested: correlation below 1/e one block away, on external sides and along the grooves. The same
-    for any bound from 0.22 to 0.5, which it exceeds when sliding along the grooves.
+    for any bound from 0.22 to 0.5, which is exceeded when sliding along the grooves.
     """
     for scene in slid_both_ways(evidence.correlation):
         for side, name in _SIDES.items():

@@ -55,15 +55,12 @@ def bare_grooves(table: Iterable[Scene]) -> list[Scene]:
 
 
 def case_of(scene: Scene) -> Case:
-    """Case of a surface: that of its pawls, whose grooves are all as wide, or else its pillars."""
+    """Case of a surface: its pawls, whose grooves on pillars are all as wide, or its pillars."""
+    if scene.n_p2 and not scene.n_p:
+        return {"surface": f"pawls of {scene.n_p2} and grooves of {scene.n_s2} without pillars"}
     if scene.n_p2:
         return {"n_p2": scene.n_p2}
     return {"n_p": scene.n_p} if scene.n_p else {}
-
-
-def bare(scene: Scene) -> Case:
-    """Case of grooves without pillars."""
-    return {"surface": f"pawls of {scene.n_p2} and grooves of {scene.n_s2} without pillars"}
 
 
 def in_files(*scenes: Scene, folder: str = "realisations") -> str:
