@@ -41,6 +41,8 @@ _BURST = 0.02  #: of t_max, over which detachments are counted
 _FLAT = "realisations of the flat surface"
 _THREE = f"three {_FLAT} or more"
 
+_on_flat = partial(mean_over, surfaces.flat)
+
 
 @claim("A step of 1e-8 s suffices", "2", 1, "the table `work_precision`")
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
@@ -205,8 +207,7 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 @claim("Precursors are the weakest blocks", "3.1", 3, _FLAT)
-@mean_over(
-    surfaces.flat,
+@_on_flat(
     "share of the m blocks detached before t_max that have one of the m lowest mu_static",
     ranges.MOST,
 )
@@ -222,8 +223,7 @@ def weakest_first(run: Record) -> float:
 
 
 @claim("Not every precursor starts a front", "3.1", 3, _FLAT)
-@mean_over(
-    surfaces.flat,
+@_on_flat(
     "share of the blocks detached before 0.9 t_max around which no other has by t_max",
     (1.0 - 0.9, 0.9),
 )
@@ -238,7 +238,7 @@ def not_all_nucleate(run: Record) -> float:
 
 
 @claim("t_max is the onset of propagation on flat surfaces", "3.1", 2, _FLAT)
-@mean_over(surfaces.flat, "share of the blocks detached before t_max", ranges.NEGLIGIBLE)
+@_on_flat("share of the blocks detached before t_max", ranges.NEGLIGIBLE)
 def onset(run: Record) -> float:
     """The time instant t_max corresponds to the onset of propagation.
 
@@ -253,11 +253,8 @@ def avalanche(run: Run) -> float:
 
 
 @claim("The main avalanche follows t_max on flat surfaces", "3.1", 2, _FLAT)
-@mean_over(
-    surfaces.flat,
-    "time of the most detachments, within 2 % of t_max, minus t_max",
-    ranges.POSITIVE,
-    unit="s",
+@_on_flat(
+    "time of the most detachments, within 2 % of t_max, minus t_max", ranges.POSITIVE, unit="s"
 )
 def avalanche_follows(run: Record) -> float:
     """After t_max there is the main sliding avalanche, highlighted by the peak of the number of
@@ -267,8 +264,7 @@ def avalanche_follows(run: Record) -> float:
 
 
 @claim("Force and detachments peak apart on flat surfaces", "3.1", 2, _FLAT)
-@mean_over(
-    surfaces.flat,
+@_on_flat(
     "detachments within 2 % of t_max around it, over the most in such a time",
     ranges.FEWER_THAN_HALF,
 )
@@ -282,10 +278,8 @@ def peaks_apart(run: Record) -> float:
 
 
 @claim("t_avg is when the fronts cross the surface", "3.1", 2, _FLAT)
-@mean_over(
-    surfaces.flat,
-    "time of the most detachments, within 2 % of t_max, minus t_avg, over the duration",
-    within(0.5),
+@_on_flat(
+    "time of the most detachments, within 2 % of t_max, minus t_avg, over the duration", within(0.5)
 )
 def average_is_propagation(run: Record) -> float:
     """t_avg corresponds roughly to the propagation instant of the wave fronts over the whole
@@ -299,8 +293,7 @@ def average_is_propagation(run: Record) -> float:
 
 
 @claim("Small parts of the surface stick and slip while it slides", "3.1", 2, _FLAT)
-@mean_over(
-    surfaces.flat,
+@_on_flat(
     "share of the blocks that slide anew in one duration, from the first force minimum on",
     ranges.NEGLIGIBLE,
 )
@@ -321,7 +314,7 @@ def localized_stick_slip(run: Record) -> float:
 
 
 @claim("t_max < t_avg on flat surfaces", "3.1", 2, _FLAT)
-@mean_over(surfaces.flat, "t_max - t_avg", ranges.NEGATIVE, unit="s")
+@_on_flat("t_max - t_avg", ranges.NEGATIVE, unit="s")
 def peak_before_average(run: Record) -> float:
     """The force maximum occurs before the average detachment time."""
     return run.t_max - run.t_avg
@@ -350,8 +343,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
 
 
 @claim("Nucleation anywhere on flat surfaces", "3.2", 3, _FLAT, "universal")
-@mean_over(
-    surfaces.flat,
+@_on_flat(
     f"share of places nearer to the edge than the {_PATCH} x {_PATCH} blocks detaching first",
     within(_SMALL, 0.5),
 )
