@@ -6,14 +6,12 @@ import pytest
 from springblock import Material, compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
 from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
-from springblock.beyond.question import by_scene
 from springblock.claims import CLAIMS, register
 from springblock.claims.page import page
 from springblock.claims.rule import Claim, Evidence, Finding, boundary, verdict
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
 from springblock.io.parquet import rows_to_table
-from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 
 INF = float("inf")
@@ -252,11 +250,3 @@ def test_forces_before_any_slip_follow_from_elasticity(direction):
     prelude = compute_prelude(contact, direction=direction)
     computed = np.sqrt(prelude.peak[-1])
     np.testing.assert_allclose(modulus[contact], computed / computed.mean(), rtol=0.02)
-
-
-def test_the_command_leaves_surfaces_out_that_the_paper_could_not_have():
-    mask = BlockMap("all-00000000", np.ones((12, 12), bool))
-    scenes = [Scene(12), Scene(12, n_rows=6), Scene(12, edges="periodic"), Scene(mask=mask)]
-    scenes += [Scene(12, mu_static_field=BlockMap("one-00000000", np.ones((12, 12))))]
-    assert by_scene(scenes, lambda scene: scene) == {scenes[0]: scenes[:1]}
-    assert by_scene([scene.row for scene in scenes], Scene.from_row).keys() == {scenes[0]}
