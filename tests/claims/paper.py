@@ -8,10 +8,11 @@ import numpy as np
 
 from springblock import draw_friction
 from springblock.analysis.statistics import pillar_ring
-from springblock.claims.grooves import edge, grooved_parts
 from springblock.claims.rule import Evidence
+from springblock.claims.surfaces import edge, grooved_parts
 from springblock.io.records import Record
 from springblock.io.rows import Row
+from springblock.model.material import Material
 from springblock.model.scene import Scene
 
 N, SEEDS = 48, range(60)
@@ -81,7 +82,7 @@ def times(scene: Scene, seed: int, rng: np.random.Generator) -> np.ndarray:
 
 def flat_times(seed: int, rng: np.random.Generator, fronts: int) -> np.ndarray:
     """Lonely precursors where thresholds are low, a few that share a neighbour; late fronts."""
-    field = 1.02 + 0.002 * rng.standard_normal((N, N))
+    field = 1.05 + 0.015 * rng.standard_normal((N, N))
     for column in rng.permutation(N // 8)[:fronts]:
         y, x = rng.integers(N - 5), 8 * column
         field[y : y + 5, x : x + 5] = 1.005
@@ -131,7 +132,7 @@ def grooved(scene: Scene) -> np.ndarray:
     if scene.direction != "x":
         return np.where(edge(contact), 0.70, np.where(contact, 0.98, np.nan))
     pillar = np.full((size, size), np.nan)
-    for late, mask in zip((0.55, 0.65, 0.70, 0.98), grooved_parts(scene).values(), strict=True):
+    for late, mask in zip((0.55, 0.65, 0.70, 1.03), grooved_parts(scene).values(), strict=True):
         pillar[mask] = late
     return pillar
 
@@ -157,6 +158,7 @@ def record(scene: Scene, seed: int) -> Record:
     return Record(
         scene=scene,
         seed=seed,
+        constants=dict(Material(mu_dynamic=0.05).items()),  # far below the load peaks
         time=time,
         force=force,
         normal_force=1.0,

@@ -1,10 +1,12 @@
 """The page of claims, written from their table."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
+
+import numpy as np
 
 from springblock.claims import register
 from springblock.io.rows import Row, markdown_table
@@ -46,18 +48,15 @@ def _contents(numbered: Sequence[Part]) -> list[str]:
     earlier, parts = register.verdicts(), []
     header = ["statement", "form", "verdict", "earlier seeds", "1.0.0", "what decided it"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
-        lines = [_in_contents(*part, earlier) for part in group]
+        lines = []
+        for number, part in group:
+            first, heading = part[0], f"{number}. {part[0]['claim']}"
+            before = earlier.get(first["claim"], {})
+            link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
+            old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
+            lines.append([link, first["form"], verdict, *old, decided(part)])
         parts += [f"### Section {section}: {_SECTIONS[section]}", markdown_table(header, lines)]
     return parts
-
-
-def _in_contents(number: int, part: Sequence[Row], earlier: Mapping[str, Row]) -> list[str]:
-    """A statement with a link to its rows, its verdicts and what decided the last one."""
-    first, heading = part[0], f"{number}. {part[0]['claim']}"
-    before = earlier.get(first["claim"], {})
-    link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
-    old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
-    return [link, first["form"], verdict, *old, decided(part)]
 
 
 def anchor(heading: str) -> str:
@@ -79,17 +78,13 @@ def decided(part: Sequence[Row]) -> str:
         "reproduced": ("holds", min, _clearness),
         "reproduced in part": ("fails", max, _clearness),
         "not reproduced": ("fails", max, _clearness),
-        "not settled": ("open", max, _wanted),
+        "not settled": ("open", max, lambda row: np.nan_to_num(row["needed"], nan=-1.0)),
     }[first["verdict"]]
     found = choose((row for row in part if row["outcome"] == kind), key=key)
     sentence = _in_words(found, part)
     if first["verdict"] == "not settled":
         sentence += f"; {_needed(found)}"
     return f"{first['boundary']} {sentence}.".strip()
-
-
-def _wanted(row: Row) -> float:
-    return -1.0 if math.isnan(row["needed"]) else float(row["needed"])
 
 
 def _clearness(row: Row) -> float:

@@ -5,6 +5,7 @@ Section 3.2 of the paper; all pillars have n_s = n_p.
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -12,38 +13,10 @@ import numpy as np
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
-from springblock.claims import ranges
+from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Evidence, Finding, claim
-from springblock.claims.samples import (
-    ALONG,
-    SMALLEST,
-    Mask,
-    Quantity,
-    before_peak,
-    compared,
-    difference,
-    first_patch,
-    flat_surfaces,
-    found_on,
-    from_edge,
-    in_files,
-    in_order,
-    isolated,
-    lag,
-    lasting,
-    magnitude,
-    mean,
-    over_runs,
-    pillars,
-    pillars_of,
-    position,
-    relative_lag,
-    share_of,
-    shares_of_runs,
-    size,
-    static_friction,
-    width,
-)
+from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
+from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
 from springblock.model.material import Material
 from springblock.model.scene import Scene
@@ -57,6 +30,7 @@ _PATCH = 3  #: blocks, side of the patch that counts as a nucleation point
 _RING = {"corners": "corners", "y": "edges across", "x": "edges along"}
 _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_SEVERAL = "realisations of several pillars with n_p of 4 or more"
 _CORED_PILLARS = f"realisations of pillars with n_p of {_CORE} or more"
 _BROAD_PILLARS = f"realisations of pillars with n_p of {_BROAD} or more"
 _PRECURSORS = "share of the contact blocks that detach before t_max"
@@ -72,14 +46,11 @@ _SCATTER = "mu_static_std"
 _COMPARED = (3, 6, 10, 20, 30)  #: n_p of pillars whose thresholds scatter less and more
 _SCATTERS = f"realisations of pillars with n_p of {', '.join(map(str, _COMPARED))} and more scatter"
 
+_broad = partial(pillars, smallest=_BROAD)
+_large = partial(pillars, smallest=_LARGE)
 
-@claim(
-    "All pillars are alike",
-    "3.2",
-    4,
-    "realisations of several pillars with n_p of 4 or more",
-    "universal",
-)
+
+@claim("All pillars are alike", "3.2", 4, _SEVERAL, "universal")
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
     """With a margin of n_s/2 all pillars have the same average statistical properties for
     n_p >= 4.
@@ -91,21 +62,20 @@ def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
         if times.shape[1] >= 2:
             by_place = Estimate.of(repeatability(times), len(times))
-            yield found_on(scene, size(scene), name, by_place, ranges.ALIKE)
+            yield found_on(scene, name, by_place, ranges.ALIKE)
 
 
-def ring_parts(n_p: int, depth: int) -> dict[str, Mask]:
-    """Masks over a pillar, (n_p, n_p), of parts of a ring and of the centre, in claimed order."""
-    ring = pillar_ring(n_p, depth)
+def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
+    """The border of a pillar and the ring inside it, where they have parts.
+
+    Each with masks over the pillar, (n_p, n_p), of its parts and of the centre, in claimed order.
+    """
     centre = np.logical_or.reduce(list(pillar_ring(n_p, (n_p - 1) // 2).values()))
-    return {name: ring[side] for side, name in _RING.items()} | {"centre": centre}
-
-
-def _rings(scene: Scene) -> Iterator[tuple[str, dict[str, Mask]]]:
-    """The border of a pillar and the ring inside it, each with its parts, where they have some."""
     for depth, name in enumerate(("border", "ring inside it")):
-        if 2 * (depth + 1) < scene.n_p:
-            yield name, ring_parts(scene.n_p, depth)
+        if 2 * (depth + 1) < n_p:
+            ring = pillar_ring(n_p, depth)
+            parts = {called: ring[side] for side, called in _RING.items()}
+            yield name, parts | {"centre": centre}
 
 
 @claim("Order of detachment on a pillar", "3.2", 5, _PILLARS)
@@ -117,14 +87,19 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
-        for ring, parts in _rings(scene):
+        for ring, parts in _rings(scene.n_p):
             times = {f"{n} ({ring})": maps[:, mask].mean(axis=1) for n, mask in parts.items()}
-            yield from in_order(scene, size(scene), times)
+            yield from samples.in_order(scene, times)
 
 
-def in_claimed_order(run: Record) -> float:
-    """Share of the pillars of a realisation whose border and ring inside detach in this order."""
-    rings = [list(parts.values()) for _, parts in _rings(run.scene)]
+@claim("The order of detachment never changes", "3.2", 5, _PILLARS, "universal")
+@share_over(pillars, "share of the pillars whose parts detach in this order", ranges.NEARLY_ALL)
+def always_in_order(run: Record) -> float:
+    """The described detachment sequence always occurs, independently of statistical properties.
+
+    Tested: on more than nine tenths of the single pillars.
+    """
+    rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
         all(np.all(np.diff([pillar[part].mean() for part in parts]) > 0.0) for parts in rings)
         for pillar in pillars_of(run.t_det, run.scene)
@@ -132,37 +107,27 @@ def in_claimed_order(run: Record) -> float:
     return float(np.mean(ordered))
 
 
-@claim("The order of detachment never changes", "3.2", 5, _PILLARS, "universal")
-def always_in_order(evidence: Evidence) -> Iterator[Finding]:
-    """The described detachment sequence always occurs, independently of statistical properties.
-
-    Tested: on more than nine tenths of the single pillars.
-    """
-    name = "share of the pillars whose parts detach in this order"
-    return shares_of_runs(pillars(evidence.records), name, in_claimed_order, ranges.NEARLY_ALL)
-
-
-def border_by_peak(run: Record) -> float:
-    """Share of the blocks on the border of pillars or beside it that detach before t_max."""
-    early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    return float(early[:, from_edge(run.scene.n_p) < _BORDER].mean())
-
-
 @claim("Edges detach before the force maximum", "3.2", 5, _PILLARS)
-def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
+@share_over(
+    pillars,
+    "share of the blocks on the border or beside it that detach before t_max",
+    ranges.NEARLY_ALL,
+)
+def edges_before_peak(run: Record) -> float:
     """The detachments on the borders and on the blocks adjacent to them occur before the maximum of
     the friction force.
 
     Tested: more than nine tenths of these blocks.
     """
-    name = "share of the blocks on the border or beside it that detach before t_max"
-    return shares_of_runs(pillars(evidence.records), name, border_by_peak, ranges.NEARLY_ALL)
+    early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
+    return float(early[:, surfaces.from_edge(run.scene.n_p) < _BORDER].mean())
 
 
 def near_border(run: Record) -> float:
     """Share of the precursors that lie on the border of a pillar or beside it."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    return share_of(np.broadcast_to(from_edge(run.scene.n_p) < _BORDER, early.shape), early)
+    border = surfaces.from_edge(run.scene.n_p) < _BORDER
+    return samples.share_of(np.broadcast_to(border, early.shape), early)
 
 
 @claim("Precursors are a region around the edge of pillars", "3.2", 5, _BROAD_PILLARS)
@@ -172,13 +137,13 @@ def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: most lie within two blocks of the edge, and less than half are isolated.
     """
-    for scene, runs in pillars(evidence.records, _BROAD).items():
+    for scene, runs in _broad(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or beside it", near_border, ranges.MOST),
-            ("isolated", isolated, ranges.FEWER_THAN_HALF),
+            ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
         ):
             name = f"share of the blocks detached before t_max that are {what}"
-            yield from shares_of_runs({scene: runs}, name, quantity, claimed)
+            yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
 
 
 def inside(run: Record) -> Array:
@@ -188,20 +153,19 @@ def inside(run: Record) -> Array:
 
 
 @claim("Detachment waves start near the edge of pillars", "3.2", 5, _BROAD_PILLARS)
-def nucleation_near_edge(evidence: Evidence) -> Iterator[Finding]:
+@share_over(
+    _broad,
+    f"share of places inside the border that are nearer to it than the {_PATCH} x {_PATCH} blocks "
+    "detaching first",
+    _OUTER_QUARTER,
+)
+def nucleation_near_edge(run: Record) -> float:
     """Detachment waves are triggered from nucleation points located near the edge.
 
-    Tested: in the outer quarter of what the border, two blocks wide, encloses.
+    Tested: in the outer quarter of what the border, two blocks wide, encloses. The same for borders
+    of 1 to 4 blocks and patches of 2 to 5; on the flat surface the first patch lies half way.
     """
-    name = (
-        f"share of places inside the border that are nearer to it than the {_PATCH} x {_PATCH} "
-        "blocks detaching first"
-    )
-
-    def first(run: Record) -> float:
-        return float(np.mean([first_patch(pillar, _PATCH) for pillar in inside(run)]))
-
-    return shares_of_runs(pillars(evidence.records, _BROAD), name, first, _OUTER_QUARTER)
+    return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 @claim("The centre of pillars detaches last", "3.2", 5, _CORED_PILLARS)
@@ -215,34 +179,31 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
         wide = times.shape[-1]
         middle = np.zeros((wide, wide), bool)  # half as wide as the inside
         middle[wide // 4 : wide - wide // 4, wide // 4 : wide - wide // 4] = True
-        later = mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
-        yield found_on(scene, size(scene), name, later, ranges.POSITIVE)
+        later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
+        yield found_on(scene, name, later, ranges.POSITIVE)
 
 
 @claim("t_max > t_avg on pillars", "3.2", 6, _PILLARS, "universal")
-def peak_after_average(evidence: Evidence) -> Iterator[Finding]:
+@mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
+def peak_after_average(run: Record) -> float:
     """The force peak always occurs after the average detachment time.
 
     Tested: on average over realisations, for every size of pillars.
     """
-    for scene, runs in pillars(evidence.records).items():
-        found = mean(over_runs(lag, runs))
-        yield found_on(scene, size(scene), "t_max - t_avg", found, ranges.POSITIVE, "s")
+    return run.t_max - run.t_avg
 
 
 @claim("The main front comes after t_max on very large pillars", "3.2", 6, _LARGEST)
-def front_after_peak(evidence: Evidence) -> Iterator[Finding]:
+@share_over(
+    _large, "share of the blocks inside the border that detach after t_max", ranges.NEARLY_ALL
+)
+def front_after_peak(run: Record) -> float:
     """On very large pillars, e.g. n_p = 60, the central part is involved in the main detachment
     front after the time t_max.
 
     Tested: more than nine tenths of the blocks off the border detach after t_max.
     """
-
-    def later(run: Record) -> float:
-        return float(np.mean(inside(run) > run.t_max))
-
-    name = "share of the blocks inside the border that detach after t_max"
-    return shares_of_runs(pillars(evidence.records, _LARGE), name, later, ranges.NEARLY_ALL)
+    return float(np.mean(inside(run) > run.t_max))
 
 
 def warning(run: Run) -> float:
@@ -262,31 +223,28 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     paper finds another transition.
     """
     quantities: Mapping[str, Quantity] = {
-        "(t_max - t_avg)/t_max": relative_lag,
-        "precursors": before_peak,
-        "width of the force peak": width,
+        "(t_max - t_avg)/t_max": samples.relative_lag,
+        "precursors": samples.before_peak,
+        "width of the force peak": samples.width,
     }
-    small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < SMALLEST]
+    small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     examples = list(pillars(evidence.records, _RELEVANT))[:1]
-    for flat, larger, scene in product(flat_surfaces(evidence.records), examples, small):
+    for flat, larger, scene in product(surfaces.flat(evidence.records), examples, small):
         for name, quantity in quantities.items():
-            samples = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
-            yield Finding(
-                size(scene),
-                f"{name}: distance from the flat surface, over that of n_p = {larger.n_p}",
-                magnitude(position(*samples)),
-                ranges.FEWER_THAN_HALF,
-                in_files(scene, flat, larger),
-            )
+            three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
+            away = samples.magnitude(samples.position(*three))
+            statistic = f"{name}: distance from the flat surface, over that of n_p = {larger.n_p}"
+            claimed, beside = ranges.FEWER_THAN_HALF, (flat, larger)
+            yield found_on(scene, statistic, away, claimed, beside=beside)
 
 
 def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
     """What pillars have more of than the flat surface."""
-    flats = flat_surfaces(evidence.records)
+    flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, pillars(evidence.records, _RELEVANT)):
         for name, quantity in quantities.items():
             statistic = f"{name}, minus that of the flat surface"
-            yield compared(evidence, size(scene), statistic, quantity, scene, flat)
+            yield samples.compared(evidence, statistic, quantity, scene, flat)
 
 
 @claim("More and earlier precursors on pillars", "3.2", 6, _BOTH)
@@ -295,24 +253,24 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
     interval before t_max.
     """
     time = "time from the first detachment to t_max over t_max"
-    return _above_flat(evidence, {_PRECURSORS: before_peak, time: warning})
+    return _above_flat(evidence, {_PRECURSORS: samples.before_peak, time: warning})
 
 
 @claim("Rounded force peak on pillars", "3.2", 6, _BOTH)
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """The force is no longer a sharp peak, and becomes rounded."""
-    return _above_flat(evidence, {_WIDTH: width})
+    return _above_flat(evidence, {_WIDTH: samples.width})
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
     """Scene with the lowest mean static friction."""
-    return min(scenes, key=lambda s: mean(over_runs(static_friction, evidence.records[s])).value)
+    return min(scenes, key=lambda scene: float(samples.friction(evidence, scene).mean()))
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
     """Pillars by size, if there are three or more, the smallest of n_p <= 3."""
     found = list(pillars(evidence.records, 0))
-    return found if len(found) >= 3 and found[0].n_p < SMALLEST else []
+    return found if len(found) >= 3 and found[0].n_p < surfaces.SMALLEST else []
 
 
 @claim("Lowest static friction at an intermediate n_p", "3.2", 6, _SIZES)
@@ -324,14 +282,8 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     # those between are chosen by the same means: small differences would be overrated
     for end in (scenes[0], scenes[-1]) if scenes else ():
         lowest = _lowest(evidence, scenes[1:-1])
-        yield compared(
-            evidence,
-            {},
-            f"static friction at n_p = {end.n_p} minus the lowest between, at n_p = {lowest.n_p}",
-            static_friction,
-            end,
-            lowest,
-        )
+        name = f"static friction at n_p = {end.n_p} minus the lowest between, at n_p = {lowest.n_p}"
+        yield samples.compared(evidence, name, samples.static_friction, end, lowest, case={})
 
 
 @claim("Sharper transition of very large pillars", "3.2", 6, _SIZES)
@@ -341,18 +293,20 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     if scenes:
         lowest, largest = _lowest(evidence, scenes[:-1]), scenes[-1]
         name = f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}"
-        yield compared(evidence, {}, name, width, largest, lowest, ranges.NEGATIVE)
+        yield samples.compared(
+            evidence, name, samples.width, largest, lowest, ranges.NEGATIVE, case={}
+        )
 
 
 @claim("Precursors are negligible on very large pillars", "3.2", 6, _LARGEST, "universal")
-def negligible_edges(evidence: Evidence) -> Iterator[Finding]:
+@share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
+def negligible_edges(run: Record) -> float:
     """For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors becomes
     negligible with respect to the surface area of the central part.
 
     Tested: less than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.
     """
-    large = pillars(evidence.records, _LARGE)
-    return shares_of_runs(large, _PRECURSORS, before_peak, ranges.NEGLIGIBLE)
+    return samples.before_peak(run)
 
 
 def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
@@ -378,22 +332,22 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     for scatter, scenes in _by_scatter(evidence).items():
         lowest, broad = _lowest(evidence, scenes), max(scenes, key=lambda s: s.n_p)
         runs, n_p = evidence.records[broad], lowest.n_p
-        fit = Correlation(side_times(runs, broad.pattern, ALONG)).length()
+        fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
         for amplitude, (value, low, high) in (("1", fit.fitted), ("free", fit.tail)):
             yield Finding(
                 {_SCATTER: scatter, "A": amplitude},
                 f"n_p = {n_p}, where static friction is lowest, over l_c at n_p = {broad.n_p}",
                 Estimate(n_p / float(value), n_p / float(high), n_p / float(low), len(runs)),
                 ranges.COMPARABLE,
-                in_files(*scenes),
+                surfaces.in_files(*scenes),
             )
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
     """Scenes whose static friction cannot be told from the lowest, by a 95 % interval."""
-    sample = {scene: over_runs(static_friction, evidence.records[scene]) for scene in scenes}
-    least = sample[_lowest(evidence, scenes)]
-    return [s for s in scenes if not difference(sample[s], least).ci_low > 0.0]
+    least = samples.friction(evidence, _lowest(evidence, scenes))
+    more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
+    return [scene for scene in scenes if not more[scene].ci_low > 0.0]
 
 
 def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterator[Finding]:
@@ -409,10 +363,11 @@ def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterato
     for other in (scene for scene in scenes if lowest != [scene]):
         sample = over_runs(quantity, evidence.records[other])
         others = [over_runs(quantity, evidence.records[s]) for s in lowest if s != other]
-        found = [difference(each, sample) for each in others]
+        found = [samples.difference(each, sample) for each in others]
         most = ranges.INF if other in lowest else max(each.ci_high for each in found)
         joint = replace(found[0], ci_low=min(each.ci_low for each in found), ci_high=most)
-        yield Finding(size(other), there, joint, ranges.POSITIVE, in_files(*lowest, other))
+        source = surfaces.in_files(*lowest, other)
+        yield Finding(surfaces.case_of(other), there, joint, ranges.POSITIVE, source)
 
 
 @claim("The most precursors where static friction is lowest", "3.2", 6, _SIZES, "universal")
@@ -422,7 +377,7 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
-    return _largest_there(evidence, _PRECURSORS, before_peak)
+    return _largest_there(evidence, _PRECURSORS, samples.before_peak)
 
 
 @claim("The roundest force peak where static friction is lowest", "3.2", 6, _SIZES, "universal")
@@ -432,7 +387,7 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
-    return _largest_there(evidence, _WIDTH, width)
+    return _largest_there(evidence, _WIDTH, samples.width)
 
 
 @claim("The longest transition where static friction is lowest", "3.2", 6, _SIZES, "universal")
@@ -442,4 +397,4 @@ def longest_transition(evidence: Evidence) -> Iterator[Finding]:
 
     Tested: against all other sizes, whichever of those that may have the lowest friction has it.
     """
-    return _largest_there(evidence, _DURATION, lasting)
+    return _largest_there(evidence, _DURATION, samples.lasting)

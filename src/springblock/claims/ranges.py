@@ -9,7 +9,7 @@ INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
 NEARLY_ALL = (0.9, INF)  #: a rule without exception
 MOST, FEWER_THAN_HALF = (0.5, INF), (-INF, 0.5)
-NEGLIGIBLE = (-INF, 0.1)
+NEGLIGIBLE, MORE_THAN_NEGLIGIBLE = (-INF, 0.1), (0.1, INF)
 COMPARABLE = (0.5, 2.0)  #: a ratio
 ALIKE = (-INF, 0.2)  #: fraction of the variance that place explains where the paper says uniform
 

@@ -11,54 +11,20 @@ from typing import Any
 
 from springblock.io.rows import Row, markdown_table
 
-_FILE = Path(__file__).with_name("register.csv")
+_FOLDER = Path(__file__).parent
 #: What is registered of a statement, beside its ranges and cases.
 _REGISTERED, _SETS = ("form", "statement"), ("range", "cases")
-#: Why a statement, its test or its range is not the one that was registered.
-_REASONS: dict[str, str] = {
-    "Static friction is greater across grooves than along": "the paper speaks of narrow grooves; "
-    "those of 10 between pawls of 10 have been left out",
-    "A step of 1e-8 s suffices": "errors of single runs with plain Runge-Kutta were held against "
-    "biases of means, a different quantity, and have been left out",
-    "The slider's springs follow from the shear modulus": "the paper does not say what part of the "
-    "layer shears; both readings are tested",
-    "Velocity, pressure and scatter affect the number of fronts": "at the largest velocity all "
-    "fronts have merged 1 µs after t_max, a tenth of it: they are counted at 1.01 t_max",
-    "Blocks detach in the order of their stress": "equal stresses bound the correlation, to "
-    "-0.43 at n_p = 60: it is taken over this bound",
-    "Pillars with n_p <= 3 behave like a flat surface": "the paper contrasts them with n_p >= 6, "
-    "not with 20; being further away on the other side no longer counts as similar",
-    "Static friction is lowest where n_p is about l_c": "the paper's ~ leaves the amplitude open: "
-    "A exp(-r/l_c) is tested, too",
-    "Correlation length of about three blocks or more": "the paper's ~ leaves the amplitude open: "
-    "A exp(-r/l_c) is tested, too",
-    "Exponential decay of c_x": "the paper's ~ leaves the amplitude open: all curves have one",
-    "The most precursors where static friction is lowest": "on the registered seeds n_p = 6 and 7 "
-    "could not be told apart as those of the lowest friction: there are 300 of each",
-    "The roundest force peak where static friction is lowest": "as above",
-    "The longest transition where static friction is lowest": "as above",
-    "All blocks of a side detach at the same time on average": "sides along and across the sliding "
-    "direction are told apart, as in other statements on sides",
-    "c_x has a long range, c_y a short one": "sides of less than 10 blocks have been left out: at "
-    "r = 3 their corners are compared, which detach first",
-    **dict.fromkeys(
-        (
-            "Fronts run faster along grooves",
-            "Grooves make stress more uniform",
-            "Precursors are uncorrelated when sliding across grooves",
-            "Without hierarchy one load peak",
-            "The length of pillars changes static friction",
-        ),
-        "surfaces that the earlier seeds lack: they are in `config/full.yaml` of the same commit",
-    ),
-    "The lengths control the interval between the load peaks": "chance lies in the choice of "
-    "surfaces, which are drawn from anew; that n_p - n_p2 explains more than n_p is not claimed",
-}
+
+
+def reasons() -> dict[str, str]:
+    """Return why a statement, its test or its range is not the one that was registered."""
+    _, _, *lines = (_FOLDER / "reasons.md").read_text(encoding="utf-8").splitlines()
+    return dict(line.strip("| ").split(" | ") for line in lines)
 
 
 def registered() -> list[Row]:
     """Return the rows of the register, all as text."""
-    with _FILE.open(encoding="utf-8", newline="") as file:
+    with (_FOLDER / "register.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -70,14 +36,15 @@ def verdicts() -> dict[str, Row]:
 def changes(table: Sequence[Row]) -> str:
     """Say in a Markdown table what differs between the register and what was tested."""
     before, now = _statements(registered()), _statements(table)
-    changed = [name for name in now if _difference(before.get(name), now[name])]
-    if not changed:
-        return "Nothing has been changed since."
-    lines = [[name, _difference(before.get(name), now[name])] for name in changed]
-    return markdown_table(
-        ["statement", "changed", "why"],
-        [[*line, _REASONS.get(line[0], "no reason is given")] for line in lines],
-    )
+    changed = {name: _difference(before.get(name), now[name]) for name in now}
+    why = reasons()
+    lines = [
+        [name, difference, why.get(name, "no reason is given")]
+        for name, difference in changed.items()
+        if difference
+    ]
+    header = ["statement", "changed", "why"]
+    return markdown_table(header, lines) if lines else "Nothing has been changed since."
 
 
 def _statements(table: Sequence[Row]) -> dict[str, dict[str, Any]]:

@@ -76,7 +76,8 @@ class Finding:
     def needed(self, together: int = 1) -> float:
         """Realisations that decide nine times in ten, if value and scatter are the true ones.
 
-        To 2 %; infinite if a million would not do, NaN where chance plays no part or there is no
+        Of the smallest sample, where it is one of several, which are to grow in proportion. To 2 %;
+        infinite if a million would not do, NaN where chance plays no part or there is no
         interval.
         """
         if self.estimate.n < 2 or math.isnan(self.estimate.ci_low):
@@ -149,7 +150,7 @@ def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
     if {"holds", "fails"} <= found:
         return "reproduced in part", boundary(cases, "holds", "fails", "open")
     if "fails" in found and form == "general":
-        return "not reproduced", boundary(cases, "fails")
+        return "not reproduced", boundary(cases, "fails", "open")
     if "open" in found:
         return "not settled", boundary(cases, "open")
     return ("reproduced" if "holds" in found else "not reproduced"), ""
@@ -165,6 +166,7 @@ _WORDS = {
     "n_p2": "with pawls of {} blocks",
     "degrees": "at {}° from the grooves",
     "t/t_max below": "for blocks that detach before {} t_max",
+    "small against": "against {}",
     "mu_static_std": "where thresholds scatter by {}",
 }
 

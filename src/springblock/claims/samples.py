@@ -1,10 +1,10 @@
-"""Scenes that claims are about, samples of one number per realisation, and findings from them."""
+"""Samples of one number per realisation, what is estimated from them, and findings."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import wraps
 from itertools import pairwise
 from operator import attrgetter
-from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,83 +16,29 @@ from springblock.analysis.statistics import (
     proportion_interval,
     samples_interval,
 )
-from springblock.claims import ranges
-from springblock.claims.rule import Case, Evidence, Finding, Range, Records, describe
+from springblock.claims import ranges, surfaces
+from springblock.claims.rule import Case, Evidence, Finding, Range, Records, Test
+from springblock.claims.surfaces import Mask
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
-T = TypeVar("T")
-Mask = NDArray[np.bool_]
 Quantity = Callable[[Record], float]  #: of a realisation
 
-SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
 _HIGH = 0.95  #: of the largest force, where the width of its peak is taken
-ALONG = "x"  #: the paper's sliding direction
 static_friction: Quantity = attrgetter("static_friction")
-
-
-def flat_surfaces(table: Iterable[Scene]) -> list[Scene]:
-    """Return the flat surface with the study's constants, if it is there."""
-    return [scene for scene in table if not scene.level and not scene.varied][:1]
-
-
-def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T]:
-    """Scenes of square pillars with n_s = n_p, with the study's constants, by n_p."""
-    equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0 and not s.varied]
-    found = [s for s in equal if s.n_p >= smallest]
-    return {scene: table[scene] for scene in sorted(found, key=attrgetter("n_p"))}
-
-
-def grooved(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
-    """Scenes of grooved pillars of so many levels that slide along x, by their lengths."""
-    found = [s for s in table if s.level == level and s.n_p and s.direction == ALONG]
-    found.sort(key=lambda s: (s.n_blocks, s.n_p, s.n_p2, s.n_s2, s.n_p3))
-    return {scene: table[scene] for scene in found}
-
-
-def across(scene: Scene) -> Scene:
-    """Return the same surface, slid along y."""
-    return replace(scene, direction="y")
-
-
-def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> list[Scene]:
-    """Scenes along x of grooved pillars that were slid across their grooves, too."""
-    return [scene for scene in grooved(table, level) if across(scene) in table]
-
-
-def size(scene: Scene) -> dict[str, int | str]:
-    """Case of pillars of one level."""
-    return {"n_p": scene.n_p}
-
-
-def pawls(scene: Scene) -> dict[str, int | str]:
-    """Case of grooves, which are all equally wide."""
-    return {"n_p2": scene.n_p2}
-
-
-def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
-    """Parts of a field over the surface, (N, N), that lie on each pillar, (n_p, n_p)."""
-    size = scene.n_p
-    return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
-
-
-def in_files(*scenes: Scene, folder: str = "realisations") -> str:
-    """Name the folders that hold the realisations, or the preludes, of these scenes."""
-    return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
-
-
-def in_rows(table: str, scene: Scene, **more: str | int) -> str:
-    """Name rows of a table of correlations of this scene."""
-    keys = {"N": scene.n_blocks, **scene.names, "direction": scene.direction, **more}
-    return f"tables/{table}: {describe(keys)}"
 
 
 def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
     """A number per realisation, (k,), without those in which it is not defined, NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
+
+
+def friction(evidence: Evidence, scene: Scene) -> Array:
+    """Static friction of each realisation of a scene, (k,)."""
+    return over_runs(static_friction, evidence.records[scene])
 
 
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
@@ -123,29 +69,6 @@ def difference(first: Array, second: Array) -> Estimate:
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
-def paired(evidence: Evidence, quantity: Quantity, first: Scene, second: Scene) -> Estimate:
-    """Mean difference of a quantity between two scenes of one surface, seed by seed.
-
-    Equal seeds give both the same friction coefficients.
-    """
-    samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
-    return mean([samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]])
-
-
-def compared(
-    evidence: Evidence,
-    case: Case,
-    statistic: str,
-    quantity: Quantity,
-    first: Scene,
-    second: Scene,
-    claimed: Range = ranges.POSITIVE,
-) -> Finding:
-    """Mean of a quantity over the realisations of one scene minus that over those of another."""
-    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
-    return Finding(case, statistic, difference(*samples), claimed, in_files(first, second))
-
-
 def relative(first: Array, second: Array, base: Array) -> Estimate:
     """Mean of a sample minus that of another, over that of a third, whose error is left out."""
     apart, scale = difference(first, second), mean(base).value
@@ -155,10 +78,10 @@ def relative(first: Array, second: Array, base: Array) -> Estimate:
 
 
 def magnitude(estimate: Estimate) -> Estimate:
-    """The same seen from the other side, where it is negative."""
-    if not estimate.value < 0.0:
-        return estimate
-    return Estimate(-estimate.value, -estimate.ci_high, -estimate.ci_low, estimate.n)
+    """The same seen from the other side, where it is negative, as far as its further end."""
+    value, ends = estimate.value, (estimate.ci_low, estimate.ci_high)
+    nearer = -ends[1] if value < 0.0 else ends[0]
+    return Estimate(abs(value), nearer, float(np.max(np.abs(ends))), estimate.n)
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
@@ -180,42 +103,88 @@ def position(sample: Array, zero: Array, one: Array) -> Estimate:
 
 def found_on(
     scene: Scene,
-    case: Case,
     statistic: str,
     estimate: Estimate,
     claimed: Range,
     unit: str = "1",
+    case: Case | None = None,
+    beside: Iterable[Scene] = (),
 ) -> Finding:
-    """Finding that rests on the realisations of a scene."""
-    return Finding(case, statistic, estimate, claimed, in_files(scene), unit)
+    """Finding on a scene, whose lengths are its case, from the realisations of it and of others."""
+    case = surfaces.case_of(scene) if case is None else case
+    return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
 
 
-def shares_of_runs(
-    records: Records, statistic: str, quantity: Quantity, claimed: Range
-) -> Iterator[Finding]:
-    """Mean of a share over the realisations of each scene of pillars."""
-    for scene, runs in records.items():
-        yield found_on(scene, size(scene), statistic, share(over_runs(quantity, runs)), claimed)
+def mean_over(
+    scenes: Callable[[Records], Records],
+    statistic: str,
+    claimed: Range,
+    unit: str = "1",
+    estimate: Callable[[Array], Estimate] = mean,
+) -> Callable[[Quantity], Test]:
+    """Make a test of a quantity: its mean over the realisations of each of some scenes."""
+
+    def made(quantity: Quantity) -> Test:
+        @wraps(quantity)
+        def test(evidence: Evidence) -> Iterator[Finding]:
+            for scene, runs in scenes(evidence.records).items():
+                found = estimate(over_runs(quantity, runs))
+                yield found_on(scene, statistic, found, claimed, unit)
+
+        return test
+
+    return made
 
 
-def in_order(
-    scene: Scene, case: Case, parts: Mapping[str, Array], time: str = "t_max"
-) -> Iterator[Finding]:
+def share_over(
+    scenes: Callable[[Records], Records], statistic: str, claimed: Range
+) -> Callable[[Quantity], Test]:
+    """Make a test of a share, whose interval stays between 0 and 1."""
+    return mean_over(scenes, statistic, claimed, estimate=share)
+
+
+def paired(
+    evidence: Evidence,
+    statistic: str,
+    quantity: Quantity,
+    first: Scene,
+    second: Scene,
+    claimed: Range = ranges.POSITIVE,
+) -> Finding:
+    """Mean difference of a quantity between two scenes of one surface, seed by seed.
+
+    Equal seeds give both the same friction coefficients.
+    """
+    samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
+    apart = [samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]]
+    return found_on(first, statistic, mean(apart), claimed, beside=[second])
+
+
+def compared(
+    evidence: Evidence,
+    statistic: str,
+    quantity: Quantity,
+    first: Scene,
+    second: Scene,
+    claimed: Range = ranges.POSITIVE,
+    case: Case | None = None,
+) -> Finding:
+    """Mean of a quantity over the realisations of one scene minus that over those of another."""
+    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
+    return found_on(first, statistic, difference(*samples), claimed, case=case, beside=[second])
+
+
+def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:
     """Each part of a pillar detaches before the next; mean t_det over `time` of each, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
         statistic = f"t_det/{time} of the {late} minus that of the {early}"
-        yield found_on(scene, case, statistic, mean(after - before), ranges.POSITIVE)
+        yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE)
 
 
 def before_peak(run: Run) -> float:
     """Share of all detaching blocks that detach before t_max."""
     times = run.t_det[np.isfinite(run.t_det)]
     return float(np.mean(times < run.t_max))
-
-
-def lag(run: Run) -> float:
-    """t_max - t_avg, s."""
-    return run.t_max - run.t_avg
 
 
 def relative_lag(run: Run) -> float:
@@ -263,12 +232,6 @@ def rates(run: Run, width: float) -> Array:
     return counts
 
 
-def from_edge(size: int) -> NDArray[np.intp]:
-    """Distance of each block of a square from its edge, (size, size)."""
-    from_end = np.minimum(np.arange(size), np.arange(size)[::-1])
-    return np.minimum.outer(from_end, from_end)
-
-
 def first_patch(times: Array, size: int) -> float:
     """Where the patch of `size` by `size` blocks lies that detaches first, (n, n) s.
 
@@ -276,6 +239,6 @@ def first_patch(times: Array, size: int) -> float:
     1/2 on average if every place is as good, 0 at the edge, 1 at the centre.
     """
     windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
-    depth = from_edge(len(windows))
+    depth = surfaces.from_edge(len(windows))
     here = depth.flat[np.argmin(windows)]
     return float(np.mean(depth < here) + 0.5 * np.mean(depth == here))

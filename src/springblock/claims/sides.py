@@ -13,21 +13,11 @@ from numpy.typing import NDArray
 from springblock.analysis.correlation import LAST, Correlation, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import Interval, bootstrap_interval, repeatability
-from springblock.claims import ranges
+from springblock.claims import ranges, samples
 from springblock.claims.ranges import INF, within
 from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
-from springblock.claims.samples import (
-    ALONG,
-    across,
-    found_on,
-    in_rows,
-    interval,
-    mean,
-    pawls,
-    pillars,
-    size,
-    slid_both_ways,
-)
+from springblock.claims.samples import found_on, interval
+from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
@@ -49,6 +39,7 @@ _LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or m
 _WITH_GROOVES = f"{_LENGTHS}, with grooves and without"
 _ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
 _PILLARS = "realisations of pillars with n_p of 4 or more"
+_SHORT_PILLARS = "realisations of pillars with n_p of 4 to 10"
 _BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
@@ -72,11 +63,6 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
     below = float(np.hypot(first.value - first.ci_low, second.ci_high - second.value))
     above = float(np.hypot(first.ci_high - first.value, second.value - second.ci_low))
     return Estimate(difference, difference - below, difference + above, min(first.n, second.n))
-
-
-def _length(row: Row) -> Estimate:
-    """l_c of exp(-r/l_c)."""
-    return interval(row, "l_c")
 
 
 def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
@@ -104,10 +90,10 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
             continue
         apart = paired_difference(*(interval(row, "correlation") for row in far))
         source = in_rows("correlation", scene, r=_FAR)
-        yield Finding(size(scene), name, apart, ranges.POSITIVE, source)
+        yield Finding(case_of(scene), name, apart, ranges.POSITIVE, source)
         c_y = interval(near[0], "correlation")
         source = in_rows("correlation", scene, side="y", r=1)
-        yield Finding(size(scene), "c_y(r = 1)", c_y, _DECAYED, source)
+        yield Finding(case_of(scene), "c_y(r = 1)", c_y, _DECAYED, source)
 
 
 def events(times: Array) -> NDArray[np.intp]:
@@ -153,8 +139,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         for side in "xy":
             number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
             sizes[side] = (scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1]
-        larger = mean(sizes["x"] - sizes["y"])
-        yield found_on(scene, size(scene), name, larger, ranges.POSITIVE, "blocks")
+        larger = samples.mean(sizes["x"] - sizes["y"])
+        yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
 
 
 @claim("All blocks of a side detach at the same time on average", "3.2", 7, _BROAD_PILLARS)
@@ -169,28 +155,25 @@ def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
             times = side_times(runs, scene.pattern, side)[:, 0, 0, 1:-1]  # of the first pillar
             found = Estimate.of(repeatability(times), len(runs))
             statistic = "share of the variance of t_det that place explains on a side"
-            case = {"sides": f"sides {name} the sliding direction"} | size(scene)
-            yield found_on(scene, case, statistic, found, ranges.ALIKE)
+            case = {"sides": f"sides {name} the sliding direction", **case_of(scene)}
+            yield found_on(scene, statistic, found, ranges.ALIKE, case=case)
 
 
-def misfits(correlation: Array) -> dict[str, Array]:
+def misfits(correlation: Array) -> list[Array]:
     """Root mean square distance of c(r), (b, r) from r = 1 on, from curves of one length.
 
-    The best curve of each shape times an amplitude, on a grid of lengths; (b,) each.
+    From the best exponential, power law and straight line, each times an amplitude, on a grid of
+    lengths; (b,) each.
     """
     r = np.arange(1.0, correlation.shape[-1] + 1.0)
     lengths = np.geomspace(0.1, 100.0, 200)[:, None]
-    shapes = {
-        "an exponential": np.exp(-r / lengths),
-        "a power law": (1.0 + r) ** (-1.0 / lengths),
-        "a straight line": np.maximum(0.0, 1.0 - r / lengths),
-    }
-    found = {}
-    for name, curves in shapes.items():
+    power_law, line = (1.0 + r) ** (-1.0 / lengths), np.maximum(0.0, 1.0 - r / lengths)
+    found = []
+    for curves in (np.exp(-r / lengths), power_law, line):
         square = np.maximum((curves**2).sum(axis=-1), np.finfo(float).tiny)
         explained = (correlation @ curves.T) ** 2 / square  # by the best amplitude of each
         left = (correlation**2).sum(axis=-1) - explained.max(axis=-1)
-        found[name] = np.sqrt(np.maximum(left, 0.0) / len(r))
+        found.append(np.sqrt(np.maximum(left, 0.0) / len(r)))
     return found
 
 
@@ -206,7 +189,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
         span = slice(1, LAST + 1)
 
         def distances(weights: Array, found: Correlation = found, span: slice = span) -> Array:
-            exponential, *others = misfits(found.weighted(weights)[:, span]).values()
+            exponential, *others = misfits(found.weighted(weights)[:, span])
             return np.column_stack([exponential, *(exponential - other for other in others)])
 
         intervals = bootstrap_interval(distances, len(runs))
@@ -215,7 +198,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
         for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
             apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
             statistic = f"root mean square distance of c_x from the best exponential{more}"
-            yield found_on(scene, size(scene), statistic, apart, claimed)
+            yield found_on(scene, statistic, apart, claimed)
 
 
 @claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
@@ -227,8 +210,11 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     for scene in pillars(evidence.correlation_length, _BROAD):
         for fit in _fits(evidence, scene):
             source = in_rows("correlation_length", scene, side="x")
-            for amplitude, length in (("1", _length(fit)), ("free", interval(fit, "tail", "tail"))):
-                case = {"A": amplitude} | size(scene)
+            for amplitude, length in (
+                ("1", interval(fit, "l_c")),
+                ("free", interval(fit, "tail", "tail")),
+            ):
+                case = {"A": amplitude, **case_of(scene)}
                 yield Finding(case, "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
 
 
@@ -246,20 +232,14 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     yield Finding(
         {},
         f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-        unpaired_difference(_length(last), _length(first)),
+        unpaired_difference(interval(last, "l_c"), interval(first, "l_c")),
         ranges.POSITIVE,
         f"tables/correlation_length: n_p = {first['n_p']} and {last['n_p']}, side = x",
         "blocks",
     )
 
 
-@claim(
-    "One event can detach a whole side",
-    "3.2",
-    7,
-    "realisations of pillars with n_p of 4 to 10",
-    "existential",
-)
+@claim("One event can detach a whole side", "3.2", 7, _SHORT_PILLARS, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
     detachment of the whole side.
@@ -275,7 +255,8 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
         if scene.n_p <= _SHORT:
             sides = _sides_of(evidence, scene, "x")
             once, by_chance = ((events(times) == 1).mean(axis=(1, 2)) for times in sides)
-            yield found_on(scene, size(scene), name, mean(once - by_chance), ranges.POSITIVE)
+            more = samples.mean(once - by_chance)
+            yield found_on(scene, name, more, ranges.POSITIVE)
 
 
 def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
@@ -321,7 +302,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
                     {"side": name},
                     f"l_c on grooved pillars minus l_c on sides of n_p = {like.n_p} without "
                     "grooves (from both intervals)",
-                    unpaired_difference(_length(fit), _length(whole[0])),
+                    unpaired_difference(interval(fit, "l_c"), interval(whole[0], "l_c")),
                     within(_BLOCK),
                     in_rows("correlation_length", scene, side=side),
                     "blocks",
@@ -332,13 +313,14 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
 
-    Tested: correlation below 1/e one block away, on external sides and along the grooves.
+    Tested: correlation below 1/e one block away, on external sides and along the grooves. The same
+    for any bound from 0.22 to 0.5, which is exceeded when sliding along the grooves.
     """
     for scene in slid_both_ways(evidence.correlation):
         for side, name in _SIDES.items():
             for row in select(evidence.correlation[across(scene)], side=side, r=1):
                 yield Finding(
-                    pawls(scene),
+                    case_of(scene),
                     f"c(r = 1) on {name} when sliding across the grooves",
                     interval(row, "correlation"),
                     _DECAYED,

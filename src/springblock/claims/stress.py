@@ -11,21 +11,10 @@ import numpy as np
 
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import bootstrap_interval, pillar_map, pillar_ring
-from springblock.claims import ranges
-from springblock.claims.grooves import edge, grooved_parts
-from springblock.claims.rule import Case, Evidence, Finding, Range, claim
-from springblock.claims.samples import (
-    SMALLEST,
-    across,
-    found_on,
-    grooved,
-    in_files,
-    pawls,
-    pillars,
-    pillars_of,
-    size,
-    slid_both_ways,
-)
+from springblock.claims import ranges, surfaces
+from springblock.claims.rule import Evidence, Finding, Range, claim
+from springblock.claims.samples import found_on
+from springblock.claims.surfaces import across, case_of, pillars, pillars_of, slid_both_ways
 from springblock.mechanism.elasticity import pull
 from springblock.model.material import Material
 from springblock.model.scene import Scene
@@ -53,10 +42,11 @@ def elastic_forces(scene: Scene, material: Material) -> Array:
     return forces if scene.direction == "x" else forces.transpose(0, 2, 1)
 
 
-def _exactly(case: Case, statistic: str, value: float, claimed: Range, *scenes: Scene) -> Finding:
-    """Finding without scatter on the surfaces of some scenes."""
+def _exactly(statistic: str, value: float, claimed: Range, *scenes: Scene) -> Finding:
+    """Finding without scatter on the surfaces of some scenes, whose lengths are its case."""
     exact = Estimate(float(value), float(value), float(value))
-    return Finding(case, statistic, exact, claimed, in_files(*scenes, folder="surface of"))
+    case = {key: value for scene in reversed(scenes) for key, value in case_of(scene).items()}
+    return Finding(case, statistic, exact, claimed, surfaces.in_files(*scenes, folder="surface of"))
 
 
 def _modulus(evidence: Evidence, scene: Scene) -> Array:
@@ -81,9 +71,9 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
     """
     name = f"stress on the edges when sliding across the grooves minus that along, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
-        scenes, edges = (across(along), along), edge(along.pattern.contact)
+        scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
         more, less = (float(_modulus(evidence, s)[edges].mean()) for s in scenes)
-        yield _exactly(pawls(along), name, more - less, ranges.POSITIVE, *scenes)
+        yield _exactly(name, more - less, ranges.POSITIVE, *scenes)
 
 
 @claim("The smallest pillars bear a uniform stress", "3.2", 4, "pillars with n_p of 2 or 3")
@@ -94,9 +84,9 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
     Tested: the standard deviation of the stress is below a tenth of its mean.
     """
     name = "standard deviation of the stress over its mean"
-    for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < SMALLEST):
+    for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < surfaces.SMALLEST):
         deviation = float(np.nanstd(_modulus(evidence, scene)))
-        yield _exactly(size(scene), name, deviation, ranges.NEGLIGIBLE, scene)
+        yield _exactly(name, deviation, ranges.NEGLIGIBLE, scene)
 
 
 @claim("All pillars bear the same stress", "3.2", 4, _SEVERAL, "universal")
@@ -115,7 +105,7 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
         if len(stresses) >= 2:
             usual = stresses.mean(axis=0)
             off = np.sqrt(((stresses - usual) ** 2).mean(axis=(1, 2))).max()
-            yield _exactly(size(scene), name, off / usual.std(), ranges.ALIKE, scene)
+            yield _exactly(name, off / usual.std(), ranges.ALIKE, scene)
 
 
 @claim("Edges across the sliding direction bear more", "3.2", 4, _PILLARS)
@@ -130,7 +120,7 @@ def larger_across(evidence: Evidence) -> Iterator[Finding]:
     for scene in pillars(evidence.stress):
         ring, forces = pillar_ring(scene.n_p, 0), _along(evidence, scene)
         more = forces[ring["y"]].mean() - forces[ring["x"]].mean()
-        yield _exactly(size(scene), name, more, ranges.POSITIVE, scene)
+        yield _exactly(name, more, ranges.POSITIVE, scene)
 
 
 def rank_correlation(field: Array, maps: Array) -> Estimate:
@@ -165,7 +155,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
             stress = _pillar_stress(evidence, scene).mean(axis=0).ravel()
             maps = pillar_map(runs, scene.pattern).reshape(len(runs), -1)
             found = rank_correlation(stress, maps)
-            yield found_on(scene, size(scene), name, found, (-ranges.INF, -0.5))
+            yield found_on(scene, name, found, (-ranges.INF, -0.5))
 
 
 @claim("Grooves make stress more uniform", "3.3", 8, _BOTH_KINDS)
@@ -176,13 +166,12 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     Tested: against the same pillars without grooves.
     """
     name = "standard deviation of the stress over its mean, with grooves minus without"
-    for scene in grooved(evidence.stress):
+    for scene in surfaces.grooved(evidence.stress):
         plain = replace(scene, n_p2=0, n_s2=0)
         if plain in evidence.stress:
             deviations = (float(np.nanstd(_modulus(evidence, s))) for s in (scene, plain))
             less = next(deviations) - next(deviations)
-            case = size(scene) | pawls(scene)
-            yield _exactly(case, name, less, ranges.NEGATIVE, scene, plain)
+            yield _exactly(name, less, ranges.NEGATIVE, scene, plain)
 
 
 @claim("External edges bear more than those along grooves", "3.3", 8, _GROOVED)
@@ -194,11 +183,11 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene in slid_both_ways(evidence.stress):
         forces = _along(evidence, scene)
-        parts = {n: float(forces[mask].mean()) for n, mask in grooved_parts(scene).items()}
+        parts = {n: float(forces[mask].mean()) for n, mask in surfaces.grooved_parts(scene).items()}
         internal = parts["sides along the grooves"]
         for part in ("transverse sides", "external longitudinal sides"):
             name = f"force along x on the {part} minus that on those along grooves, {_OVER_MEAN}"
-            yield _exactly(pawls(scene), name, parts[part] - internal, ranges.POSITIVE, scene)
+            yield _exactly(name, parts[part] - internal, ranges.POSITIVE, scene)
 
 
 @claim("The edges are half of a grooved surface", "3.3", 8, _GROOVED)
@@ -210,5 +199,5 @@ def equal_parts(evidence: Evidence) -> Iterator[Finding]:
     """
     name = "share of the contact blocks beside a groove or a gap"
     for scene in slid_both_ways(evidence.stress):
-        share = edge(scene.contact).sum() / scene.contact.sum()
-        yield _exactly(pawls(scene), name, share, (0.4, 0.6), scene)
+        share = surfaces.edge(scene.contact).sum() / scene.contact.sum()
+        yield _exactly(name, share, (0.4, 0.6), scene)

@@ -1,0 +1,113 @@
+"""Surfaces that claims are about: which were slid, what a case calls them, and their parts."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from operator import attrgetter
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.claims.rule import Case, describe
+from springblock.model.scene import Scene
+
+T = TypeVar("T")
+Mask = NDArray[np.bool_]
+
+SMALLEST = 4  #: n_p of the smallest pillars with a stress distribution of their own, section 3.2
+ALONG = "x"  #: the paper's sliding direction
+
+
+def flat(table: Mapping[Scene, T]) -> dict[Scene, T]:
+    """The flat surface with the study's constants, if it is there."""
+    found = [scene for scene in table if not scene.level and not scene.varied][:1]
+    return {scene: table[scene] for scene in found}
+
+
+def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T]:
+    """Scenes of square pillars with n_s = n_p, with the study's constants, by n_p."""
+    equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0 and not s.varied]
+    found = [s for s in equal if s.n_p >= smallest]
+    return {scene: table[scene] for scene in sorted(found, key=attrgetter("n_p"))}
+
+
+def grooved(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
+    """Scenes of grooved pillars of so many levels that slide along x, by their lengths."""
+    found = [s for s in table if s.level == level and s.n_p and s.direction == ALONG]
+    found.sort(key=lambda s: (s.n_blocks, s.n_p, s.n_p2, s.n_s2, s.n_p3))
+    return {scene: table[scene] for scene in found}
+
+
+def across(scene: Scene) -> Scene:
+    """Return the same surface, slid along y."""
+    return replace(scene, direction="y")
+
+
+def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
+    """Scenes along x of grooved pillars that were slid across their grooves, too."""
+    return {s: found for s, found in grooved(table, level).items() if across(s) in table}
+
+
+def bare_grooves(table: Iterable[Scene]) -> list[Scene]:
+    """Surfaces grooved from edge to edge, without pillars, that slide along the grooves."""
+    found = [s for s in table if s.n_p2 and not s.n_p and s.direction == ALONG]
+    return sorted(found, key=lambda s: (s.n_blocks, s.n_p2, s.n_s2))
+
+
+def case_of(scene: Scene) -> Case:
+    """Case of a surface: its pawls, whose grooves on pillars are all as wide, or its pillars."""
+    if scene.n_p2 and not scene.n_p:
+        return {"surface": f"pawls of {scene.n_p2} and grooves of {scene.n_s2} without pillars"}
+    if scene.n_p2:
+        return {"n_p2": scene.n_p2}
+    return {"n_p": scene.n_p} if scene.n_p else {}
+
+
+def in_files(*scenes: Scene, folder: str = "realisations") -> str:
+    """Name the folders that hold the realisations, or the preludes, of these scenes."""
+    return "; ".join(f"{folder}/{scene.folder}" for scene in scenes)
+
+
+def in_rows(table: str, scene: Scene, **more: str | int) -> str:
+    """Name rows of a table of correlations of this scene."""
+    keys = {"N": scene.n_blocks, **scene.names, "direction": scene.direction, **more}
+    return f"tables/{table}: {describe(keys)}"
+
+
+def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
+    """Parts of a field over the surface, (N, N), that lie on each pillar, (n_p, n_p)."""
+    size = scene.n_p
+    return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
+
+
+def from_edge(size: int) -> NDArray[np.intp]:
+    """Distance of each block of a square from its edge, (size, size)."""
+    from_end = np.minimum(np.arange(size), np.arange(size)[::-1])
+    return np.minimum.outer(from_end, from_end)
+
+
+def edge(contact: Mask) -> Mask:
+    """Contact blocks beside a block, in one of the four directions, that is not in contact."""
+    padded = np.pad(contact, 1)
+    inside = padded[2:, 1:-1] & padded[:-2, 1:-1] & padded[1:-1, 2:] & padded[1:-1, :-2]
+    return contact & ~inside
+
+
+def core(contact: Mask) -> Mask:
+    """Contact blocks that are not of the edge."""
+    return contact & ~edge(contact)
+
+
+def grooved_parts(scene: Scene) -> dict[str, Mask]:
+    """Masks over a grooved pillar, [y_p, x_p], of its parts in the order of the paper."""
+    contact, size = pillars_of(scene.contact, scene)[0], scene.n_p
+    rows, columns = np.indices(contact.shape)
+    transverse = contact & ((columns == 0) | (columns == size - 1))
+    external = contact & ~transverse & ((rows == 0) | (rows == size - 1))
+    internal = edge(contact) & ~transverse & ~external
+    return {
+        "transverse sides": transverse,
+        "external longitudinal sides": external,
+        "sides along the grooves": internal,
+        "inside of the pawls": core(contact),
+    }
