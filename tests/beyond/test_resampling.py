@@ -4,23 +4,10 @@ import numpy as np
 import pytest
 
 from beyond.made_up import ensemble
-from springblock.analysis.correlation import side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import UNCHANGED, change, listed, number
-from springblock.beyond.resampling import SideLength, difference, interval, lowest, means
+from springblock.beyond.resampling import difference, interval, means, side_length
 from springblock.model.scene import Scene
-
-
-def test_the_lowest_mean_has_those_beside_it_that_cannot_be_told_from_it():
-    """Two of 20 runs differ by less than they scatter, the third by far more."""
-    noise = np.random.default_rng(0).standard_normal((3, 20))
-    noise -= noise.mean(axis=1, keepdims=True)
-    samples = {2: 1.0 + noise[0], 6: 0.9 + noise[1], 20: 4.0 + noise[2]}
-    found = lowest(samples)
-    assert (found.place, found.alike) == (6, [2, 6])
-    assert str(found) == "6 (or 2)"
-    exact = {2: np.full(2, 1.0), 6: np.full(2, 0.9), 20: np.full(2, 4.0)}
-    assert str(lowest(exact)) == "6"
 
 
 def test_intervals_cover_as_often_as_they_say():
@@ -56,8 +43,7 @@ def test_every_ensemble_is_resampled_by_itself():
 @pytest.mark.parametrize("length", [2.0, 5.0])
 def test_a_correlation_length_is_found_again(length):
     scene = Scene(80, 20, 20)
-    fit = SideLength(side_times(ensemble(scene, length=length, runs=40), scene.pattern, "x"), 6)
-    found = fit.interval
+    found = side_length(ensemble(scene, length=length, runs=40), 6)
     assert found.low < length < found.high
     assert found.high - found.low < length
 

@@ -1,36 +1,33 @@
 """Forces on edges, core and blocks without contact."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from springblock import Material, Pattern, draw_friction, simulate
-from springblock.mechanism import budget
-from springblock.mechanism.elasticity import lattice_stiffness, layer
+from springblock.io.rows import select
+from springblock.mechanism import tables
+from springblock.mechanism.elasticity import Layer, lattice_stiffness
 from springblock.mechanism.models import overshooting
+from springblock.model.scene import Scene
 
 MATERIAL = Material()
 
 
 def test_edges_are_beside_a_block_without_contact():
-    edges = budget.edge_blocks(Pattern.pillars(8, 4, 4).contact)
+    edges = tables.edge_blocks(Pattern.pillars(8, 4, 4).contact)
     expected = np.zeros((8, 8), bool)
     expected[2:6, 2:6] = True
     expected[3:5, 3:5] = False
     assert np.array_equal(edges, expected)
-    assert not budget.edge_blocks(np.ones((3, 3), bool)).any()  # an edge of the surface is none
+    assert not tables.edge_blocks(np.ones((3, 3), bool)).any()  # an edge of the surface is none
 
 
 def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):
     """Springs between blocks add up to nothing: the curve of the run is the sum of the parts."""
-    pulled = replace(budget.SCENES[1], n_blocks=24, n_p=10, n_s=14, n_p2=4, n_s2=2)
-    monkeypatch.setattr(budget, "SCENES", [pulled])
-    monkeypatch.setattr(budget, "SEEDS", 1)
-    found = {
-        model: [row for row in budget.budget_rows() if row["model"] == model]
-        for model in ("simulation", "overshooting")
-    }
+    pulled = Scene(24, n_p=10, n_s=14, n_p2=4, n_s2=2, direction="y")
+    monkeypatch.setattr(tables, "SEEDS_OF_GROOVES", 1)
+    rows = list(tables.budget_rows(pulled))
+    found = {model: select(rows, model=model) for model in ("simulation", "overshooting")}
     run = simulate(pulled.contact, *draw_friction(24, 0, MATERIAL), MATERIAL, "y", duration=600e-6)
     for row in found["simulation"]:
         whole = row["edge"] + row["core"] + row["free"]
@@ -44,13 +41,13 @@ def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):
 def test_no_spring_pulls_on_blocks_that_moved_as_one():
     stiffness = lattice_stiffness((3, 3), MATERIAL)
     moved = np.stack([np.full((3, 3), 2e-7), np.zeros((3, 3))])
-    force = budget.elastic_force(stiffness, moved, MATERIAL.k_s * 3e-7, 0)
+    force = tables.elastic_force(stiffness, moved, MATERIAL.k_s * 3e-7, 0)
     assert force == pytest.approx(np.full((3, 3), MATERIAL.k_s * 1e-7))
 
 
 def test_forces_on_parts_of_the_blocks_add_up_in_the_model(rng):
     contact = Pattern.pillars(12, 3, 3).contact
-    reduced, k = layer(contact, MATERIAL), contact.sum()
+    reduced, k = Layer(contact, MATERIAL), contact.sum()
     static, dynamic = rng.uniform(0.9, 1.1, k), np.full(k, 0.6)
     some = rng.random(k) < 0.4
     curves = [overshooting(reduced, static, dynamic, of) for of in (None, some, ~some)]

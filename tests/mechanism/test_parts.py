@@ -1,19 +1,19 @@
 """Parts of the chapter's tables."""
 
-from dataclasses import replace
-
 import pytest
 
-from springblock.mechanism import PEAK_JOBS, TABLES, VARIANTS, budget, peaks, table
-from springblock.mechanism.parts import measure
+from springblock.mechanism import tables
+from springblock.mechanism.surfaces import TABLES
+from springblock.mechanism.tables import measure
+from springblock.model.scene import Scene
 
 
-@pytest.mark.parametrize("name", VARIANTS)
+@pytest.mark.parametrize("name", TABLES["mechanism_variants"])
 def test_a_variant_has_the_constants_and_gaps_of_its_name(name):
-    scenes, (kind, _, value) = table.variant(name), name.partition("-")
+    kind, _, value = name.partition("-")
     gaps = {"half": 0.5, "double": 2.0}.get(kind, 1.0)
     varied = {"thickness": 1e-6, "scatter": 1.0}
-    for scene in scenes:
+    for scene in TABLES["mechanism_variants"][name]:
         assert scene.contact.any()
         assert scene.n_s == gaps * scene.n_p
         assert [each for _, each in scene.varied] == pytest.approx(
@@ -21,21 +21,21 @@ def test_a_variant_has_the_constants_and_gaps_of_its_name(name):
         )
 
 
-def test_each_part_has_the_columns_of_its_table(monkeypatch):
-    schemas = (table.SCHEMA, table.SCHEMA, peaks.SCHEMA, budget.SCHEMA)
+def test_each_part_has_the_columns_of_its_table():
+    schemas = (tables.FRICTION, tables.FRICTION, tables.PEAKS, tables.BUDGET)
     for parts, schema in zip(TABLES.values(), schemas, strict=True):
         assert {id(measure(part)[0]) for part in parts} == {id(schema)}
 
 
-def test_jobs_share_the_surfaces_with_grooves(monkeypatch):
-    """Each surface is measured once, however many jobs there are."""
-    few = [(grooves, way) for grooves, way in peaks.surfaces() if grooves.n_p == 0][:5]
-    small = replace(few[0][0].scene("x"), n_blocks=12, n_p2=4, n_s2=2)
-    monkeypatch.setattr(peaks, "surfaces", lambda: iter(few))
-    monkeypatch.setattr(peaks, "SEEDS", 1)
-    monkeypatch.setattr(peaks.Grooves, "scene", lambda self, way: replace(small, direction=way))
-    rows = [row for job in range(PEAK_JOBS) for row in measure(f"peaks-{job}")[1]]
-    assert sorted(row["predicted"] for row in rows) == sorted(
-        peaks.predicted(*each) for each in few
-    )
-    assert {row["n_p2"] for row in rows} == {4}
+def test_load_peaks_are_measured_on_each_surface_and_seed(monkeypatch):
+    small = [Scene(12, n_p2=4, n_s2=2, direction=direction) for direction in "xy"]
+    monkeypatch.setitem(TABLES["mechanism_peaks"], "peaks-0", small)
+    monkeypatch.setattr(tables, "SEEDS_OF_GROOVES", 2)
+    rows = list(measure("peaks-0")[1])
+    assert [(row["direction"], row["seed"]) for row in rows] == [
+        ("x", 0),
+        ("x", 1),
+        ("y", 0),
+        ("y", 1),
+    ]
+    assert {row["predicted"] for row in rows} == set(map(tables.predicted, small))

@@ -39,6 +39,16 @@ def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
     return {first: dict(sorted(found[first].items(), key=itemgetter(0))) for first in found}
 
 
+def on_one_side(items: Iterable[tuple[Any, Any, Any, T]]) -> dict[Any, dict[Any, T]]:
+    """Values by a second key and a third one, of the first key that most second keys have.
+
+    The first key is the side of the surface.
+    """
+    found = grouped(((side, key), size, value) for side, key, size, value in items)
+    sides = grouped((side, key, sizes) for (side, key), sizes in found.items())
+    return max(sides.values(), key=len, default={})
+
+
 def has_pillars_alone(scene: Scene) -> bool:
     """Whether it has pillars without grooves, and slides along x."""
     return scene.lengths.keys() == {"n_p", "n_s"} and scene.direction == "x"

@@ -4,20 +4,20 @@ Bias-corrected and accelerated bootstrap over realisations (BCa; Efron & Tibshir
 doi:10.1201/9780429246593, chapter 14). Ensembles are independent of each other.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.analysis.correlation import Correlation, fit_tail
+from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import (
     Interval,
     bootstrap_weights,
-    difference_interval,
     samples_interval,
     weights_of,
 )
+from springblock.io.records import Record
 from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
@@ -42,57 +42,31 @@ def difference(first: Array, second: Array) -> Interval:
     return interval((first, second), lambda a, b, axis: a.mean(axis=axis) - b.mean(axis=axis))
 
 
-class Lowest(NamedTuple):
-    """The place of the lowest mean, and all places whose means cannot be told from it."""
-
-    place: float
-    alike: list[float]
-
-    def __str__(self) -> str:
-        """Write the place, and the others in brackets."""
-        others = ", ".join(f"{place:g}" for place in self.alike if place != self.place)
-        return f"{self.place:g} (or {others})" if others else f"{self.place:g}"
-
-
-def lowest(samples: Mapping[Any, Array]) -> Lowest:
-    """Where the means of samples, by their places, are lowest.
-
-    Nothing is interpolated between places. A mean is told from the lowest where the 95 % interval
-    of their difference, each by itself, leaves out zero.
-    """
-    best = min(samples, key=lambda place: float(samples[place].mean()))
-    apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
-    alike = [place for place, found in apart.items() if place == best or not found.low > 0.0]
-    return Lowest(best, alike)
-
-
 def means(samples: Sequence[Array], axis: int) -> Array:
     """Means of several samples, (..., samples)."""
     return np.stack([sample.mean(axis=axis) for sample in samples], axis=-1)
 
 
-class SideLength:
-    """Decay length along sides in one ensemble: of A exp(-r/l) from r = 1 to `last`, in blocks.
+def side_length(runs: Sequence[Record], last: int) -> Interval:
+    """Decay length along the sides of pillars that run along x, fitted as by `decay_length`."""
+    return decay_length(side_times(runs, runs[0].scene.pattern, "x"), last)
 
-    Called with numbers of realisations, as a bootstrap draws them, (..., k), it returns lengths,
-    (...). The errors that the fit takes stay those of all realisations. `times` are those of
-    `springblock.analysis.correlation.side_times`.
+
+def decay_length(times: Array, last: int) -> Interval:
+    """Decay length in one ensemble: of A exp(-r/l) from r = 1 to `last`, in blocks.
+
+    `times` are detachment times as those of `springblock.analysis.correlation.side_times`. The
+    errors that the fit takes stay those of all realisations.
     """
+    found, k = Correlation(times), len(times)
 
-    def __init__(self, times: Array, last: int) -> None:
-        self.realisations = np.arange(len(times))
-        self._found, self._last = Correlation(times), last
-        self._error = self._curve(bootstrap_weights(len(times))).std(axis=0)
+    def curve(weights: Array) -> Array:
+        return found.weighted(weights)[:, 1 : last + 1]
 
-    def _curve(self, weights: Array) -> Array:
-        return self._found.weighted(weights)[:, 1 : self._last + 1]
+    error = curve(bootstrap_weights(k)).std(axis=0)
 
-    def __call__(self, drawn: NDArray[np.intp]) -> Array:
-        draws, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
-        weights = weights_of(draws, len(self.realisations))
-        return fit_tail(self._curve(weights), self._error)[which].reshape(drawn.shape[:-1])
+    def length(drawn: NDArray[np.intp], axis: int) -> Array:
+        weights = weights_of(drawn.reshape(-1, drawn.shape[axis]), k)
+        return fit_tail(curve(weights), error).reshape(drawn.shape[:-1])
 
-    @property
-    def interval(self) -> Interval:
-        """The length with its 95 % interval, blocks."""
-        return interval([self.realisations], lambda drawn, axis: self(drawn))
+    return interval([np.arange(k)], length)
