@@ -12,11 +12,11 @@ from springblock.beyond.lattice import (
     by_lattice,
     changes,
     comparisons,
-    decay,
     measures,
     minimum,
     stress_ratio,
 )
+from springblock.beyond.resampling import side_length
 from springblock.model.scene import Scene
 
 
@@ -59,10 +59,10 @@ def test_surfaces_of_a_comparison_differ_in_one_length():
 def test_a_decay_length_is_found_again_in_blocks():
     """Of 30 µm: three blocks of 10 µm, on pillars of 24."""
     sizes = surfaces(lambda *_: 30.0, runs=40)[Lattice(10.0, 10.0, 0.1, 0.0)]
-    found = decay(sizes, 240.0)
+    found = side_length(sizes[240.0])
     assert found.low < 3.0 < found.high
     assert found.high - found.low < 3.0
-    assert decay(sizes, 20.0) is None  # two blocks
+    assert side_length(sizes[20.0]) is None  # two blocks
 
 
 def test_stress_on_the_outermost_blocks_goes_with_one_over_the_spacing():

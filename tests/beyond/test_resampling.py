@@ -5,8 +5,8 @@ import pytest
 
 from beyond.made_up import ensemble
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import UNCHANGED, change, listed, number
-from springblock.beyond.resampling import difference, interval, means, side_length
+from springblock.beyond.question import UNCHANGED, direction, listed, number
+from springblock.beyond.resampling import difference, interval, side_length
 from springblock.model.scene import Scene
 
 
@@ -22,7 +22,7 @@ def test_intervals_cover_as_often_as_they_say():
 
 
 def test_two_runs_have_no_interval():
-    found = interval([np.arange(2.0)], lambda sample, axis: sample.mean(axis=axis))
+    found = interval([np.arange(2.0)], np.mean)
     assert found.mean == 0.5
     assert np.isnan(found.low)
     assert number(found) == "0.5 [no interval]"
@@ -31,12 +31,8 @@ def test_two_runs_have_no_interval():
 def test_every_ensemble_is_resampled_by_itself():
     """The interval of a sum is that of its only varying part."""
     samples = np.zeros(5), np.random.default_rng(0).standard_normal(20)
-
-    def total(*drawn, axis):
-        return means(drawn, axis).sum(axis=-1)
-
-    both = interval(samples, total)
-    alone = interval(samples[1:], total)
+    both = interval(samples, np.mean, lambda means: means.sum(axis=-1))
+    alone = interval(samples[1:], np.mean)
     assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
 
 
@@ -64,7 +60,7 @@ def test_exact_numbers_have_no_interval():
 def test_values_change_where_their_intervals_are_apart(last, meaning):
     low, high = map(np.array, last)
     first = Interval(*map(np.array, (1.5, 1.0, 2.0)))
-    assert change(first, Interval((low + high) / 2.0, low, high)) == meaning
+    assert direction(first, Interval((low + high) / 2.0, low, high)) == meaning
 
 
 def test_names_are_listed_as_in_a_sentence():

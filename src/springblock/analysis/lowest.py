@@ -1,6 +1,6 @@
 """Where the mean of a sample is lowest, and where it may be."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from springblock.analysis.statistics import difference_interval
@@ -29,3 +29,8 @@ def lowest(samples: Mapping[Any, Array]) -> Lowest:
     apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
     alike = [place for place, found in apart.items() if place == best or not found.low > 0.0]
     return Lowest(best, alike)
+
+
+def are_apart(minima: Iterable[Lowest]) -> bool:
+    """Whether no place is among those of all minima."""
+    return not set.intersection(*(set(each.alike) for each in minima))

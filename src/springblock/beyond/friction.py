@@ -11,8 +11,8 @@ import numpy as np
 
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, mean_interval, standard_error
-from springblock.beyond.question import Ensembles, change, grouped, has_pillars_alone, number
-from springblock.beyond.resampling import interval, means
+from springblock.beyond.question import Ensembles, direction, grouped, has_pillars_alone, number
+from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array, Run
 
@@ -86,19 +86,18 @@ def unexplained(found: Map) -> dict[str, Array]:
 def explained(found: Map) -> dict[str, Interval]:
     """Fraction of the variance of mean static friction over the map that each model explains."""
 
-    def fraction(*drawn: Array, axis: int, left: Array) -> Array:
-        values = means(drawn, axis)
-        return 1.0 - ((values @ left) ** 2).mean(axis=-1) / values.var(axis=-1)
+    def fraction(means: Array, left: Array) -> Array:
+        return 1.0 - ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1)
 
     return {
-        name: interval(list(found.values()), partial(fraction, left=left))
+        name: interval(list(found.values()), np.mean, partial(fraction, left=left))
         for name, left in unexplained(found).items()
     }
 
 
 def residuals(found: Map) -> dict[Pillars, float]:
     """Mean static friction minus the model of size and contact added."""
-    left = unexplained(found)["both"] @ means(list(found.values()), axis=-1)
+    left = unexplained(found)["both"] @ [values.mean() for values in found.values()]
     return dict(zip(found, left.tolist(), strict=True))
 
 
@@ -113,7 +112,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
     rms = np.sqrt((left**2).sum() / freedom)
     size, contact, both = (number(share, " %", 100.0) for share in shares.values())
-    more = change(shares["contact"], shares["size"])
+    more = direction(shares["contact"], shares["size"])
     words = {
         "grows": "Size, more than contact fraction, sets static friction",
         "falls": "Contact fraction, more than size, sets static friction",

@@ -7,20 +7,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from springblock.analysis.lowest import Lowest, lowest
+from springblock.analysis.lowest import Lowest, are_apart, lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.beyond.clusters import precursors
 from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
-    change,
+    direction,
     is_even,
     listed,
     number,
     on_one_side,
 )
-from springblock.beyond.resampling import FEWEST, side_length
+from springblock.beyond.resampling import side_length
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.mechanism.elasticity import Layer
@@ -28,7 +28,7 @@ from springblock.mechanism.elasticity import Layer
 NEEDS = "groups lattice, disorder and layer"
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "correlation_length", "step"}
-_FEWEST = 3  #: surfaces of a comparison, and distances that a fit of two unknowns needs
+_FEWEST = 3  #: surfaces of a comparison
 _SIZES = 4  #: of pillars, among which the lowest friction is looked for
 
 
@@ -122,19 +122,9 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     }
 
 
-def decay(sizes: Sizes, size: float) -> Interval | None:
-    """Decay length on pillars of one size, blocks: from r = 1 to a third of a side."""
-    runs = sizes.get(size, ())
-    if len(runs) < FEWEST or "x" not in runs[0].scene.sides:
-        return None
-    last = runs[0].scene.n_p // 3
-    return side_length(runs, last) if last >= _FEWEST else None
-
-
 def stress_ratio(runs: Sequence[Record]) -> float:
     """Largest elastic stress on a block over the mean, before any slip; there is no scatter."""
-    pull = Layer(runs[0].scene.contact, runs[0].material).pull
-    stress = np.hypot(*pull.reshape(2, -1))
+    stress = Layer(runs[0].scene.contact, runs[0].material).stress
     return float(stress.max() / stress.mean())
 
 
@@ -157,7 +147,7 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Qua
             more = Quantity(f"static friction on pillars of {broad:g} µm minus that of {best:g} µm")
             found[more] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
-        if blocks := decay(sizes, size):
+        if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
             metres = Interval(*(spacing * limit for limit in blocks))
             found[Quantity(f"the decay length {where}", "µm")] = metres
@@ -214,7 +204,7 @@ def changes(
         known = [(at, found[at][quantity]) for at in surfaces if quantity in found[at]]
         if len(known) >= 2:
             ends = known[0], known[-1]
-            verb = change(*(value for _, value in ends))
+            verb = direction(*(value for _, value in ends))
             values = [f"{number(value, unit)} at {_place(at, axis)}" for at, value in ends]
             said[kind] = verb != UNCHANGED, f"{verb} from {' to '.join(values)} {words}"
     return said
@@ -230,12 +220,13 @@ def _moves(compared: Mapping[str, Comparison]) -> Told:
             if at.spacing <= at.thickness and len(sizes) >= _SIZES
         }
         common = sorted(set.intersection(*map(set, fine.values()))) if len(fine) >= 2 else []
-        found = {at: minimum({s: sizes[s] for s in common}) for at, sizes in fine.items()}
-        best = {at: each for at, each in found.items() if each}
-        if best:
-            moves = not set.intersection(*(set(each.alike) for each in best.values()))
-            sizes = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
-            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {sizes}"
+        if len(common) >= _SIZES:
+            best = {
+                at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
+            }
+            moves = are_apart(best.values())
+            places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
+            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {places}"
     return said
 
 

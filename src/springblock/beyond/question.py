@@ -72,7 +72,12 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
 
 
 def change(first: Interval, last: Interval) -> str:
-    """Say how a value changes, by whether both 95 % intervals are apart."""
+    """Say how a value changes and from what to what."""
+    return f"{direction(first, last)} from {number(first)} to {number(last)}"
+
+
+def direction(first: Interval, last: Interval) -> str:
+    """Say whether a value changes, by whether both 95 % intervals are apart."""
     if last.high < first.low:
         return "falls"
     return "grows" if last.low > first.high else UNCHANGED

@@ -21,35 +21,47 @@ from springblock.io.records import Record
 from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
-Statistic = Callable[..., Array]  #: of samples, (..., k) each, and their axis: (...)
 _RESAMPLES = 1000
 #: Realisations that a correlation needs here: no resample of so many is one of them alone.
 FEWEST = 10
+_DISTANCES = 3  #: that a fit of two unknowns needs
 
 
-def interval(samples: Sequence[Sample], statistic: Statistic) -> Interval:
-    """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
+def interval(
+    samples: Sequence[Sample],
+    statistic: Callable[..., Any],
+    combined: Callable[[Array], Array] = lambda values: values[..., 0],
+) -> Interval:
+    """What independent samples, (k,) each, have together, with its 95 % BCa interval.
 
-    Limits are NaN where a sample has fewer than three realisations.
+    `statistic` takes one sample, (..., k), and its `axis`; `combined` what that gives of all
+    samples, (..., samples), and returns values, (...): by default that of the first. Limits are
+    NaN where a sample has fewer than three realisations.
     """
+
+    def of_all(*drawn: Sample, axis: int) -> Array:
+        return combined(np.stack([statistic(each, axis=axis) for each in drawn], axis=-1))
+
     if min(len(sample) for sample in samples) < 3:
-        return Interval(np.asarray(statistic(*samples, axis=-1)), *np.full(2, np.nan))
-    return samples_interval(samples, statistic, _RESAMPLES, batch=100)
+        return Interval(of_all(*samples, axis=-1), *np.full(2, np.nan))
+    return samples_interval(samples, of_all, _RESAMPLES, batch=100)
 
 
 def difference(first: Array, second: Array) -> Interval:
     """Mean of one sample minus that of another, with its 95 % interval."""
-    return interval((first, second), lambda a, b, axis: a.mean(axis=axis) - b.mean(axis=axis))
+    return interval((first, second), np.mean, lambda means: means[..., 0] - means[..., 1])
 
 
-def means(samples: Sequence[Array], axis: int) -> Array:
-    """Means of several samples, (..., samples)."""
-    return np.stack([sample.mean(axis=axis) for sample in samples], axis=-1)
+def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
+    """Decay length along the sides of pillars, blocks: from r = 1 to a third of a side.
 
-
-def side_length(runs: Sequence[Record], last: int) -> Interval:
-    """Decay length along the sides of pillars that run along x, fitted as by `decay_length`."""
-    return decay_length(side_times(runs, runs[0].scene.pattern, "x"), last)
+    Or to `most` blocks on larger pillars; none of too few realisations or on too short sides.
+    """
+    scene = runs[0].scene
+    last = min(scene.n_p // 3, most or scene.n_p)
+    if len(runs) < FEWEST or last < _DISTANCES:
+        return None
+    return decay_length(side_times(runs, scene.pattern, "x"), last)
 
 
 def decay_length(times: Array, last: int) -> Interval:

@@ -3,13 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from springblock.analysis.correlation import LAST
-from springblock.analysis.lowest import Lowest, lowest
+from springblock.analysis.lowest import Lowest, are_apart, lowest
 from springblock.analysis.statistics import Interval
 from springblock.beyond.friction import lowest_in_words, samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
     change,
+    grouped,
     is_even,
     listed,
     number,
@@ -19,7 +20,6 @@ from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 
-_SHORTEST = 9  #: n_p from which on three distances can be fitted
 NEEDS = "groups pillars and scatter"
 
 Sizes = Mapping[int, Sequence[Record]]  #: realisations by n_p
@@ -40,11 +40,12 @@ def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
 
 def decay_lengths(scatters: Mapping[float, Sizes]) -> dict[int, dict[float, Interval]]:
     """Decay lengths, blocks, on pillars of each size on which they can be fitted, by scatter."""
-    long_enough = [n_p for n_p in next(iter(scatters.values()), {}) if n_p >= _SHORTEST]
-    return {
-        n_p: {std: side_length(sizes[n_p], min(LAST, n_p // 3)) for std, sizes in scatters.items()}
-        for n_p in long_enough
-    }
+    return grouped(
+        (n_p, std, length)
+        for std, sizes in scatters.items()
+        for n_p, runs in sizes.items()
+        if (length := side_length(runs, LAST))
+    )
 
 
 def answers(ensembles: Ensembles) -> Iterator[str]:
@@ -69,10 +70,9 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     said = []
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()
-        how = f"{change(first, last)} from {number(first)} to {number(last)} blocks"
-        said.append(f"{how} on pillars of n_p = {n_p}")
-    moves = not set.intersection(*(set(each.alike) for each in minima))
-    then = f"changes from {minima[0]} to {minima[-1]}" if moves else f"{UNCHANGED}: {minima[0]}"
+        said.append(f"{change(first, last)} blocks on pillars of n_p = {n_p}")
+    stays = f"{UNCHANGED}: {minima[0]}"
+    then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
         f"**From a scatter of {least:g} to {most:g} the decay length {listed(said)}; "
         f"the friction-minimising n_p {then}.**"

@@ -53,7 +53,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     said = []
     for edge in ("sides", "grooves"):
         first, last = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
-        said.append(f"{change(first, last)} from {number(first)} to {number(last)} along {edge}")
+        said.append(f"{change(first, last)} along {edge}")
     yield (
         "**As sliding turns from along an edge to across it, the correlation of detachments "
         f"{_FAR} blocks apart along the edge {listed(said)}.**"

@@ -48,8 +48,13 @@ class Layer:
 
     @cached_property
     def pull(self) -> Array:
-        """b, (2k,) N/m: the stress on blocks in contact before any slip, over s."""
+        """b, (2k,) N/m."""
         return self._load_held - self._coupling.T @ self._relaxed(self._load_free)
+
+    @property
+    def stress(self) -> Array:
+        """Size of b on each block, (k,) N/m: the stress before any slip, over s."""
+        return np.hypot(*self.pull.reshape(2, -1))
 
     def _relaxed(self, force: Array) -> Array:
         """Return the displacements of blocks without contact under forces on them."""

@@ -16,7 +16,7 @@ from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, cluster_sizes
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
 from springblock.beyond.question import Ensembles, by_scene
-from springblock.beyond.resampling import FEWEST
+from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.curves import draw_band
@@ -83,12 +83,11 @@ def _draw_lengths(
         (even, "spacing", VERMILION, "s", "over $l$, same disorder per area"),
         (thick, "thickness", BLACK, "^", "over $l_z$"),
     ):
-        found = {at: lattice.decay(sizes, max(sizes)) for at, sizes in part.items()}
-        lengths = {at: length for at, length in found.items() if length}
+        found = {at: side_length(sizes[max(sizes)]) for at, sizes in part.items()}
+        lengths = {at: at.spacing * np.array(blocks) for at, blocks in found.items() if blocks}
         if lengths:
             places = [getattr(at, varied) for at in lengths]
-            intervals = [at.spacing * np.array(blocks) for at, blocks in lengths.items()]  # µm
-            draw_points(ax, places, intervals, color, marker=marker, label=label)
+            draw_points(ax, places, list(lengths.values()), color, marker=marker, label=label)
             spots += places
     ax.set_yscale("log")
     ends = np.array([min(spots), max(spots)])

@@ -86,7 +86,7 @@ def _draw_stress(panels: Sequence[Axes]) -> None:
 def _pillar_stress(n_p: int) -> Array:
     """Return |F_mot| on the blocks of the first pillar before any slip, over the mean of all."""
     pattern = TABLES["mechanism"][str(n_p)][0].pattern
-    pulled = np.hypot(*Layer(pattern.contact, Material()).pull.reshape(2, -1))
+    pulled = Layer(pattern.contact, Material()).stress
     stress = np.zeros(pattern.shape)
     stress[pattern.contact] = pulled / pulled.mean()
     y, x = pattern.origins[0]
