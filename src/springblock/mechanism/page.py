@@ -127,9 +127,10 @@ def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
 
 
 def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str:
-    """Say from which model on the lowest size of the full one is that of all, or told from none.
+    """Say where the full model is lowest, and from which model on all agree with that.
 
-    A model that cannot tell any size from its lowest agrees with nothing.
+    A model agrees where its friction at this size cannot be told from its lowest, but that at
+    another size can.
     """
     full, sizes = found["simulation"].place, rows["n_p"].unique()
     *simpler, _ = found.values()
