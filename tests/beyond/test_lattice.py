@@ -111,14 +111,6 @@ def test_the_page_begins_with_what_the_lattice_and_the_layer_change(best, of_l, 
     assert (of_l_z in layer) if of_l_z else ("friction-minimising" not in layer)
 
 
-def test_decay_lengths_are_measured_in_both_units():
-    sizes = surfaces(lambda *_: 30.0, runs=12)[Lattice(10.0, 10.0, 0.1, 0.0)]
-    found = measures(sizes, 80.0, 120.0, 240.0)
-    metres = found[Quantity("the decay length on pillars of 240 µm", "µm")]
-    blocks = found[Quantity("the decay length in blocks on pillars of 240 µm", "blocks")]
-    np.testing.assert_allclose(metres, 10.0 * np.array(blocks))
-
-
 def test_changes_are_told_from_the_first_to_the_last_lattice():
     part = comparisons(surfaces())
     values = {20: (3.0, 2.0, 4.0), 10: (2.0, 1.0, 3.0), 5: (1.0, 0.5, 1.5)}

@@ -71,9 +71,10 @@ def crossed(found: Map) -> dict[Pillars, Array]:
 
 
 def unexplained(found: Map) -> dict[str, Array]:
-    """What models leave of mean friction, as projections, (pillars, pillars), of rank freedom.
+    """Projections of mean friction, (pillars, pillars), onto what models leave unexplained.
 
-    A number for each size, a number for each contact fraction, and both added.
+    The models are a number for each size, one for each contact fraction, and both added. The rank
+    of a projection is the degrees of freedom that the model leaves.
     """
     designs = {}
     for name, key in (("size", itemgetter(0)), ("contact", distance)):

@@ -40,12 +40,9 @@ def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
 
 
 def on_one_side(items: Iterable[tuple[Any, Any, Any, T]]) -> dict[Any, dict[Any, T]]:
-    """Values by a second key and a third one, of the first key that most second keys have.
-
-    The first key is the side of the surface.
-    """
-    found = grouped(((side, key), size, value) for side, key, size, value in items)
-    sides = grouped((side, key, sizes) for (side, key), sizes in found.items())
+    """Values by kind and size, of items (side, kind, size, value), on the side with most kinds."""
+    found = grouped(((side, kind), size, value) for side, kind, size, value in items)
+    sides = grouped((side, kind, sizes) for (side, kind), sizes in found.items())
     return max(sides.values(), key=len, default={})
 
 
