@@ -103,20 +103,22 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
         "none": "without disorder",
         "layer": f"with l = {common.spacing:g} µm",
     }
-    parts: dict[str, dict[Lattice, Sizes]] = {name: {} for name in words}
-    for at in sorted(surfaces, key=lambda at: (-at.spacing, at.thickness)):
-        is_thick = at.thickness == common.thickness
-        belongs = {
-            "block": is_thick and (at.scatter, at.length) == (common.scatter, common.length),
-            "area": is_thick and np.isclose(at.spacing * at.scatter, product) and not at.length,
-            "length": is_thick and at.length > 0.0,
-            "none": is_thick and not at.scatter,
-            "layer": at._replace(thickness=common.thickness) == common,
-        }
-        for name in (name for name, is_part in belongs.items() if is_part):
-            parts[name][at] = surfaces[at]
+    ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
+    thick = [at for at in ordered if at.thickness == common.thickness]
+    own = [at for at in thick if not at.length]
+    parts = {
+        "block": [at for at in thick if at._replace(spacing=common.spacing) == common],
+        "area": [at for at in own if np.isclose(at.spacing * at.scatter, product)],
+        "length": [at for at in thick if at.length],
+        "none": [at for at in thick if not at.scatter],
+        "layer": [at for at in ordered if at._replace(thickness=common.thickness) == common],
+    }
     return {
-        name: Comparison(words[name], "thickness" if name == "layer" else "spacing", part)
+        name: Comparison(
+            words[name],
+            "thickness" if name == "layer" else "spacing",
+            {at: surfaces[at] for at in part},
+        )
         for name, part in parts.items()
         if len(part) >= _FEWEST
     }

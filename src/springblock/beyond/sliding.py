@@ -44,14 +44,12 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         return
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "decay length (blocks)", "realisations"]
     places = {angle: edges(runs) for angle, runs in found.items()}
-    lines = []
+    said, lines = [], []
     for edge in ("sides", "grooves"):
         for angle, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
             length = number(decay_length(times[edge], LAST))
             lines.append([edge, f"{angle:g}°", close, far, length, str(len(found[angle]))])
-    said = []
-    for edge in ("sides", "grooves"):
         first, last = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
         said.append(f"{change(first, last)} along {edge}")
     yield (
