@@ -6,16 +6,17 @@ import pytest
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
-    Layer,
+    Lattice,
+    Quantity,
     answers,
+    by_lattice,
     changes,
     comparisons,
-    decay,
-    layers,
     measures,
     minimum,
     stress_ratio,
 )
+from springblock.beyond.resampling import side_length
 from springblock.model.scene import Scene
 
 
@@ -29,14 +30,14 @@ def eighty(spacing, l_z, scatter):
 
 
 def surfaces(length=eighty, best=eighty, runs=3):
-    return layers(lattices(length, best, runs))
+    return by_lattice(lattices(length, best, runs))
 
 
 def test_surfaces_are_of_one_size_in_metres_and_of_one_distance():
     made = lattices(eighty, eighty, runs=3)
     other = Scene(18, 3, 3), Scene(48, 8, 16), Scene(48, 8, 8, direction="y")
-    found = layers(made | {scene: next(iter(made.values())) for scene in other})
-    assert set(found) == {Layer(*map(float, at)) for at in PLACES}
+    found = by_lattice(made | {scene: next(iter(made.values())) for scene in other})
+    assert set(found) == {Lattice(*map(float, at)) for at in PLACES}
     assert all(tuple(sizes) == SIZES for sizes in found.values())
 
 
@@ -57,24 +58,24 @@ def test_surfaces_of_a_comparison_differ_in_one_length():
 
 def test_a_decay_length_is_found_again_in_blocks():
     """Of 30 µm: three blocks of 10 µm, on pillars of 24."""
-    sizes = surfaces(lambda *_: 30.0, runs=40)[Layer(10.0, 10.0, 0.1, 0.0)]
-    found = decay(sizes, 240.0).interval
+    sizes = surfaces(lambda *_: 30.0, runs=40)[Lattice(10.0, 10.0, 0.1, 0.0)]
+    found = side_length(sizes[240.0])
     assert found.low < 3.0 < found.high
     assert found.high - found.low < 3.0
-    assert decay(sizes, 20.0) is None  # two blocks
+    assert side_length(sizes[20.0]) is None  # two blocks
 
 
 def test_stress_on_the_outermost_blocks_goes_with_one_over_the_spacing():
     """A force per length on the edges; at its corners more."""
     found = surfaces()
     coarse, fine = (
-        stress_ratio(found[Layer(spacing, 10.0, 0.1, 0.0)][120.0]) for spacing in (10.0, 5.0)
+        stress_ratio(found[Lattice(spacing, 10.0, 0.1, 0.0)][120.0]) for spacing in (10.0, 5.0)
     )
     assert 1.6 < fine / coarse < 2.4
 
 
 def test_the_lowest_friction_is_a_size_and_what_cannot_be_told_from_it():
-    found = minimum(surfaces(best=lambda *_: 40.0, runs=12)[Layer(10.0, 10.0, 0.1, 0.0)])
+    found = minimum(surfaces(best=lambda *_: 40.0, runs=12)[Lattice(10.0, 10.0, 0.1, 0.0)])
     assert found.place == 40.0
     assert 240.0 not in found.alike
 
@@ -110,19 +111,12 @@ def test_the_page_begins_with_what_the_lattice_and_the_layer_change(best, of_l, 
     assert (of_l_z in layer) if of_l_z else ("friction-minimising" not in layer)
 
 
-def test_decay_lengths_are_measured_in_both_units():
-    sizes = surfaces(lambda *_: 30.0, runs=12)[Layer(10.0, 10.0, 0.1, 0.0)]
-    found = measures(sizes, 80.0, 120.0, 240.0)
-    metres = found["the decay length on pillars of 240 µm (µm)"]
-    blocks = found["the decay length in blocks on pillars of 240 µm (blocks)"]
-    np.testing.assert_allclose(metres, 10.0 * np.array(blocks))
-
-
 def test_changes_are_told_from_the_first_to_the_last_lattice():
     part = comparisons(surfaces())
     values = {20: (3.0, 2.0, 4.0), 10: (2.0, 1.0, 3.0), 5: (1.0, 0.5, 1.5)}
-    found = {at: {"way (µm)": Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
-    told = changes(part, found, "way (µm)")
+    way = Quantity("way", "µm")
+    found = {at: {way: Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
+    told = changes(part, found, way)
     assert told["block"] == (
         True,
         "falls from 3.0 [2.0, 4.0] µm at l = 20 µm to 1.0 [0.5, 1.5] µm at l = 5 µm "
@@ -138,7 +132,7 @@ def test_two_lattices_are_too_few():
 
 def test_values_without_scatter_are_exact():
     """One realisation is all there are: sizes differ if their values do."""
-    sizes = surfaces(best=lambda *_: 40.0)[Layer(10.0, 10.0, 0.0, 0.0)]
+    sizes = surfaces(best=lambda *_: 40.0)[Lattice(10.0, 10.0, 0.0, 0.0)]
     assert minimum(sizes).alike == [40.0]
     for value in measures(sizes, 80.0, 120.0, 240.0).values():
         assert value.low == value.mean == value.high

@@ -15,7 +15,9 @@ def test_questions_without_realisations_say_what_they_need():
     assert all(f"## {i}. " in text for i in range(1, len(QUESTIONS) + 1))
 
 
-@pytest.mark.parametrize("surfaces", [friction.friction_map, lattice.layers, scatter.by_scatter])
+@pytest.mark.parametrize(
+    "surfaces", [friction.friction_map, lattice.by_lattice, scatter.by_scatter]
+)
 def test_grooves_without_pillars_are_no_pillars(surfaces):
     grooved = Scene(120, n_p2=8, n_s2=2)
     assert not surfaces({grooved: lean(grooved, 0.7, runs=10)})

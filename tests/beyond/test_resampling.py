@@ -4,23 +4,10 @@ import numpy as np
 import pytest
 
 from beyond.made_up import ensemble
-from springblock.analysis.correlation import side_times
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import UNCHANGED, change, listed, number
-from springblock.beyond.resampling import SideLength, difference, interval, lowest, means
+from springblock.beyond.question import UNCHANGED, direction, listed, number
+from springblock.beyond.resampling import difference, interval, side_length
 from springblock.model.scene import Scene
-
-
-def test_the_lowest_mean_has_those_beside_it_that_cannot_be_told_from_it():
-    """Two of 20 runs differ by less than they scatter, the third by far more."""
-    noise = np.random.default_rng(0).standard_normal((3, 20))
-    noise -= noise.mean(axis=1, keepdims=True)
-    samples = {2: 1.0 + noise[0], 6: 0.9 + noise[1], 20: 4.0 + noise[2]}
-    found = lowest(samples)
-    assert (found.place, found.alike) == (6, [2, 6])
-    assert str(found) == "6 (or 2)"
-    exact = {2: np.full(2, 1.0), 6: np.full(2, 0.9), 20: np.full(2, 4.0)}
-    assert str(lowest(exact)) == "6"
 
 
 def test_intervals_cover_as_often_as_they_say():
@@ -35,7 +22,7 @@ def test_intervals_cover_as_often_as_they_say():
 
 
 def test_two_runs_have_no_interval():
-    found = interval([np.arange(2.0)], lambda sample, axis: sample.mean(axis=axis))
+    found = interval([np.arange(2.0)], np.mean)
     assert found.mean == 0.5
     assert np.isnan(found.low)
     assert number(found) == "0.5 [no interval]"
@@ -44,20 +31,15 @@ def test_two_runs_have_no_interval():
 def test_every_ensemble_is_resampled_by_itself():
     """The interval of a sum is that of its only varying part."""
     samples = np.zeros(5), np.random.default_rng(0).standard_normal(20)
-
-    def total(*drawn, axis):
-        return means(drawn, axis).sum(axis=-1)
-
-    both = interval(samples, total)
-    alone = interval(samples[1:], total)
+    both = interval(samples, np.mean, lambda means: means.sum(axis=-1))
+    alone = interval(samples[1:], np.mean)
     assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
 
 
 @pytest.mark.parametrize("length", [2.0, 5.0])
 def test_a_correlation_length_is_found_again(length):
     scene = Scene(80, 20, 20)
-    fit = SideLength(side_times(ensemble(scene, length=length, runs=40), scene.pattern, "x"), 6)
-    found = fit.interval
+    found = side_length(ensemble(scene, length=length, runs=40), 6)
     assert found.low < length < found.high
     assert found.high - found.low < length
 
@@ -78,7 +60,7 @@ def test_exact_numbers_have_no_interval():
 def test_values_change_where_their_intervals_are_apart(last, meaning):
     low, high = map(np.array, last)
     first = Interval(*map(np.array, (1.5, 1.0, 2.0)))
-    assert change(first, Interval((low + high) / 2.0, low, high)) == meaning
+    assert direction(first, Interval((low + high) / 2.0, low, high)) == meaning
 
 
 def test_names_are_listed_as_in_a_sentence():

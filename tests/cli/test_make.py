@@ -39,7 +39,7 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
 
 
 def test_models_on_two_sizes_become_a_table(springblock, tmp_path, monkeypatch):
-    monkeypatch.setattr("springblock.mechanism.table.SEEDS", 2)
+    monkeypatch.setattr("springblock.mechanism.tables.SEEDS", 2)
     two, four, table = (tmp_path / name for name in ("2", "4", "table"))
     springblock("make", "mechanism-2", "--output", two)
     springblock("make", "mechanism-4", "--output", four)

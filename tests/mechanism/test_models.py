@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from springblock import Material, Pattern, draw_friction, simulate
-from springblock.mechanism.elasticity import lattice_stiffness, layer
+from springblock.mechanism.elasticity import Layer, lattice_stiffness
 from springblock.mechanism.models import (
     independent,
     overshooting,
@@ -26,7 +26,7 @@ def test_energy_of_small_displacements_is_that_of_all_springs(rng):
 
 def test_blocks_without_contact_are_in_equilibrium(rng):
     contact = Pattern.pillars(12, 3, 3).contact
-    reduced = layer(contact, MATERIAL)
+    reduced = Layer(contact, MATERIAL)
     k, bound = contact.sum(), np.tile(contact.ravel(), 2)
     stiffness = lattice_stiffness(contact.shape, MATERIAL).toarray()
     slip, s = 1e-8 * rng.standard_normal(2 * k), 2e-7
@@ -43,7 +43,7 @@ def test_blocks_without_contact_are_in_equilibrium(rng):
 @pytest.mark.parametrize("n_blocks", [1, 4])
 def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
     """The stress is even: friction is mu_s F_n on each block until the first one lets go."""
-    flat = layer(np.ones((n_blocks, n_blocks), bool), MATERIAL)
+    flat = Layer(np.ones((n_blocks, n_blocks), bool), MATERIAL)
     static, dynamic = np.full(n_blocks**2, 3.0), np.full(n_blocks**2, 2.0)
     curve = model(flat, static, dynamic)
     assert curve.force.max() == pytest.approx(static.sum())
@@ -53,7 +53,7 @@ def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
 
 #: Stiffnesses of a spring between two blocks and of one to the slider.
 K, K_S = MATERIAL.k_int, MATERIAL.k_s
-ROW = layer(np.ones((1, 2), bool), MATERIAL)
+ROW = Layer(np.ones((1, 2), bool), MATERIAL)
 
 
 @pytest.mark.parametrize("second", [1.05, 1.9])
@@ -82,7 +82,7 @@ def test_a_block_that_overshoots_rests_at_half_of_its_stress():
 
 @pytest.mark.parametrize("model", MODELS)
 def test_a_block_weaker_at_rest_than_in_motion_lets_go_at_the_larger(model):
-    one = layer(np.ones((1, 1), bool), MATERIAL)
+    one = Layer(np.ones((1, 1), bool), MATERIAL)
     curve = model(one, np.array([0.5]), np.array([0.7]))
     assert curve.force == pytest.approx([0.7])
 
@@ -94,7 +94,7 @@ def test_without_inertia_the_simulation_redistributes_quasi_statically(n_p):
     contact = Pattern.pillars(16, n_p, n_p).contact
     coefficients = draw_friction(16, seed=1, material=slow)
     load = slow.block_load * contact.size / contact.sum()
-    curve = quasi_static(layer(contact, slow), *(load * mu[contact] for mu in coefficients))
+    curve = quasi_static(Layer(contact, slow), *(load * mu[contact] for mu in coefficients))
     run = simulate(contact, *coefficients, material=slow, step=2e-8)
     expected = curve.force.max() / (slow.block_load * contact.size)
     assert run.static_friction == pytest.approx(expected, rel=3e-3)

@@ -1,5 +1,6 @@
 """The page on the mechanism says what the table holds."""
 
+import pandas as pd
 import pytest
 
 from mechanism.chapter import budget, peaks, rows, variants
@@ -8,7 +9,7 @@ from springblock.mechanism.page import page
 
 @pytest.fixture(scope="module")
 def written() -> str:
-    return page(rows(), variants(), peaks(), budget())
+    return page(*map(pd.DataFrame, (rows(), variants(), peaks(), budget())))
 
 
 def test_the_first_sentences_give_minimum_and_agreement(written):
@@ -32,7 +33,7 @@ def test_steps_are_paired_by_seed(written):
 
 def test_a_variant_says_which_step_brings_the_minimum(written):
     """On the thin layer the full model is lowest at 20 blocks, and only stress alone is there."""
-    assert "| l_z = 5 µm | 2, 6, 20 | 6 (0.30) | 20 [20, 20] | 6 [6, 6] | 6 [6, 6] |" in written
+    assert "| l_z = 5 µm | 2, 6, 20 | 6 (0.30) | 20 | 6 | 6 | 20 (or 6) |" in written
     said = " ".join(written.split())
     assert "µm**: friction is lowest at n_p = 20, the largest computed; none of the simpler" in said
     assert "changes friction by 16.7 [16.6, 16.7] %, overshoot by -7.1 [-" in said

@@ -9,9 +9,10 @@ import pytest
 from scipy.special import ndtr
 
 from springblock import Material, Pattern
-from springblock.mechanism.elasticity import layer
+from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.pawls import _fall, pawl, prominence
-from springblock.mechanism.peaks import TEST, TRAINING, predicted, surfaces
+from springblock.mechanism.surfaces import TEST
+from springblock.mechanism.tables import predicted
 
 MATERIAL = Material()
 #: Between neighbouring rows that move as a whole: two diagonal springs, and the axial one across.
@@ -37,7 +38,7 @@ def test_an_edge_shares_as_in_a_layer_of_many_blocks(across):
     row = np.cumsum(contact).reshape(contact.shape)[7] - 1  # of the first row beside a groove
     if across:
         row = np.cumsum(contact.T).reshape(contact.T.shape)[:, 7] - 1
-    reduced = layer(contact.T if across else contact, MATERIAL).stiffness
+    reduced = Layer(contact.T if across else contact, MATERIAL).stiffness
     force = reduced[row[15], row]
     shared = 1.0 - force.sum() / force[15]
     assert pawl(4, 2, across, MATERIAL).shared == pytest.approx(shared, abs=1e-4)
@@ -66,12 +67,8 @@ def test_edges_that_let_go_at_once_cost_the_load_what_they_lose():
 def test_predictions_are_those_made_before_any_simulation():
     with (Path(__file__).parent / "predicted.csv").open() as file:
         kept = [(row, float(row["predicted_percent"])) for row in csv.DictReader(file)]
-    tested = [(grooves, way) for grooves, way in surfaces() if grooves not in TRAINING]
-    assert len(kept) == len(tested) == 2 * len(TEST)
-    for (row, before), (grooves, way) in zip(kept, tested, strict=True):
-        scene = grooves.scene(way)
-        named = scene.row
-        assert [row[key] for key in ("n_p", "n_p2", "n_s2", "direction")] == [
-            str(named[key]) for key in ("n_p", "n_p2", "n_s2", "direction")
-        ]
-        assert predicted(grooves, way) == pytest.approx(before, abs=0.006)
+    assert len(kept) == len(TEST)
+    for (row, before), surface in zip(kept, TEST, strict=True):
+        named = ("n_p", "n_p2", "n_s2", "direction")
+        assert [row[key] for key in named] == [str(surface.row[key]) for key in named]
+        assert predicted(surface) == pytest.approx(before, abs=0.006)

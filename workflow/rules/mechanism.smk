@@ -1,7 +1,7 @@
 # Why friction depends on the size of pillars, and when it has two load peaks: simpler models beside
 # the simulation.
 
-from springblock.mechanism import TABLES
+from springblock.mechanism.surfaces import TABLES
 
 
 rule mechanism_part:

@@ -1,14 +1,13 @@
 """Clusters of precursors: what has let go together before the force maximum."""
 
 from collections.abc import Iterator, Sequence
-from statistics import mode
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.statistics import Interval, cluster_sizes, mean_interval
-from springblock.beyond.question import Ensembles, is_even, number
+from springblock.beyond.question import Ensembles, grouped, is_even, number
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
@@ -55,30 +54,26 @@ def clusters(runs: Sequence[Record]) -> Clusters:
     """Sizes of clusters of precursors, and of what chance would make of them."""
     rng, contact = np.random.default_rng(0), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
+    share = [mask[contact].mean() for mask in masks]
     observed = np.array([mean_size(mask) for mask in masks])
     deals = [[mean_size(shuffled(mask, contact, rng)) for _ in range(SHUFFLES)] for mask in masks]
-    anywhere = np.array([np.mean(sizes) for sizes in deals])
+    anywhere = np.mean(deals, axis=1)
     deals = [[mean_size(mask) for mask in mixed(masks, rng)] for _ in range(SHUFFLES)]
     in_place = np.mean(deals, axis=0)
-    share = np.array([mask[contact].mean() for mask in masks])
     found = share, observed, observed / anywhere, observed / in_place
     return Clusters(*map(mean_interval, found))
 
 
 def surfaces(ensembles: Ensembles) -> dict[Scene, Sequence[Record]]:
     """Flat surfaces, pillars with n_s = n_p and grooved ones, of the size that most have."""
-    kinds = [scene for scene, runs in ensembles.items() if _is_one(scene) and len(runs) >= 2]
-    if not kinds:
-        return {}
-    size = mode(scene.n_blocks for scene in kinds)
-    found = [scene for scene in kinds if scene.n_blocks == size]
-    return {s: ensembles[s] for s in sorted(found, key=lambda s: (s.level, s.n_p, s.direction))}
-
-
-def _is_one(scene: Scene) -> bool:
-    if scene.varied or scene.direction not in ("x", "y"):
-        return False
-    return not scene.level or is_even(scene) or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
+    found = grouped(
+        (scene.n_blocks, (scene.level, scene.n_p, scene.direction, scene.folder), scene)
+        for scene, runs in ensembles.items()
+        if len(runs) >= 2 and not scene.varied and scene.direction in ("x", "y")
+        if not scene.level or is_even(scene) or (scene.n_p, scene.n_p2, scene.n_p3) == _GROOVED
+    )
+    most = max(found.values(), key=len, default={})
+    return {scene: ensembles[scene] for scene in most.values()}
 
 
 def answers(ensembles: Ensembles) -> Iterator[str]:
@@ -86,10 +81,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     found = {scene: clusters(runs) for scene, runs in surfaces(ensembles).items()}
     if not found:
         return
-    anywhere, in_place = (
-        sum(bool(getattr(each, ratio).low > 1.0) for each in found.values())
-        for ratio in ("ratio", "ratio_mixed")
-    )
+    anywhere = sum(bool(each.ratio.low > 1.0) for each in found.values())
+    in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
         f"**Precursors come in larger clusters than chance would make, on {in_place} of "

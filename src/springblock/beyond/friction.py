@@ -3,12 +3,16 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 
+from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, mean_interval, standard_error
-from springblock.beyond.question import Ensembles, change, grouped, has_pillars_alone, number
-from springblock.beyond.resampling import interval, lowest, means
+from springblock.beyond.question import Ensembles, direction, grouped, has_pillars_alone, number
+from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array, Run
 
@@ -38,6 +42,11 @@ def static_friction(runs: Sequence[Run]) -> Array:
     return np.array([run.static_friction for run in runs])
 
 
+def samples(sizes: Mapping[Any, Sequence[Run]]) -> dict[Any, Array]:
+    """Static friction of each realisation, (k,), by size."""
+    return {size: static_friction(runs) for size, runs in sizes.items()}
+
+
 def distance(pillars: Pillars) -> Fraction:
     """n_s/n_p, which sets the contact fraction."""
     return Fraction(pillars[1], pillars[0])
@@ -61,36 +70,35 @@ def crossed(found: Map) -> dict[Pillars, Array]:
         kept = fewer
 
 
-def designs(pillars: Sequence[Pillars]) -> dict[str, Array]:
-    """Columns of models, (pillars, unknowns): a number for each size, each contact, both added."""
+def unexplained(found: Map) -> dict[str, Array]:
+    """Projections of mean friction, (pillars, pillars), onto what models leave unexplained.
 
-    def levels(values: list[float]) -> Array:
-        return np.equal.outer(values, sorted(set(values))).astype(np.float64)
-
-    size = levels([float(n_p) for n_p, _ in pillars])
-    contact = levels([float(distance(each)) for each in pillars])
-    return {"size": size, "contact": contact, "both": np.hstack([size, contact])}
+    The models are a number for each size, one for each contact fraction, and both added. The rank
+    of a projection is the degrees of freedom that the model leaves.
+    """
+    designs = {}
+    for name, key in (("size", itemgetter(0)), ("contact", distance)):
+        values = np.array([float(key(pillars)) for pillars in found])
+        designs[name] = np.equal.outer(values, np.unique(values)).astype(np.float64)
+    designs["both"] = np.hstack([*designs.values()])
+    return {name: np.eye(len(found)) - a @ np.linalg.pinv(a) for name, a in designs.items()}
 
 
 def explained(found: Map) -> dict[str, Interval]:
     """Fraction of the variance of mean static friction over the map that each model explains."""
-    shares = {}
-    for name, design in designs(list(found)).items():
-        left = np.eye(len(design)) - design @ np.linalg.pinv(design)
 
-        def fraction(*drawn: Array, axis: int, left: Array = left) -> Array:
-            values = means(drawn, axis)
-            return 1.0 - ((values @ left) ** 2).mean(axis=-1) / values.var(axis=-1)
+    def fraction(means: Array, left: Array) -> Array:
+        return 1.0 - ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1)
 
-        shares[name] = interval(list(found.values()), fraction)
-    return shares
+    return {
+        name: interval(list(found.values()), np.mean, partial(fraction, left=left))
+        for name, left in unexplained(found).items()
+    }
 
 
 def residuals(found: Map) -> dict[Pillars, float]:
     """Mean static friction minus the model of size and contact added."""
-    design = designs(list(found))["both"]
-    values = means(list(found.values()), axis=-1)
-    left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
+    left = unexplained(found)["both"] @ [values.mean() for values in found.values()]
     return dict(zip(found, left.tolist(), strict=True))
 
 
@@ -98,14 +106,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     """Sentences and a table in Markdown; none without what `NEEDS` names."""
     whole = friction_map(ensembles)
     found = crossed(whole)
-    freedom = len(found) - np.linalg.matrix_rank(designs(list(found))["both"]) if found else 0
-    if freedom < 1:
+    freedom = round(np.trace(unexplained(found)["both"])) if found else 0
+    if not freedom:
         return
-    shares, left = explained(found), np.array(list(residuals(found).values()))
+    shares, left = explained(found), np.array([*residuals(found).values()])
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
     rms = np.sqrt((left**2).sum() / freedom)
     size, contact, both = (number(share, " %", 100.0) for share in shares.values())
-    more = change(shares["contact"], shares["size"])
+    more = direction(shares["contact"], shares["size"])
     words = {
         "grows": "Size, more than contact fraction, sets static friction",
         "falls": "Contact fraction, more than size, sets static friction",

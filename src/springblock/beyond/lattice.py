@@ -1,38 +1,38 @@
 """Lattice or layer: what changes with the spacing l, and what with the layer's thickness l_z?"""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from statistics import mode
 from typing import NamedTuple
 
 import numpy as np
 
-from springblock.analysis.correlation import side_times
+from springblock.analysis.lowest import Lowest, are_apart, lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.beyond.clusters import precursors
-from springblock.beyond.friction import static_friction
+from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
-    change,
-    grouped,
+    direction,
     is_even,
     listed,
     number,
+    on_one_side,
 )
-from springblock.beyond.resampling import FEWEST, Lowest, SideLength, lowest
+from springblock.beyond.resampling import side_length
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
-from springblock.mechanism.elasticity import pull
-from springblock.simulation.run import Array
+from springblock.mechanism.elasticity import Layer
 
 NEEDS = "groups lattice, disorder and layer"
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "correlation_length", "step"}
-_FEWEST = 3  #: surfaces of a comparison, and distances that a fit of two unknowns needs
+_FEWEST = 3  #: surfaces of a comparison
 _SIZES = 4  #: of pillars, among which the lowest friction is looked for
 
 
-class Layer(NamedTuple):
+class Lattice(NamedTuple):
     """A lattice, its layer and its disorder."""
 
     spacing: float  #: l, µm
@@ -41,8 +41,20 @@ class Layer(NamedTuple):
     length: float  #: over which coefficients are alike, µm; 0 where each block has its own
 
 
+class Quantity(NamedTuple):
+    """What is compared."""
+
+    name: str
+    unit: str = ""
+
+    def __str__(self) -> str:
+        """Write the heading of a column."""
+        bare = self.name.removeprefix("the ")
+        return f"{bare} ({self.unit})" if self.unit else bare
+
+
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
-Surfaces = Mapping[Layer, Sizes]
+Surfaces = Mapping[Lattice, Sizes]
 Told = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
 
 
@@ -50,29 +62,30 @@ class Comparison(NamedTuple):
     """Surfaces that differ in one length: coarse to fine lattices, or thin to thick layers."""
 
     words: str  #: what else is the same
-    axis: str  #: the length, of `Layer`
+    axis: str  #: the length, of `Lattice`
     surfaces: Surfaces
 
 
-def layers(ensembles: Ensembles) -> dict[Layer, Sizes]:
-    """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer."""
+def by_lattice(ensembles: Ensembles) -> Surfaces:
+    """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer.
+
+    Where nothing scatters, all realisations are the same one; it stands there twice, as exact.
+    """
     items = []
     for scene, runs in ensembles.items():
         if is_even(scene, _VARIED):
             material = runs[0].material
             lengths = material.spacing, material.thickness, material.correlation_length
             spacing, thickness, length = (round(MICRO * each, 6) for each in lengths)
+            at = Lattice(spacing, thickness, material.mu_static_std, length)
             side = round(scene.n_blocks * spacing, 6)
-            at = Layer(spacing, thickness, material.mu_static_std, length)
-            items.append(((side, at), scene.n_p * spacing, runs))
-    sizes = grouped(items)
-    found: dict[float, dict[Layer, Sizes]] = grouped((*place, sizes[place]) for place in sizes)
-    return max(found.values(), key=len, default={})
+            items.append((side, at, scene.n_p * spacing, runs if at.scatter else [runs[0]] * 2))
+    return on_one_side(items)
 
 
-def usual(surfaces: Surfaces) -> Layer:
+def usual(surfaces: Surfaces) -> Lattice:
     """What most surfaces have."""
-    return Layer(*map(mode, zip(*surfaces, strict=True)))
+    return Lattice(*map(mode, zip(*surfaces, strict=True)))
 
 
 def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
@@ -90,50 +103,31 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
         "none": "without disorder",
         "layer": f"with l = {common.spacing:g} µm",
     }
-    parts: dict[str, dict[Layer, Sizes]] = {name: {} for name in words}
-    for at in sorted(surfaces, key=lambda at: (-at.spacing, at.thickness)):
-        is_thick = at.thickness == common.thickness
-        belongs = {
-            "block": is_thick and (at.scatter, at.length) == (common.scatter, common.length),
-            "area": is_thick and np.isclose(at.spacing * at.scatter, product) and not at.length,
-            "length": is_thick and at.length > 0.0,
-            "none": is_thick and not at.scatter,
-            "layer": at._replace(thickness=common.thickness) == common,
-        }
-        for name in (name for name, is_part in belongs.items() if is_part):
-            parts[name][at] = surfaces[at]
-    axes = {"layer": "thickness"}
+    ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
+    thick = [at for at in ordered if at.thickness == common.thickness]
+    own = [at for at in thick if not at.length]
+    parts = {
+        "block": [at for at in thick if at._replace(spacing=common.spacing) == common],
+        "area": [at for at in own if np.isclose(at.spacing * at.scatter, product)],
+        "length": [at for at in thick if at.length],
+        "none": [at for at in thick if not at.scatter],
+        "layer": [at for at in ordered if at._replace(thickness=common.thickness) == common],
+    }
     return {
-        name: Comparison(words[name], axes.get(name, "spacing"), part)
+        name: Comparison(
+            words[name],
+            "thickness" if name == "layer" else "spacing",
+            {at: surfaces[at] for at in part},
+        )
         for name, part in parts.items()
         if len(part) >= _FEWEST
     }
 
 
-def decay(sizes: Sizes, size: float) -> SideLength | None:
-    """Decay length on pillars of one size, blocks: from r = 1 to a third of a side."""
-    runs = sizes.get(size, ())
-    if len(runs) < FEWEST or "x" not in runs[0].scene.sides:
-        return None
-    scene = runs[0].scene
-    times, last = side_times(runs, scene.pattern, "x"), scene.n_p // 3
-    return SideLength(times, last) if last >= _FEWEST else None
-
-
 def stress_ratio(runs: Sequence[Record]) -> float:
     """Largest elastic stress on a block over the mean, before any slip; there is no scatter."""
-    stress = np.hypot(*pull(runs[0].scene.contact, runs[0].material).reshape(2, -1))
+    stress = Layer(runs[0].scene.contact, runs[0].material).stress
     return float(stress.max() / stress.mean())
-
-
-def samples(sizes: Sizes) -> dict[float, Array]:
-    """Static friction of each realisation by size, (k,)."""
-    return {size: _of_all(runs, static_friction(runs)) for size, runs in sizes.items()}
-
-
-def _of_all(runs: Sequence[Record], values: Array) -> Array:
-    """Values of all realisations; where nothing scatters, of the only one, twice: exact."""
-    return values if runs[0].material.mu_static_std else np.repeat(values[:1], 2)
 
 
 def minimum(sizes: Sizes) -> Lowest | None:
@@ -141,85 +135,80 @@ def minimum(sizes: Sizes) -> Lowest | None:
     return lowest(samples(sizes)) if len(sizes) >= _SIZES else None
 
 
-def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str, Interval]:
-    """What is compared, by name: on pillars of the best size and on larger ones, µm."""
+def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Quantity, Interval]:
+    """What is compared: on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
-        runs, name = sizes[best], f"on pillars of {best:g} µm"
-        stress, force = stress_ratio(runs), samples(sizes)
-        shares = np.array([100.0 * precursors(run)[run.scene.contact].mean() for run in runs])
-        found[f"the largest over the mean elastic stress {name}"] = mean_interval([stress] * 2)
-        found[f"static friction {name}"] = mean_interval(force[best])
-        found[f"the share of precursors {name} (%)"] = mean_interval(_of_all(runs, shares))
+        runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
+        stress = Quantity(f"the largest over the mean elastic stress {name}")
+        found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
+        found[Quantity(f"static friction {name}")] = mean_interval(force[best])
+        shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
+        found[Quantity(f"the share of precursors {name}", "%")] = mean_interval(shares)
         if broad in sizes:
-            key = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
-            found[key] = difference_interval(force[broad], force[best])
+            more = Quantity(f"static friction on pillars of {broad:g} µm minus that of {best:g} µm")
+            found[more] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
-        if fit := decay(sizes, size):
-            spacing, blocks = MICRO * sizes[size][0].material.spacing, fit.interval
-            key = f"the decay length on pillars of {size:g} µm (µm)"
-            found[key] = Interval(*(spacing * limit for limit in blocks))
+        if size in sizes and (blocks := side_length(sizes[size])):
+            spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
+            metres = Interval(*(spacing * limit for limit in blocks))
+            found[Quantity(f"the decay length {where}", "µm")] = metres
             if size == broad:
-                found[f"the decay length in blocks on pillars of {size:g} µm (blocks)"] = blocks
+                found[Quantity(f"the decay length in blocks {where}", "blocks")] = blocks
     return found
 
 
 def answers(ensembles: Ensembles) -> Iterator[str]:
     """Sentences and a table in Markdown; none without what `NEEDS` names."""
-    surfaces = layers(ensembles)
+    surfaces = by_lattice(ensembles)
     compared = comparisons(surfaces) if surfaces else {}
     best = minimum(surfaces[usual(surfaces)]) if {"block", "layer"} <= set(compared) else None
     if best is None:
         return
-    larger = sorted(size for size in surfaces[usual(surfaces)] if size > best.place) or [best.place]
+    larger = [size for size in surfaces[usual(surfaces)] if size > best.place] or [best.place]
     found = {
         at: measures(sizes, best.place, larger[0], larger[-1]) for at, sizes in surfaces.items()
     }
-    names = list(dict.fromkeys(name for each in found.values() for name in each))
-    told = {name: changes(compared, found, name) for name in names}
+    quantities = list(dict.fromkeys(chain.from_iterable(found.values())))
+    told = {each: changes(compared, found, each) for each in quantities}
     for kind in {"area", "length", "none"} & set(compared):  # stress knows of no disorder
-        told[names[0]].pop(kind, None)
-    told["the friction-minimising size"] = _moves(compared)
+        told[quantities[0]].pop(kind, None)
+    told[Quantity("the friction-minimising size")] = _moves(compared)
     yield from _conclusions(told)
-    for name, said in told.items():
+    for (name, _), said in told.items():
         how = "; ".join(words for _, words in said.values())
-        yield f"**{_plain(name, upper=True)}** {how}."
-    header = ["scatter", "l (µm)", "l_z (µm)", *(name.removeprefix("the ") for name in names)]
+        yield f"**{name[0].upper()}{name[1:]}** {how}."
+    header = ["scatter", "l (µm)", "l_z (µm)", *map(str, quantities)]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
         scatter = f"{at.scatter:g}" + (f", alike over {at.length:g} µm" if at.length else "")
-        values = [number(found[at][name]) if name in found[at] else "" for name in names]
+        values = [number(found[at][each]) if each in found[at] else "" for each in quantities]
         own = [str(minimum(sizes) or ""), ", ".join(f"{size:g}" for size in sizes)]
-        fewest = str(min(len(runs) for runs in sizes.values()))
-        lines.append([scatter, f"{at.spacing:g}", f"{at.thickness:g}", *values, *own, fewest])
+        fewest = min(len({run.seed for run in runs}) for runs in sizes.values())
+        lines.append([scatter, f"{at.spacing:g}", f"{at.thickness:g}", *values, *own, f"{fewest}"])
     yield markdown_table(header, lines)
 
 
-def _plain(name: str, upper: bool = False) -> str:
-    """A name without its unit."""
-    bare = name.partition(" (")[0]
-    return bare[0].upper() + bare[1:] if upper else bare
-
-
-def _place(at: Layer, axis: str) -> str:
+def _place(at: Lattice, axis: str) -> str:
     return f"{'l' if axis == 'spacing' else 'l_z'} = {getattr(at, axis):g} µm"
 
 
 def changes(
-    compared: Mapping[str, Comparison], found: Mapping[Layer, Mapping[str, Interval]], name: str
+    compared: Mapping[str, Comparison],
+    found: Mapping[Lattice, Mapping[Quantity, Interval]],
+    quantity: Quantity,
 ) -> Told:
     """How a value changes from the first to the last surface of each comparison."""
     said = {}
-    unit = name.removeprefix(_plain(name)).replace("(", "").replace(")", "")
+    unit = quantity.unit and f" {quantity.unit}"
     for kind, (words, axis, surfaces) in compared.items():
-        known = {at: found[at][name] for at in surfaces if name in found[at]}
+        known = [(at, found[at][quantity]) for at in surfaces if quantity in found[at]]
         if len(known) >= 2:
-            (first, one), *_, (last, other) = known.items()
-            verb = change(one, other)
-            text = f"{verb} from {number(one, unit)} at {_place(first, axis)} to "
-            text += f"{number(other, unit)} at {_place(last, axis)} {words}"
-            said[kind] = verb != UNCHANGED, text
+            ends = known[0], known[-1]
+            verb = direction(*(value for _, value in ends))
+            values = [f"{number(value, unit)} at {_place(at, axis)}" for at, value in ends]
+            said[kind] = verb != UNCHANGED, f"{verb} from {' to '.join(values)} {words}"
     return said
 
 
@@ -233,24 +222,25 @@ def _moves(compared: Mapping[str, Comparison]) -> Told:
             if at.spacing <= at.thickness and len(sizes) >= _SIZES
         }
         common = sorted(set.intersection(*map(set, fine.values()))) if len(fine) >= 2 else []
-        found = {at: minimum({s: sizes[s] for s in common}) for at, sizes in fine.items()}
-        best = {at: each for at, each in found.items() if each}
-        if best:
-            moves = not set.intersection(*(set(each.alike) for each in best.values()))
-            sizes = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
-            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {sizes}"
+        if len(common) >= _SIZES:
+            best = {
+                at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
+            }
+            moves = are_apart(best.values())
+            places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
+            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {places}"
     return said
 
 
-def _conclusions(told: Mapping[str, Told]) -> Iterator[str]:
+def _conclusions(told: Mapping[Quantity, Told]) -> Iterator[str]:
     """Say what changes with l, however the lattice is refined or in some ways, and with l_z."""
     lattice: dict[str, list[str]] = {"in every refinement below": [], "in some": [], "in none": []}
-    for name, said in told.items():
+    for (name, unit), said in told.items():
         changes = [changed for kind, (changed, _) in said.items() if kind != "layer"]
-        if changes and not name.endswith("(blocks)"):
+        if changes and unit != "blocks":
             every, some, none = lattice.values()
-            (every if all(changes) else some if any(changes) else none).append(_plain(name))
-    layer = [_plain(name) for name, said in told.items() if said.get("layer", (False, ""))[0]]
+            (every if all(changes) else some if any(changes) else none).append(name)
+    layer = [name for (name, _), said in told.items() if said.get("layer", (False, ""))[0]]
     parts = [f"{listed(names)} {how}" for how, names in lattice.items() if names]
     yield f"**The spacing l of the lattice changes {'; '.join(parts)}.**"
     yield f"**The thickness l_z of the layer changes {listed(layer) or 'none of these'}.**"

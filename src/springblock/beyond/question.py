@@ -39,6 +39,13 @@ def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
     return {first: dict(sorted(found[first].items(), key=itemgetter(0))) for first in found}
 
 
+def on_one_side(items: Iterable[tuple[Any, Any, Any, T]]) -> dict[Any, dict[Any, T]]:
+    """Values by kind and size, of items (side, kind, size, value), on the side with most kinds."""
+    found = grouped(((side, kind), size, value) for side, kind, size, value in items)
+    sides = grouped((side, kind, sizes) for (side, kind), sizes in found.items())
+    return max(sides.values(), key=len, default={})
+
+
 def has_pillars_alone(scene: Scene) -> bool:
     """Whether it has pillars without grooves, and slides along x."""
     return scene.lengths.keys() == {"n_p", "n_s"} and scene.direction == "x"
@@ -62,7 +69,12 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
 
 
 def change(first: Interval, last: Interval) -> str:
-    """Say how a value changes, by whether both 95 % intervals are apart."""
+    """Say how a value changes and from what to what."""
+    return f"{direction(first, last)} from {number(first)} to {number(last)}"
+
+
+def direction(first: Interval, last: Interval) -> str:
+    """Say whether a value changes, by whether both 95 % intervals are apart."""
     if last.high < first.low:
         return "falls"
     return "grows" if last.low > first.high else UNCHANGED

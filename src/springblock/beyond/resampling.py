@@ -4,95 +4,81 @@ Bias-corrected and accelerated bootstrap over realisations (BCa; Efron & Tibshir
 doi:10.1201/9780429246593, chapter 14). Ensembles are independent of each other.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.analysis.correlation import Correlation, fit_tail
+from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import (
     Interval,
     bootstrap_weights,
-    difference_interval,
     samples_interval,
     weights_of,
 )
+from springblock.io.records import Record
 from springblock.simulation.run import Array
 
 Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
-Statistic = Callable[..., Array]  #: of samples, (..., k) each, and their axis: (...)
 _RESAMPLES = 1000
 #: Realisations that a correlation needs here: no resample of so many is one of them alone.
 FEWEST = 10
+_DISTANCES = 3  #: that a fit of two unknowns needs
 
 
-def interval(samples: Sequence[Sample], statistic: Statistic) -> Interval:
-    """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
+def interval(
+    samples: Sequence[Sample],
+    statistic: Callable[..., Any],
+    combined: Callable[[Array], Array] = lambda values: values[..., 0],
+) -> Interval:
+    """What independent samples, (k,) each, have together, with its 95 % BCa interval.
 
-    Limits are NaN where a sample has fewer than three realisations.
+    `statistic` takes one sample, (..., k), and its `axis`; `combined` what that gives of all
+    samples, (..., samples), and returns values, (...): by default that of the first. Limits are
+    NaN where a sample has fewer than three realisations.
     """
+
+    def of_all(*drawn: Sample, axis: int) -> Array:
+        return combined(np.stack([statistic(each, axis=axis) for each in drawn], axis=-1))
+
     if min(len(sample) for sample in samples) < 3:
-        return Interval(np.asarray(statistic(*samples, axis=-1)), *np.full(2, np.nan))
-    return samples_interval(samples, statistic, _RESAMPLES, batch=100)
+        return Interval(of_all(*samples, axis=-1), *np.full(2, np.nan))
+    return samples_interval(samples, of_all, _RESAMPLES, batch=100)
 
 
 def difference(first: Array, second: Array) -> Interval:
     """Mean of one sample minus that of another, with its 95 % interval."""
-    return interval((first, second), lambda a, b, axis: a.mean(axis=axis) - b.mean(axis=axis))
+    return interval((first, second), np.mean, lambda means: means[..., 0] - means[..., 1])
 
 
-class Lowest(NamedTuple):
-    """The place of the lowest mean, and all places whose means cannot be told from it."""
+def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
+    """Decay length along the sides of pillars, blocks: from r = 1 to a third of a side.
 
-    place: float
-    alike: list[float]
-
-    def __str__(self) -> str:
-        """Write the place, and the others in brackets."""
-        others = ", ".join(f"{place:g}" for place in self.alike if place != self.place)
-        return f"{self.place:g} (or {others})" if others else f"{self.place:g}"
-
-
-def lowest(samples: Mapping[Any, Array]) -> Lowest:
-    """Where the means of samples, by their places, are lowest.
-
-    Nothing is interpolated between places. A mean is told from the lowest where the 95 % interval
-    of their difference, each by itself, leaves out zero.
+    Or to `most` blocks on larger pillars; none of too few realisations or on too short sides.
     """
-    best = min(samples, key=lambda place: float(samples[place].mean()))
-    apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
-    alike = [place for place, found in apart.items() if place == best or not found.low > 0.0]
-    return Lowest(best, alike)
+    scene = runs[0].scene
+    last = min(scene.n_p // 3, most or scene.n_p)
+    if len(runs) < FEWEST or last < _DISTANCES:
+        return None
+    return decay_length(side_times(runs, scene.pattern, "x"), last)
 
 
-def means(samples: Sequence[Array], axis: int) -> Array:
-    """Means of several samples, (..., samples)."""
-    return np.stack([sample.mean(axis=axis) for sample in samples], axis=-1)
+def decay_length(times: Array, last: int) -> Interval:
+    """Decay length in one ensemble: of A exp(-r/l) from r = 1 to `last`, in blocks.
 
-
-class SideLength:
-    """Decay length along sides in one ensemble: of A exp(-r/l) from r = 1 to `last`, in blocks.
-
-    Called with numbers of realisations, as a bootstrap draws them, (..., k), it returns lengths,
-    (...). The errors that the fit takes stay those of all realisations. `times` are those of
-    `springblock.analysis.correlation.side_times`.
+    `times` are detachment times as those of `springblock.analysis.correlation.side_times`. The
+    errors that the fit takes stay those of all realisations.
     """
+    found, k = Correlation(times), len(times)
 
-    def __init__(self, times: Array, last: int) -> None:
-        self.realisations = np.arange(len(times))
-        self._found, self._last = Correlation(times), last
-        self._error = self._curve(bootstrap_weights(len(times))).std(axis=0)
+    def curve(weights: Array) -> Array:
+        return found.weighted(weights)[:, 1 : last + 1]
 
-    def _curve(self, weights: Array) -> Array:
-        return self._found.weighted(weights)[:, 1 : self._last + 1]
+    error = curve(bootstrap_weights(k)).std(axis=0)
 
-    def __call__(self, drawn: NDArray[np.intp]) -> Array:
-        draws, which = np.unique(drawn.reshape(-1, drawn.shape[-1]), axis=0, return_inverse=True)
-        weights = weights_of(draws, len(self.realisations))
-        return fit_tail(self._curve(weights), self._error)[which].reshape(drawn.shape[:-1])
+    def length(drawn: NDArray[np.intp], axis: int) -> Array:
+        weights = weights_of(drawn.reshape(-1, drawn.shape[axis]), k)
+        return fit_tail(curve(weights), error).reshape(drawn.shape[:-1])
 
-    @property
-    def interval(self) -> Interval:
-        """The length with its 95 % interval, blocks."""
-        return interval([self.realisations], lambda drawn, axis: self(drawn))
+    return interval([np.arange(k)], length)

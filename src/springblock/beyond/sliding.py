@@ -6,7 +6,7 @@ from dataclasses import replace
 from springblock.analysis.correlation import LAST, Correlation, groove_times, side_times
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import Ensembles, change, grouped, listed, number
-from springblock.beyond.resampling import FEWEST, SideLength
+from springblock.beyond.resampling import FEWEST, decay_length
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.direction import degrees
@@ -44,16 +44,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         return
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "decay length (blocks)", "realisations"]
     places = {angle: edges(runs) for angle, runs in found.items()}
-    lines = []
+    said, lines = [], []
     for edge in ("sides", "grooves"):
         for angle, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
-            length = number(SideLength(times[edge], LAST).interval)
+            length = number(decay_length(times[edge], LAST))
             lines.append([edge, f"{angle:g}°", close, far, length, str(len(found[angle]))])
-    said = []
-    for edge in ("sides", "grooves"):
         first, last = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
-        said.append(f"{change(first, last)} from {number(first)} to {number(last)} along {edge}")
+        said.append(f"{change(first, last)} along {edge}")
     yield (
         "**As sliding turns from along an edge to across it, the correlation of detachments "
         f"{_FAR} blocks apart along the edge {listed(said)}.**"

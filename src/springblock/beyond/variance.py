@@ -1,19 +1,21 @@
 """How static friction varies from one realisation to another, by the size of the surface."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
 from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
-from springblock.beyond.resampling import Sample, interval
+from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
 NEEDS = "groups flat and variance"
 FAR = 3.0  #: standard errors of a variance from a power law that does not describe it
+_VARIANCE = partial(np.var, ddof=1)
 Pattern = tuple[int, int]  #: n_p and n_s, blocks; zeros on flat surfaces
 
 
@@ -27,24 +29,15 @@ def by_pattern(ensembles: Ensembles) -> dict[Pattern, dict[int, Array]]:
     return {pattern: sizes for pattern, sizes in sorted(found.items()) if len(sizes) >= 3}
 
 
-def variances(*samples: Array, axis: int) -> Array:
-    """Variance between realisations of each sample, (..., samples)."""
-    return np.stack([values.var(axis=axis, ddof=1) for values in samples], axis=-1)
-
-
 def variance(values: Array) -> Interval:
     """Variance between realisations with its 95 % interval."""
-    return interval([values], lambda drawn, axis: drawn.var(axis=axis, ddof=1))
+    return interval([values], _VARIANCE)
 
 
 def exponent(sizes: Mapping[int, Array]) -> Interval:
     """x in a variance that goes with n^-x, n = N² blocks, with its 95 % interval."""
     slope = np.linalg.pinv(_design(sizes))[1]
-
-    def exponents(*drawn: Sample, axis: int) -> Array:
-        return np.log(variances(*drawn, axis=axis)) @ slope
-
-    return interval(list(sizes.values()), exponents)
+    return interval(list(sizes.values()), _VARIANCE, lambda values: np.log(values) @ slope)
 
 
 def misfit(sizes: Mapping[int, Array]) -> float:
@@ -52,7 +45,7 @@ def misfit(sizes: Mapping[int, Array]) -> float:
 
     The logarithm of the variance of k normal values has a standard error of about √(2/(k - 1)).
     """
-    design, logs = _design(sizes), np.log(variances(*sizes.values(), axis=-1))
+    design, logs = _design(sizes), np.log([_VARIANCE(values) for values in sizes.values()])
     left = logs - design @ (np.linalg.pinv(design) @ logs)
     counts = np.array([len(values) for values in sizes.values()])
     return float(np.abs(left * np.sqrt((counts - 1) / 2.0)).max())

@@ -15,7 +15,7 @@ from springblock.claims import ranges, surfaces
 from springblock.claims.rule import Evidence, Finding, Range, claim
 from springblock.claims.samples import found_on
 from springblock.claims.surfaces import across, case_of, pillars, pillars_of, slid_both_ways
-from springblock.mechanism.elasticity import pull
+from springblock.mechanism.elasticity import Layer
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
@@ -37,7 +37,7 @@ def elastic_forces(scene: Scene, material: Material) -> Array:
     """
     contact = scene.contact if scene.direction == "x" else scene.contact.T
     forces = np.full((2, *contact.shape), np.nan)
-    forces[:, contact] = pull(contact, material).reshape(2, -1)
+    forces[:, contact] = Layer(contact, material).pull.reshape(2, -1)
     forces /= np.nanmean(np.hypot(*forces))
     return forces if scene.direction == "x" else forces.transpose(0, 2, 1)
 

@@ -8,7 +8,7 @@ from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
-from springblock.mechanism import TABLES
+from springblock.mechanism.surfaces import TABLES
 
 MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
@@ -59,7 +59,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 def _measure(name: str, output: Path) -> None:
     """Write a table in which there is nothing to configure."""
     from springblock.accuracy import production, stability, work_precision
-    from springblock.mechanism.parts import measure
+    from springblock.mechanism.tables import measure
 
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
@@ -89,7 +89,7 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     if name == "mechanism":
         from springblock.mechanism.page import page as mechanism
 
-        return mechanism(*(load(file).to_pylist() for file in files))
+        return mechanism(*(load(file).to_pandas() for file in files))
     if name == "accuracy":
         from springblock.accuracy.page import page
 

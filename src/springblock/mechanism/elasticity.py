@@ -9,12 +9,12 @@ without contact are in equilibrium, which leaves for those in contact
 with the indices c for blocks in contact and f for the others: S is the Schur complement of K_ff.
 """
 
-from typing import NamedTuple
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array, eye_array
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from springblock.model.material import Material
 
@@ -24,35 +24,45 @@ Array = NDArray[np.float64]
 SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
 
 
-class Layer(NamedTuple):
-    """Elasticity of the layer as its k blocks in contact feel it; components x, then y."""
+class Layer:
+    """Elasticity of a layer with free edges, pulled along x, as its k blocks in contact feel it.
 
-    stiffness: Array  #: (2k, 2k) S, N/m
-    pull: Array  #: (2k,) b, N per m that the slider moves along x
+    `contact` is (N_y, N_x). Vectors have the x components of all blocks, then the y components.
+    """
 
+    def __init__(self, contact: NDArray[np.bool_], material: Material) -> None:
+        whole, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
+        load = material.k_s * np.repeat([1.0, 0.0], contact.size)
+        self._held, self._load_held = whole[bound][:, bound], load[bound]
+        self._free, self._load_free = whole[~bound][:, ~bound], load[~bound]
+        self._coupling = whole[~bound][:, bound]
 
-def layer(contact: NDArray[np.bool_], material: Material) -> Layer:
-    """Reduce a layer with free edges to its blocks in `contact`, (N_y, N_x), pulled along x."""
-    stiffness, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
-    reduced = stiffness[bound][:, bound].toarray()
-    if not contact.all():
-        coupling = stiffness[~bound][:, bound]
-        edge = np.flatnonzero(np.diff(coupling.indptr))  # blocks beside one without contact
-        near = coupling[:, edge]
-        reduced[np.ix_(edge, edge)] -= near.T @ splu(stiffness[~bound][:, ~bound]).solve(
-            near.toarray()
-        )
-    return Layer(reduced, pull(contact, material))
+    @cached_property
+    def stiffness(self) -> Array:
+        """S, (2k, 2k) N/m."""
+        reduced = self._held.toarray()
+        edge = np.flatnonzero(np.diff(self._coupling.indptr))  # blocks beside one without contact
+        near = self._coupling[:, edge]
+        reduced[np.ix_(edge, edge)] -= near.T @ self._relaxed(near.toarray())
+        return reduced
 
+    @cached_property
+    def pull(self) -> Array:
+        """b, (2k,) N/m."""
+        return self._load_held - self._coupling.T @ self._relaxed(self._load_free)
 
-def pull(contact: NDArray[np.bool_], material: Material) -> Array:
-    """Return b of a layer, (2k,) N/m: the stress on blocks in contact before any slip, over s."""
-    stiffness, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
-    load = material.k_s * np.repeat([1.0, 0.0], contact.size)
-    if contact.all():
-        return load
-    free = splu(stiffness[~bound][:, ~bound]).solve(load[~bound])
-    return load[bound] - stiffness[bound][:, ~bound] @ free
+    @property
+    def stress(self) -> Array:
+        """Size of b on each block, (k,) N/m: the stress before any slip, over s."""
+        return np.hypot(*self.pull.reshape(2, -1))
+
+    def _relaxed(self, force: Array) -> Array:
+        """Return the displacements of blocks without contact under forces on them."""
+        return self._factorised.solve(force) if force.size else force
+
+    @cached_property
+    def _factorised(self) -> SuperLU:
+        return splu(self._free)
 
 
 def lattice_stiffness(shape: tuple[int, int], material: Material) -> csc_array:

@@ -40,16 +40,14 @@ class Curve(NamedTuple):
 
 def stress_variation(layer: Layer) -> float:
     """Return standard deviation over mean of |F_mot| on the blocks in contact before any slip."""
-    stress = np.hypot(*layer.pull.reshape(2, -1))
-    return float(stress.std() / stress.mean())
+    return float(layer.stress.std() / layer.stress.mean())
 
 
 def independent(layer: Layer, static: Array, dynamic: Array) -> Curve:
     """Let blocks go on their own; `static` and `dynamic` are mu_s F_n and mu_d F_n, (k,) N."""
-    x, y = layer.pull.reshape(2, -1)
-    slider = np.maximum(static, dynamic) / np.hypot(x, y)
+    slider = np.maximum(static, dynamic) / layer.stress
     order = np.argsort(slider)
-    slider, x, dynamic = slider[order], x[order], dynamic[order]
+    slider, x, dynamic = slider[order], layer.pull[order], dynamic[order]  # along x
     still_held = np.cumsum(x[::-1])[::-1]
     return Curve(slider, slider * still_held + np.cumsum(dynamic) - dynamic)
 

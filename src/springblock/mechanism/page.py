@@ -1,14 +1,21 @@
-"""The page on the mechanism; every number in it comes from the table."""
+"""The page on the mechanism, from its template; every number in it comes from the tables."""
 
-from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Mapping
+from itertools import pairwise, product
+from pathlib import Path
+from textwrap import fill
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike
 
-from springblock.analysis.statistics import mean_interval
-from springblock.io.rows import Row, markdown_table
-from springblock.mechanism.peaks_page import peaks_section, written
-from springblock.mechanism.variants_page import variants_section
+from springblock.analysis.lowest import Lowest, lowest
+from springblock.analysis.statistics import mean_interval, prominence
+from springblock.io.rows import markdown_table
+from springblock.mechanism.elasticity import Array
+from springblock.mechanism.pawls import TWO_PEAKS, pawl
+from springblock.model.material import Material
 
 #: What models are called, in the order of what they contain.
 NAMES = {
@@ -17,125 +24,244 @@ NAMES = {
     "overshooting": "overshoot",
     "simulation": "full model",
 }
-_PAGE = """# Why static friction depends on the size of pillars, and when it has two peaks
+_STEPS = list(pairwise(NAMES))
+_ALONG = {"x": "along", "y": "across"}
+_WIDE = (6, 10)  #: blocks, pawls on which the surfaces of training have two load peaks
+_MEASURED_TWO = 1.0  #: %, prominence of the lesser load peak, at least
+_SURFACE = ["n_p", "n_s2", "n_p2", "varied", "direction"]
 
-Static friction is lowest on pillars of {lowest} blocks; the elastic layer loads the blocks most
-unevenly on pillars of {most_uneven}. Their edges let go early and hand their load to the rest.
-On the smallest pillars stress alone comes close to the friction of the full simulation, because
-load transfer, which raises it there, and overshoot cancel. On larger ones the redistribution of
-load lowers friction, and the inertia of single blocks, which overshoot as they slip, lowers it
-further. A quasi-static model of stress, load transfer and overshoot agrees with the full simulation
-to {small_error:.1%} up to n_p = {small} and to {worst_error:.1%} on all sizes of the first table.
-
-Grooves along the sliding direction can have two load peaks: their edges let go together, and the
-core of the pawls holds on. Across it the edges of the paper's pawls let go one by one, and the load
-hardly falls. In the quasi-static model it hardly falls along the grooves either: how deep it falls
-is dynamic.
-
-## Four models
-
-All start from the linear elasticity of the lattice, reduced to the blocks in contact
-(`mechanism/elasticity.py`), and use the same friction coefficients, seed by seed.
-
-1. **Stress before any slip.** Blocks inside a pillar are pulled by the slider alone; those at its
-   edges bear the free layer beside it as well. The standard deviation of the stress over its mean
-   is largest, {largest_variation:.2f}, at n_p = {most_uneven}: on pillars of two blocks all blocks
-   are corners, and on wide pillars most blocks lie inside.
-2. **Stress alone** (independent blocks). Each block lets go where its stress reaches $\\mu_s F_n$
-   and bears $\\mu_d F_n$ from then on; no other block notices.
-3. **Load transfer** (quasi-static). The layer stays in equilibrium: what a block no longer bears,
-   its neighbours do. This is the limit of the simulation for strong damping and a slow slider.
-4. **Overshoot.** A block that lets go accelerates and comes to rest at $(2\\mu_d - \\mu_s) F_n$, as
-   one without damping between neighbours at rest. There it sticks again: its force has fallen by
-   $2(\\mu_s - \\mu_d) F_n$, twice the drop of friction, most of which its neighbours bear. Slips
-   follow one another while the slider stands still.
-
-Static friction, means over {seeds} seeds with 95 % t intervals, on the smallest surfaces of
-{blocks} blocks a side or more with gaps as wide as the pillars:
-
-{table}
-
-## What each step adds
-
-Differences of means over the same seeds, in percent of the full model, with 95 % t intervals:
-
-{steps}
-
-Over the sizes, the unevenness of the stress and the friction of the full model are correlated by
-{correlation:.2f}. Friction is lowest at {minima}.
-
-{variants}
-{peaks}
-
-## Limits
-
-- The models know no waves and no time. On the larger pillars the full model has less friction
-  than the last of them. Slips of several blocks at once may overshoot further than those of one;
-  that was not tested.
-- Surfaces are smaller than those of the study, which changes friction: compare the models with the
-  full model of the same row, not with the numbers of the other pages.
-- Edges are free. In the models the slider moves along x, and all constants are the paper's where
-  the tables do not say otherwise.
-"""
+Fields = dict[str, Any]  #: of the template, by name
 
 
 def page(
-    rows: Sequence[Row], variants: Sequence[Row], peaks: Sequence[Row], budget: Sequence[Row]
+    friction: pd.DataFrame, variants: pd.DataFrame, peaks: pd.DataFrame, budget: pd.DataFrame
 ) -> str:
-    """Write the page from the tables named in `mechanism.TABLES`, in their order."""
-    sizes = {n_p: [row for row in rows if row["n_p"] == n_p] for n_p in _sizes(rows)}
-    means = {name: _means(sizes, name) for name in NAMES}
-    variation = {n_p: found[0]["stress_variation"] for n_p, found in sizes.items()}
-    error = {n_p: abs(means["overshooting"][n_p] / means["simulation"][n_p] - 1.0) for n_p in sizes}
-    most_uneven, lowest = max(variation, key=variation.__getitem__), _lowest(means["simulation"])
-    small = max(n_p for n_p in sizes if all(error[m] < 0.01 for m in sizes if m <= n_p))
-    friction = list(means["simulation"].values())
-    return _PAGE.format(
-        lowest=lowest,
-        small=small,
-        small_error=max(error[n_p] for n_p in sizes if n_p <= small),
-        worst_error=max(error.values()),
-        most_uneven=most_uneven,
-        largest_variation=variation[most_uneven],
-        seeds=min(map(len, sizes.values())),
-        blocks=min(row["n_blocks"] for row in rows),
-        table=_table(sizes, variation),
-        steps=_steps(sizes),
-        correlation=np.corrcoef(list(variation.values()), friction)[0, 1],
-        variants=variants_section(variants),
-        peaks=peaks_section(peaks, budget),
-        minima=", ".join(f"n_p = {_lowest(means[name])} ({NAMES[name]})" for name in NAMES),
+    """Write the page from the tables of `surfaces.TABLES`, in their order."""
+    text = Path(__file__).with_name("page.md").read_text(encoding="utf-8")
+    return text.format(
+        **_of_friction(friction),
+        **_of_variants(variants),
+        **_of_budget(budget),
+        **_of_pawls(),
+        **_of_peaks(peaks),
     )
 
 
-def _sizes(rows: Sequence[Row]) -> list[int]:
-    return sorted({row["n_p"] for row in rows})
+def written(values: ArrayLike, digits: int) -> str:
+    """Return the mean of values with its 95 % interval, as pages have it."""
+    mean, low, high = (f"{value:.{digits}f}" for value in mean_interval(values))
+    return f"{mean} [{low}, {high}]"
 
 
-def _means(sizes: Mapping[int, Sequence[Row]], name: str) -> dict[int, float]:
-    return {n_p: float(np.mean([row[name] for row in rows])) for n_p, rows in sizes.items()}
+def _of_friction(table: pd.DataFrame) -> Fields:
+    """Return what the page says of static friction by size."""
+    sizes = table.groupby("n_p")
+    means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
+    error = (means["overshooting"] / means["simulation"] - 1.0).abs()
+    small = error.index[(error < 0.01).cummin()].max()
+    minima, lines, steps = means.idxmin(), [], []
+    for n_p, part in sizes:
+        values = [written(part[name], 4) for name in NAMES]
+        lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *values])
+        percent = 100.0 / part["simulation"].mean()
+        changes = [written(percent * (part[to] - part[of]), 1) for of, to in _STEPS]
+        steps.append([f"{n_p}", *changes])
+    header = [f"{NAMES[of]} → {NAMES[to]}" for of, to in _STEPS]
+    return {
+        "lowest": minima["simulation"],
+        "small": small,
+        "small_error": error.loc[:small].max(),
+        "worst_error": error.max(),
+        "most_uneven": variation.idxmax(),
+        "largest_variation": variation.max(),
+        "seeds": table["seed"].nunique(),
+        "blocks": table["n_blocks"].min(),
+        "friction": markdown_table(["n_p", "SD/mean of stress", *NAMES.values()], lines),
+        "steps": markdown_table(["n_p", *header], steps),
+        "correlation": np.corrcoef(variation, means["simulation"])[0, 1],
+        "minima": ", ".join(f"n_p = {minima[name]} ({NAMES[name]})" for name in NAMES),
+    }
 
 
-def _lowest(friction: Mapping[int, float]) -> int:
-    return min(friction, key=friction.__getitem__)
+def _of_variants(table: pd.DataFrame) -> Fields:
+    """Return what it says of flat surfaces, other gaps, layers and scatter."""
+    flat = table[table["n_p"] == 0]
+    pillars = table.drop(flat.index)
+    cases = dict(iter(pillars.groupby(pillars.apply(_case, axis=1), sort=False)))
+    lines, sentences = [], []
+    for name, rows in cases.items():
+        uneven, found = rows.groupby("n_p")["stress_variation"].first(), _minima(rows)
+        most = f"{uneven.idxmax()} ({uneven.max():.2f})"
+        lines.append([name, ", ".join(map(str, uneven.index)), most, *map(str, found.values())])
+        sentences.append(_sentence(name, rows, found))
+    thin, thick = cases["l_z = 5 µm"], cases["l_z = 40 µm"]
+    minima = _minima(thin)
+    near = minima["simulation"].alike
+    excess = 100.0 * (1.0 - thick["simulation"] / thick["overshooting"])
+    header = ["case", "sizes n_p", "most uneven (SD/mean)", *NAMES.values()]
+    return {
+        "variants_seeds": table["seed"].nunique(),
+        "variants": markdown_table(header, lines),
+        "sentences": "\n".join(sentences),
+        "flat": [written(flat[name], 3) for name in NAMES],
+        "uneven": thin["stress_variation"].max(),
+        "thin": {name: found.place for name, found in minima.items()},
+        "near": (min(near), max(near)),
+        "excess": written(excess.groupby(thick["seed"]).mean(), 1),
+    }
 
 
-def _table(sizes: Mapping[int, Sequence[Row]], variation: Mapping[int, float]) -> str:
+def _case(row: pd.Series) -> str:
+    constant = row["varied"].partition("=")[0]
+    if constant == "thickness":
+        return f"l_z = {1e6 * row['thickness']:g} µm"
+    if constant == "mu_static_std":
+        return f"scatter {row['mu_static_std']:g}"
+    return f"n_s = {row['n_s'] / row['n_p']:g} n_p"
+
+
+def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
+    """Return where friction is lowest by model, n_p."""
+    sizes = rows.groupby("n_p")
+    return {name: lowest({n_p: part.to_numpy() for n_p, part in sizes[name]}) for name in NAMES}
+
+
+def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str:
+    """Say where the full model is lowest, and from which model on all agree with that.
+
+    A model agrees where its friction at this size cannot be told from its lowest, but that at
+    another size can.
+    """
+    full, sizes = found["simulation"].place, rows["n_p"].unique()
+    *simpler, _ = found.values()
+    agree = [full in each.alike and len(each.alike) < len(sizes) for each in simpler]
+    words = (
+        "the models agree from uneven stress on",
+        "the models agree from load transfer on",
+        "the models agree from overshoot on",
+        "none of the simpler models agrees",
+    )
+    first = next(i for i in range(len(words)) if all(agree[i:]))
+    bound = ", the largest computed" if full == max(sizes) else ""
+    here = rows[rows["n_p"] == full]
+    changes = [written(100.0 * (here[to] / here[of] - 1.0), 1) for of, to in _STEPS]
+    return fill(
+        f"- **{name}**: friction is lowest at n_p = {full}{bound}; {words[first]}. At this "
+        f"size load transfer changes friction by {changes[0]} %, overshoot by {changes[1]} %, and "
+        f"the step from there to the full model by {changes[2]} %.",
+        width=100,
+        subsequent_indent="  ",
+    )
+
+
+def _of_budget(table: pd.DataFrame) -> Fields:
+    """Return what it says of the forces on edges and core."""
     lines = []
-    for n_p, rows in sizes.items():
-        found = [mean_interval([row[name] for row in rows]) for name in NAMES]
-        lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *(written(each, 4) for each in found)])
-    return markdown_table(["n_p", "SD/mean of stress", *NAMES.values()], lines)
+    for direction, model in product(_ALONG, ("simulation", "overshooting")):
+        rows = table[(table["direction"] == direction) & (table["model"] == model)]
+        runs = np.array([_milestones(run) for _, run in rows.groupby("seed")])
+        cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
+        lines.append([_ALONG[direction], NAMES[model], *cells])
+    header = ["grooves", "model", "edges, at most", "at (µs)", "edges later", "core, at most"]
+    return {
+        "budget_seeds": table["seed"].nunique(),
+        "edge_share": table["edge_share"].iloc[0],
+        "budget": markdown_table([*header, "at (µs)", "load falls by (%)"], lines),
+    }
 
 
-def _steps(sizes: Mapping[int, Sequence[Row]]) -> str:
-    names, lines = list(NAMES), []
-    for n_p, rows in sizes.items():
-        whole = np.mean([row["simulation"] for row in rows])
-        changes = [
-            mean_interval([100.0 * (row[later] - row[former]) / whole for row in rows])
-            for former, later in pairwise(names)
-        ]
-        lines.append([f"{n_p}", *(written(each, 1) for each in changes)])
-    header = [f"{NAMES[former]} → {NAMES[later]}" for former, later in pairwise(names)]
-    return markdown_table(["n_p", *header], lines)
+def _milestones(run: pd.DataFrame) -> Array:
+    """Return the largest force on edges and its time, their force and that on the core when the
+    latter is largest, the time of that, and the prominence of the lesser load peak, (6,).
+
+    Per block over F_n, in µs, and in percent.
+    """
+    edges = (run["edge"] / run["edge_share"]).to_numpy()
+    core = (run["core"] / (1.0 - run["edge_share"])).to_numpy()
+    time, first, last = 1e6 * run["time"].to_numpy(), np.nanargmax(edges), np.nanargmax(core)
+    load = (run["edge"] + run["core"] + run["free"]).dropna().to_numpy()
+    fall = 100.0 * prominence(load)
+    return np.array([edges[first], time[first], edges[last], core[last], time[last], fall])
+
+
+def _of_pawls() -> Fields:
+    """Return what it says of the elasticity of the paper's pawls and grooves."""
+    paper = Material()
+    along, across = (pawl(8, 2, is_across, paper) for is_across in (False, True))
+    # stress on the rows next to edges that have overshot, over F_n
+    swept = [
+        along.next_to * paper.mu_static + 2.0 * along.handed_on * (paper.mu_static - mu_d)
+        for mu_d in (0.5, 0.6, 0.7)
+    ]
+    return {"along": along, "across": across, "swept": swept}
+
+
+def _of_peaks(table: pd.DataFrame) -> Fields:
+    """Return what it says of predicted and measured load peaks."""
+    tested = _surfaces(table[~table["trained"]])
+    has_two, is_papers = tested["has_two"], tested["varied"] == ""
+    papers, is_wide = tested[is_papers], tested["n_p2"].between(*_WIDE)
+    missed = papers[papers["should_have_two"] != papers["has_two"]]
+    along = papers[(papers["direction"] == "x") & (papers["n_p"] == 0)]
+    two, one = (along.loc[along["has_two"] == it, "n_p2"] for it in (True, False))
+    return {
+        "threshold": TWO_PEAKS,
+        "surfaces": len(tested) // 2,
+        "peaks_seeds": table["seed"].nunique(),
+        "confusion": _confusion(tested),
+        "score": _score(tested),
+        "wide": _WIDE,
+        "by_width": (((tested["direction"] == "x") & is_wide) == has_two).sum(),
+        "papers_score": _score(papers),
+        "close": ((missed["low"] <= _MEASURED_TWO) & (missed["high"] >= _MEASURED_TWO)).sum(),
+        "misses": len(missed),
+        "others_score": _score(tested[~is_papers]),
+        "two": ", ".join(map(str, sorted(set(two)))),
+        "one": ", ".join(map(str, sorted(set(one)))),
+        "peaks": _prominences(tested),
+    }
+
+
+def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a row per surface and direction: its prediction and what is measured, over seeds."""
+    by_surface = table.groupby(_SURFACE, sort=False)
+    found = by_surface["predicted"].first().reset_index()
+    samples = [values for _, values in by_surface["measured"]]
+    found[["mean", "low", "high"]] = np.array([mean_interval(values) for values in samples])
+    found["measured"] = [written(values, 2) for values in samples]
+    found["should_have_two"] = found["predicted"] > TWO_PEAKS
+    found["has_two"] = found["mean"] >= _MEASURED_TWO
+    return found
+
+
+def _score(surfaces: pd.DataFrame) -> str:
+    hits = (surfaces["should_have_two"] == surfaces["has_two"]).sum()
+    return f"{hits} [{(~surfaces['has_two']).sum()}] of {len(surfaces)} cases"
+
+
+def _confusion(tested: pd.DataFrame) -> str:
+    """Count what is predicted and measured, by constants and direction."""
+    words = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
+    constant = tested["varied"].str.partition("=")[0]
+    kinds = {
+        f"{words[own]}, {way}": tested[(constant == own) & (tested["direction"] == direction)]
+        for own, (direction, way) in product(words, _ALONG.items())
+    }
+    ways, lines = ((True, True), (True, False), (False, True), (False, False)), []
+    for name, part in {**kinds, "all": tested}.items():
+        both = list(zip(part["should_have_two"], part["has_two"], strict=True))
+        lines.append([name, *(str(both.count(it)) for it in ways)])
+    header = ["constants, direction", "two: predicted and measured", "predicted alone"]
+    return markdown_table([*header, "measured alone", "one: predicted and measured"], lines)
+
+
+def _prominences(tested: pd.DataFrame) -> str:
+    names, lines = ["n_p", "n_s2", "n_p2", "varied"], []
+    for _, part in tested.groupby(["varied", *names[:3]]):
+        cells = [str(part[name].iloc[0]) for name in names]
+        for _, each in part.iterrows():
+            missed = "" if each["should_have_two"] == each["has_two"] else " (miss)"
+            cells += [f"{each['predicted']:.2f}", f"{each['measured']}{missed}"]
+        lines.append(cells)
+    header = [f"{what} {way}" for way in _ALONG.values() for what in ("predicted", "measured")]
+    return markdown_table([*names[:3], "constants", *header], lines)

@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from springblock.analysis.correlation import Correlation, side_times
+from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, cluster_sizes
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
 from springblock.beyond.question import Ensembles, by_scene
-from springblock.beyond.resampling import FEWEST, lowest
+from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
 from springblock.plotting import style
 from springblock.plotting.curves import draw_band
@@ -42,7 +43,7 @@ def _by_scene(ensembles: Folders) -> Ensembles:
 
 def beyond_lattice(ensembles: Folders) -> Figure:
     """Draw c(r), decay lengths and static friction over spacing and thickness."""
-    surfaces = lattice.layers(_by_scene(ensembles))
+    surfaces = lattice.by_lattice(_by_scene(ensembles))
     compared = lattice.comparisons(surfaces)
     lattices, even, thick = (
         dict(sorted(compared[name].surfaces.items())) if name in compared else {}
@@ -82,12 +83,11 @@ def _draw_lengths(
         (even, "spacing", VERMILION, "s", "over $l$, same disorder per area"),
         (thick, "thickness", BLACK, "^", "over $l_z$"),
     ):
-        found = {at: lattice.decay(sizes, max(sizes)) for at, sizes in part.items()}
-        lengths = {at: fit.interval for at, fit in found.items() if fit}
+        found = {at: side_length(sizes[max(sizes)]) for at, sizes in part.items()}
+        lengths = {at: at.spacing * np.array(blocks) for at, blocks in found.items() if blocks}
         if lengths:
             places = [getattr(at, varied) for at in lengths]
-            intervals = [at.spacing * np.array(blocks) for at, blocks in lengths.items()]  # µm
-            draw_points(ax, places, intervals, color, marker=marker, label=label)
+            draw_points(ax, places, list(lengths.values()), color, marker=marker, label=label)
             spots += places
     ax.set_yscale("log")
     ends = np.array([min(spots), max(spots)])
@@ -106,13 +106,12 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     lines = {getattr(at, varied): sizes for at, sizes in part.items()}
     colors = shades(lines)
     for value, sizes in lines.items():
-        samples = {size: friction.static_friction(runs) for size, runs in sizes.items()}
         label = _LABELS[varied].format(value)
-        draw_means(ax, samples, colors[value], marker="o", label=label)
+        draw_means(ax, friction.samples(sizes), colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
     for i, (value, sizes) in enumerate(lines.items(), 1):
-        found = lowest(lattice.samples(sizes))
+        found = lowest(friction.samples(sizes))
         bars = [[found.place - min(found.alike)], [max(found.alike) - found.place]]
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
         ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
@@ -125,11 +124,11 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
 def beyond_disorder(ensembles: Folders) -> Figure:
     """Draw a) decay lengths, b) static friction over scatter, and c) its variance over N²."""
     found = _by_scene(ensembles)
-    scatters = scatter.shared(scatter.by_scatter(found))
+    scatters = scatter.by_scatter(found)
     picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
     _draw_lengths_of_scatters(panels[0], scatters)
     for std, color in shades(scatters).items():
-        samples = {n_p: friction.static_friction(runs) for n_p, runs in scatters[std].items()}
+        samples = friction.samples(scatters[std])
         draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
     name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
     panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
@@ -139,12 +138,12 @@ def beyond_disorder(ensembles: Folders) -> Figure:
 
 
 def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes]) -> None:
-    sizes = scatter.long_enough(scatters)
-    for n_p, color in shades(sizes).items():
-        fitted = scatter.fits(scatters, int(n_p))
-        lengths = [fit.interval for fit in fitted.values()]
-        places = [std * (1.0 + 0.03 * (sizes.index(int(n_p)) - 1)) for std in fitted]
-        draw_points(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
+    lengths = scatter.decay_lengths(scatters)
+    colors = shades(lengths)
+    for i, (n_p, fitted) in enumerate(lengths.items(), -1):
+        places = [std * (1.0 + 0.03 * i) for std in fitted]
+        look: Look = {"marker": "o", "label": f"$n_p$ = {n_p}"}
+        draw_points(ax, places, list(fitted.values()), colors[n_p], **look)
     name_places(ax, list(scatters))
     ax.set(xlabel="scatter of static coefficients", ylabel="decay length (blocks)")
     ax.set_yscale("log")

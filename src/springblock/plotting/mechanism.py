@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from springblock.analysis.statistics import mean_interval
-from springblock.mechanism.elasticity import pull
+from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.page import NAMES
-from springblock.mechanism.table import scene
+from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
 from springblock.plotting import style
 from springblock.plotting.curves import draw_band
@@ -85,8 +85,8 @@ def _draw_stress(panels: Sequence[Axes]) -> None:
 
 def _pillar_stress(n_p: int) -> Array:
     """Return |F_mot| on the blocks of the first pillar before any slip, over the mean of all."""
-    pattern = scene(n_p).pattern
-    pulled = np.hypot(*pull(pattern.contact, Material()).reshape(2, -1))
+    pattern = TABLES["mechanism"][str(n_p)][0].pattern
+    pulled = Layer(pattern.contact, Material()).stress
     stress = np.zeros(pattern.shape)
     stress[pattern.contact] = pulled / pulled.mean()
     y, x = pattern.origins[0]

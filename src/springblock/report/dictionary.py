@@ -38,8 +38,7 @@ def tables() -> list[Described]:
     """Every kind of table that a study writes."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
-    from springblock.mechanism import budget, peaks
-    from springblock.mechanism import table as mechanism
+    from springblock.mechanism import tables as mechanism
 
     kinds = [
         ("realisations", "a realisation", SUMMARY),
@@ -48,10 +47,10 @@ def tables() -> list[Described]:
         ("claims", "a finding on a statement of the paper", claims.SCHEMA),
         ("work_precision", "an error at one step", work_precision.SCHEMA),
         ("production", "an error at full size at one step", production.SCHEMA),
-        ("mechanism", "a seed on pillars of one size", mechanism.SCHEMA),
-        ("mechanism_variants", "the same with other gaps and constants", mechanism.SCHEMA),
-        ("mechanism_peaks", "a seed on one surface with grooves", peaks.SCHEMA),
-        ("mechanism_budget", "a moment of one seed of one model", budget.SCHEMA),
+        ("mechanism", "a seed on pillars of one size", mechanism.FRICTION),
+        ("mechanism_variants", "the same with other gaps and constants", mechanism.FRICTION),
+        ("mechanism_peaks", "a seed on one surface with grooves", mechanism.PEAKS),
+        ("mechanism_budget", "a moment of one seed of one model", mechanism.BUDGET),
         ("stability", "a stiff or extreme case", stability.SCHEMA),
     ]
     batches = "realisations/SCENE/batch-NUMBER.parquet"

@@ -1,0 +1,187 @@
+"""Tables of the chapter: their columns, and the rows on each surface.
+
+A block without contact bears its inertia alone, as one that slides does beside its friction: the
+elastic force on it. The springs between blocks add up to nothing, so that the forces on edges, on
+the core and on blocks without contact add up to the friction force.
+"""
+
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+from scipy.ndimage import binary_erosion
+from scipy.sparse import csc_array
+from tqdm import tqdm
+
+from springblock.analysis.statistics import prominence
+from springblock.io.rows import Row
+from springblock.io.schemas import SCENE, SETUP, column, numbers, texts
+from springblock.mechanism import models, pawls
+from springblock.mechanism.elasticity import Array, Layer, lattice_stiffness
+from springblock.mechanism.surfaces import TABLES, TRAINING
+from springblock.model.asperities import draw_friction
+from springblock.model.material import Material
+from springblock.model.scene import Scene
+from springblock.simulation.prelude import compute_prelude
+from springblock.simulation.run import Run, friction
+from springblock.simulation.setup import Setup
+from springblock.simulation.simulate import simulate
+
+SEEDS = 10  #: of pillars and flat surfaces
+SEEDS_OF_GROOVES = 5
+_TIMES = 1e-6 * np.arange(240.0, 541.0, 6.0)  #: s, of the forces on edges and core
+
+_SAME = [*SCENE, *SETUP, column("seed", pa.int64(), "1", "seed of the friction coefficients")]
+FRICTION = pa.schema(
+    [
+        *_SAME,
+        *numbers(
+            "1",
+            stress_variation="standard deviation over mean of the stress on blocks in contact, "
+            "before any slip",
+            independent="static friction without load transfer",
+            quasi_static="static friction with it, without inertia",
+            overshooting="static friction with overshoot and sticking",
+            simulation="static friction of the full model",
+        ),
+    ]
+)
+PEAKS = pa.schema(
+    [
+        *_SAME,
+        column("trained", pa.bool_(), "1", "whether the prediction was chosen on this surface"),
+        *numbers(
+            "%",
+            predicted="prominence of the lesser load peak, predicted",
+            measured="the same in the full model",
+        ),
+    ]
+)
+BUDGET = pa.schema(
+    [
+        *SCENE,
+        *SETUP,
+        *texts(model="simulation, the full model, or overshooting"),
+        *_SAME[-1:],
+        *numbers("1", edge_share="share of edge blocks in those in contact"),
+        *numbers("s", time="time; in the model without time the slider's way over its velocity"),
+        *numbers(
+            "1",
+            edge="force on blocks in contact beside one without, over the normal force; NaN "
+            "once the model has come to its end",
+            core="the same of other blocks in contact",
+            free="the same of blocks without contact; 0 in the model without inertia",
+        ),
+    ]
+)
+
+
+def measure(part: str) -> tuple[pa.Schema, Iterator[Row]]:
+    """Return the columns of a part of `surfaces.TABLES`, and its rows as they are computed."""
+    kinds = {
+        "mechanism": (FRICTION, friction_rows),
+        "mechanism_variants": (FRICTION, friction_rows),
+        "mechanism_peaks": (PEAKS, peaks_rows),
+        "mechanism_budget": (BUDGET, budget_rows),
+    }
+    table = next(name for name, parts in TABLES.items() if part in parts)
+    schema, rows_on = kinds[table]
+    return schema, chain.from_iterable(map(rows_on, TABLES[table][part]))
+
+
+def friction_rows(surface: Scene) -> Iterator[Row]:
+    """Yield one row per seed: all models on the same coefficients."""
+    contact, material = surface.contact, _material(surface)
+    layer, normal_force = Layer(contact, material), material.block_load * contact.size
+    load = normal_force / np.count_nonzero(contact)
+    stress_variation = models.stress_variation(layer)
+    for same, drawn, run in _runs(surface, SEEDS):
+        forces = [load * mu[contact] for mu in drawn]
+        yield same | {
+            "stress_variation": stress_variation,
+            "simulation": run.static_friction,
+            **{
+                model.__name__: model(layer, *forces).force.max() / normal_force
+                for model in (models.independent, models.quasi_static, models.overshooting)
+            },
+        }
+
+
+def peaks_rows(surface: Scene) -> Iterator[Row]:
+    """Yield one row per seed: load peaks as predicted by `pawls` and as simulated."""
+    own = {"trained": surface in TRAINING, "predicted": predicted(surface)}
+    for same, _, run in _runs(surface, SEEDS_OF_GROOVES):
+        yield same | own | {"measured": 100.0 * prominence(friction(run))}
+
+
+def predicted(surface: Scene) -> float:
+    """Return the prominence of the lesser load peak that elasticity predicts, %."""
+    across = surface.direction == "y"
+    return pawls.prominence(surface.n_p2, surface.n_s2, across, _material(surface))
+
+
+def budget_rows(surface: Scene) -> Iterator[Row]:
+    """Yield one row per seed, model and time: forces on edges, core and blocks without contact."""
+    contact, material = surface.contact, _material(surface)
+    axis, way = "xy".index(surface.direction), _TIMES * material.slider_velocity
+    edges, normal_force = edge_blocks(contact), material.block_load * contact.size
+    groups = {"edge": edges, "core": contact & ~edges, "free": ~contact}
+    stiffness = lattice_stiffness(surface.shape, material)
+    turn = np.transpose if axis else np.asarray  # the models slide along x
+    held = turn(contact)
+    layer, load = Layer(held, material), normal_force / np.count_nonzero(contact)
+    edge_share = np.count_nonzero(edges) / np.count_nonzero(contact)
+    for same, drawn, run in _runs(surface, SEEDS_OF_GROOVES, snapshot_times=list(_TIMES)):
+        forces = [
+            elastic_force(stiffness, each, material.k_s * slider, axis)
+            for each, slider in zip(run.snapshots, way, strict=True)
+        ]
+        simulated = {
+            name: [force[of].sum() / normal_force for force in forces]
+            for name, of in groups.items()
+        }
+        static, dynamic = (load * turn(mu)[held] for mu in drawn)
+        modelled = {"free": np.zeros(_TIMES.size)}
+        for name in ("edge", "core"):
+            curve = models.overshooting(layer, static, dynamic, turn(groups[name])[held])
+            slider, force = np.pad(curve, ((0, 0), (1, 0)))  # from rest on
+            modelled[name] = np.interp(way, slider, force, right=np.nan) / normal_force
+        for model, parts in (("simulation", simulated), ("overshooting", modelled)):
+            for i, time in enumerate(_TIMES):
+                at_time = {name: values[i] for name, values in parts.items()}
+                yield same | {"model": model, "edge_share": edge_share, "time": time, **at_time}
+
+
+def edge_blocks(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the blocks in contact with a neighbour along x or y that is not, (N_y, N_x)."""
+    return contact & ~binary_erosion(contact, border_value=1)
+
+
+def elastic_force(stiffness: csc_array, displacement: Array, pull: float, axis: int) -> Array:
+    """Return the force of all springs along `axis`, 0 for x, on each block, (N_y, N_x) N.
+
+    Displacements are (2, N_y, N_x) m; the slider has moved along the axis and pulls with `pull`,
+    N, on a block that has not.
+    """
+    force = -stiffness @ displacement.ravel()
+    return np.asarray(force.reshape(displacement.shape)[axis] + pull)
+
+
+def _runs(
+    surface: Scene, seeds: int, **options: Any
+) -> Iterator[tuple[Row, tuple[Array, Array], Run]]:
+    """Yield the first columns of a row, the coefficients of friction and the run of each seed."""
+    material, contact = _material(surface), surface.contact
+    prelude = compute_prelude(contact, material, surface.direction)
+    constants = surface.row | Setup().vary(dict(surface.varied)).constants
+    for seed in tqdm(range(seeds), desc=str(surface), unit="seed"):
+        drawn = draw_friction(surface.shape, seed, material)
+        run = simulate(contact, *drawn, material, surface.direction, prelude=prelude, **options)
+        yield constants | {"seed": seed}, drawn, run
+
+
+def _material(surface: Scene) -> Material:
+    return Setup().vary(dict(surface.varied)).material

@@ -1,0 +1,17 @@
+"""The lowest of several means, and those that cannot be told from it."""
+
+import numpy as np
+
+from springblock.analysis.lowest import lowest
+
+
+def test_the_lowest_mean_has_those_beside_it_that_cannot_be_told_from_it():
+    """Two of 20 runs differ by less than they scatter, the third by far more."""
+    noise = np.random.default_rng(0).standard_normal((3, 20))
+    noise -= noise.mean(axis=1, keepdims=True)
+    samples = {2: 1.0 + noise[0], 6: 0.9 + noise[1], 20: 4.0 + noise[2]}
+    found = lowest(samples)
+    assert (found.place, found.alike) == (6, [2, 6])
+    assert str(found) == "6 (or 2)"
+    exact = {2: np.full(2, 1.0), 6: np.full(2, 0.9), 20: np.full(2, 4.0)}
+    assert str(lowest(exact)) == "6"
