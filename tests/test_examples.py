@@ -59,6 +59,8 @@ def follow(page, study):
         if language == "sh":
             for line in box.replace("\\\n", " ").splitlines():
                 run_line(line, study)
+        elif file := re.match(r"# (config/examples/\w+\.py)\n", box):
+            assert box == f"# {file[1]}\n" + (study / file[1]).read_text(encoding="utf-8")
         elif language == "yaml":
             (study / re.match(r"# (\w+\.yaml)\n", box)[1]).write_text(box, encoding="utf-8")
         else:
