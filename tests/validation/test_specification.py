@@ -12,7 +12,8 @@ from springblock.model.direction import heading
 from springblock.model.law import LawFile
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import HEAT, SQUARES, WORK, Samples, prepare, unpadded
-from springblock.solver.laws import FromFile, state_of
+from springblock.solver.law_file import FromFile
+from springblock.solver.laws import state_of
 
 STEP, ANGLE = 2e-8, 30.0
 #: Loads a hundred times faster than the paper's: blocks let go, stop and let go again soon.

@@ -29,7 +29,7 @@ from springblock.solver.lattice import (
     prepare,
     unpadded,
 )
-from springblock.solver.laws import FromFile
+from springblock.solver.law_file import FromFile
 
 Array = NDArray[np.float64]
 

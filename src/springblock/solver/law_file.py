@@ -1,0 +1,211 @@
+"""Laws of friction from files (`springblock.model.law`), as the kernels call them.
+
+All of them are one type, whose functions are called through pointers: for a new law only these are
+compiled, in a second or two. The state of a block is a row of numbers, and functions are given the
+row. T and V are as in `laws`.
+"""
+
+import math
+from functools import cache
+from inspect import isfunction
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import NumbaError, cfunc, float64, int64, njit, void
+from numpy.typing import NDArray
+
+from springblock.model.law import LawFile
+from springblock.solver.compilation import kernel
+
+Array = NDArray[np.float64]
+
+#: Iterations that find V, if it is to be found, and the share of `speed` by which V may be off.
+_ITERATIONS, _SAME = 100, 1e-15
+#: Speed, in l per step, that is no different from zero.
+_LEAST = 1e-100
+
+
+class FromFile(NamedTuple):
+    """Friction by a law from a file."""
+
+    state: Array  #: (2 blocks + 1, variables): now, one step before, and of a block that lets go
+    contact: NDArray[np.bool_]  #: (2 blocks + 1,), by the same rows; others feel no friction
+    constants: Array  #: in the order of the file
+    load: float  #: F_n, as the velocity that it adds in one step
+    speed: float  #: l/h, m/s
+    step: float  #: h, s
+    failed: NDArray[np.int64]  #: (1,) block whose mu was no friction coefficient, or -1
+    friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu
+    update: Any  #: (constants, state, row, speed, step): the state in a row, after a step
+
+
+def from_file(
+    law: LawFile, contact: NDArray[np.bool_], load: float, speed: float, step: float
+) -> FromFile:
+    """Return a law for blocks at rest; the other arguments are fields of `FromFile`.
+
+    Raises
+    ------
+    ValueError
+        Where numba does not compile its functions, with the reason.
+    """
+    initial = np.array(list(law.initial.values()))
+    return FromFile(
+        state=np.tile(initial, (2 * len(contact) + 1, 1)),
+        contact=np.concatenate([contact, contact, [True]]),
+        constants=np.array(list(law.constants.values())),
+        load=load,
+        speed=speed,
+        step=step,
+        failed=np.full(1, -1),
+        **_compiled(law),
+    )
+
+
+_ARRAYS = float64[::1], float64[:, ::1], int64
+
+
+@cache
+def _compiled(law: LawFile) -> dict[str, Any]:
+    """Functions of a law as C functions, which find their arguments by name."""
+    state = list(law.initial)
+    place = {name: f"constants[{i}]" for i, name in enumerate(law.constants)}
+    place |= {name: f"state[row, {i}]" for i, name in enumerate(state)}
+
+    def call(name: str) -> str:
+        given = ", ".join(place.get(each, each) for each in law.arguments(name))
+        return f"{name}({given})"
+
+    after = ", ".join(f"state[row, {i}]" for i in range(len(state)))
+    lines = [
+        "def friction_at(constants, state, row, mu_static, mu_dynamic, speed):",
+        f"    return {call('friction')}",
+        "def update_at(constants, state, row, speed, step):",
+        f"    {after} = {call('update')}" if state else "    pass",
+    ]
+    module = law.run()
+    for name, part in module.items():
+        if isfunction(part) and part.__globals__ is module:  # and not imported
+            module[name] = njit(part, error_model="numpy")
+    exec("\n".join(lines), module)
+    friction = float64(*_ARRAYS, float64, float64, float64)
+    update = void(*_ARRAYS, float64, float64)
+    try:
+        return {
+            "friction": cfunc(friction, error_model="numpy")(module["friction_at"]),
+            "update": cfunc(update, error_model="numpy")(module["update_at"]),
+        }
+    except NumbaError as error:
+        reason = " ".join(str(error).split())
+        raise ValueError(f"{law.file} cannot be compiled by numba: {reason[:200]}") from None
+
+
+@kernel
+def _friction(law, row, speed, static, dynamic):
+    """T of a block with the state of a row, at a speed in l per step."""
+    mu_static, mu_dynamic = static / law.load, dynamic / law.load
+    at = np.int64(row)
+    mu = law.friction(law.constants, law.state, at, mu_static, mu_dynamic, speed * law.speed)
+    if not 0.0 <= mu < np.inf:
+        law.failed[0] = row
+    return law.load * mu
+
+
+def _resistance(law, row, speed, share, static, dynamic):
+    """Of several V the largest, which a block comes from as it slows down.
+
+    Where friction falls with V, a fixed-point iteration from above finds it; where it rises, that
+    oversteps V, which then lies between the last two.
+    """
+    if not law.contact[row]:
+        return dynamic
+    mean, friction = speed, _friction(law, row, max(speed, 0.0), static, dynamic)
+    for _ in range(_ITERATIONS if share != 0.0 else 0):
+        before, mean = mean, speed + share * friction
+        if abs(mean - before) <= _SAME * abs(speed):
+            break
+        if mean <= 0.0 and share < 0.0:
+            mean = 0.0
+        friction = _friction(law, row, max(mean, 0.0), static, dynamic)
+        if share < 0.0 and speed + share * friction >= mean:
+            return _between(law, row, speed, share, static, dynamic, mean, before)
+        if mean == 0.0:
+            return np.inf
+    return friction
+
+
+@kernel
+def _between(law, row, speed, share, static, dynamic, low, high):
+    """T where V = speed + share T lies between two speeds: false position (Illinois) in log V.
+
+    Friction that rises with speed usually does so with the logarithm of it.
+    """
+    left, right = math.log(max(low, _LEAST)), math.log(high)
+    friction = _friction(law, row, math.exp(left), static, dynamic)
+    below = math.exp(left) - speed - share * friction
+    friction = _friction(law, row, high, static, dynamic)
+    above, moved = high - speed - share * friction, 0.0
+    for _ in range(_ITERATIONS):
+        if above <= below:
+            break
+        middle = right - above * (right - left) / (above - below)
+        mean = math.exp(middle)
+        friction = _friction(law, row, mean, static, dynamic)
+        excess = mean - speed - share * friction
+        if abs(excess) <= _SAME * speed:
+            break
+        # The end that stays twice counts half.
+        if excess > 0.0:
+            right, above, below = middle, excess, 0.5 * below if moved > 0.0 else below
+        else:
+            left, below, above = middle, excess, 0.5 * above if moved < 0.0 else above
+        moved = excess
+    return friction
+
+
+def _share_of_end(law, row, speed, static, dynamic):
+    """Return the least share without ringing: a block creeps where friction rises steeply."""
+    if speed == 0.0 or not law.contact[row]:
+        return 0.5
+    slow = _friction(law, row, speed, static, dynamic)
+    fast = _friction(law, row, 2.0 * speed, static, dynamic)
+    return max(0.5, 1.0 - speed / max(fast - slow, speed))
+
+
+def _strength(law, static, dynamic):
+    return max(static, _friction(law, _fresh(law), 0.0, static, dynamic))
+
+
+@kernel
+def _fresh(law):
+    return len(law.state) - 1
+
+
+def _state_of(law, b):
+    return b
+
+
+def _state_before(law, row, moved):
+    return row + len(law.state) // 2
+
+
+def _keep(law, b, row, moved, slides):
+    if not law.contact[b]:
+        return
+    for i in range(law.state.shape[1]):
+        law.state[b + len(law.state) // 2, i] = law.state[b, i]
+        law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
+    if slides:
+        law.update(law.constants, law.state, np.int64(b), moved * law.speed, law.step)
+
+
+#: By the names under which `laws` calls them.
+FUNCTIONS = {
+    "resistance": _resistance,
+    "share_of_end": _share_of_end,
+    "strength": _strength,
+    "fresh": _fresh,
+    "state_of": _state_of,
+    "state_before": _state_before,
+    "keep": _keep,
+}
