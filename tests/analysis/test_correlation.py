@@ -19,8 +19,6 @@ from springblock.analysis.correlation import (
     side_times,
 )
 from springblock.analysis.statistics import bootstrap_weights
-from springblock.cli.correlation import _sides
-from springblock.model.scene import Scene
 
 MIDDLE = 4e-4  #: s, mean detachment time of the fields below
 SPREAD = 1e-6  #: s
@@ -202,19 +200,6 @@ def test_what_cannot_be_correlated_is_refused(decaying):
         Correlation(decaying[:2])
     with pytest.raises(ValueError, match="nothing can correlate"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
-
-
-def test_the_command_takes_one_scene_that_has_sides():
-    pillars, near, small = (
-        SimpleNamespace(scene=Scene(24, *lengths), t_det=np.ones((24, 24)), constants={})
-        for lengths in ((6, 6), (6, 2), (3, 3))
-    )
-    kinds = [columns["side"] for columns, _ in _sides([pillars, pillars])]
-    assert kinds == ["x", "y"]
-    with pytest.raises(ValueError, match=r"one scene is correlated, not .*n_s-6.* and .*n_s-2"):
-        next(_sides([pillars, near]))
-    with pytest.raises(ValueError, match=r"n_p-3.* has no whole sides"):
-        next(_sides([small]))
 
 
 def test_the_bias_of_the_length_is_no_noise_of_the_fit(rng):
