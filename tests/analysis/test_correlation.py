@@ -116,20 +116,6 @@ def test_the_jackknife_finds_the_bias_of_a_variance_exactly(rng):
     assert bias == pytest.approx(-values.var(ddof=1) / 8.0)
 
 
-def test_more_references_narrow_the_interval_and_keep_the_estimate(rng, monkeypatch):
-    # Fluctuations grow towards the ends of the side, as on pillars.
-    wide = 1.0 + np.abs(np.linspace(-1.0, 1.0, 60))
-    t = MIDDLE + wide * (times(rng, 240, 1, 60, 3.0) - MIDDLE)
-    fifth = Correlation(t).interval
-    monkeypatch.setattr(correlation, "references", lambda size: np.array([29, 30]))
-    two = Correlation(t).interval
-    r = slice(1, len(fifth.mean))
-    width = [np.mean((c.high - c.low)[r]) for c in (two, fifth)]
-    assert width[0] > 1.5 * width[1]
-    inside = (two.low[r] <= fifth.mean[r]) & (fifth.mean[r] <= two.high[r])
-    assert inside.mean() >= 0.9
-
-
 @pytest.mark.parametrize(
     ("size", "expected"),
     [(6, [2, 3]), (7, [3]), (10, [4, 5]), (20, range(8, 12)), (60, range(24, 36))],

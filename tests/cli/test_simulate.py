@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import Prelude, draw_friction, simulate
+from springblock import Prelude, draw_friction
 from springblock.simulation.prelude import HOLDING
 from springblock.solver.integrators import INTEGRATORS
 
@@ -114,22 +114,11 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_surface_of_ones_own_is_simulated_from_its_files(springblock, tmp_path, own):
-    springblock("simulate", *own, *ONE, "--output", tmp_path / "a")
-    (row,) = pq.read_table(tmp_path / "a").to_pylist()
-    assert (row["n_blocks"], row["n_rows"], row["level"]) == (6, 6, -1)
-    assert row["contact"] == np.eye(6, dtype=bool).ravel().tolist()
-    alone = simulate(np.eye(6) > 0.0, np.full((6, 6), 0.9), np.full((6, 6), 0.5))
-    assert row["static_friction"] == alone.static_friction
-
-
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["--mask", __file__], "'--mask': .* is neither an image nor an array of NumPy"),
         (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers that NumPy"),
         (["--n-blocks", 7], "n_blocks and n_rows are those of the mask, 6 and 6, not 7 and 7"),
-        (["--edges", "closed"], "'--edges': 'closed' is not one of 'free', 'periodic'"),
         (["--vary", "mu_static=2"], "mu_static cannot be varied where --mu-static-"),
     ],
 )
@@ -214,18 +203,12 @@ def test_finished_runs_are_not_computed_again(springblock, interrupted, tmp_path
     assert pq.read_table(tmp_path / "a")["seed"].to_pylist() == [0, 1, 2]
 
 
-@pytest.mark.parametrize(
-    ("change", "named"),
-    [
-        (("--direction", "y"), "direction"),
-        (("--step", 1e-8, "--material", "gamma=4e3"), "gamma, step"),
-        (("--snapshot", 1e-4), "snapshot_times"),
-    ],
-)
-def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted, change, named):
+def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted):
     words, folder = interrupted
+    other = ("--step", 1e-8, "--material", "gamma=4e3", "--snapshot", 1e-4)
+    named = "gamma, step, snapshot_times"
     sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run of other {named}; remove it"
-    assert springblock(*words, *change, refused=True).startswith(sentence)
+    assert springblock(*words, *other, refused=True).startswith(sentence)
     assert folder.exists()
 
 
