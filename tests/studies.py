@@ -5,7 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,8 @@ class Study:
     """A folder with the workflow and a configuration, `tiny.yaml`."""
 
     folder: Path
+    options: tuple[str, ...] = ()  #: of every start of Snakemake
+    targets: tuple[str, ...] = ()  #: what is made unless others are named
 
     @classmethod
     def begun(cls, folder: Path, **changes: Any) -> "Study":
@@ -56,6 +58,14 @@ class Study:
         study = cls(folder)
         study.configure(**changes)
         return study
+
+    def copied(self, folder: Path) -> "Study":
+        """Copy the study with its time stamps."""
+        return replace(self, folder=Path(shutil.copytree(self, folder)))
+
+    @property
+    def results(self) -> Path:
+        return self / "results"
 
     def __truediv__(self, path: str | Path) -> Path:
         return self.folder / path
@@ -99,12 +109,19 @@ class Study:
 
     def command(self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)) -> list[str]:
         """Return the words that run Snakemake."""
-        return [sys.executable, "-m", "snakemake", "--configfile", *configuration, *options]
+        snakemake = [sys.executable, "-m", "snakemake", "--configfile", *configuration]
+        return [*snakemake, *self.options, *options]
 
     def start(
-        self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",), **how: Any
+        self,
+        *options: str,
+        configuration: tuple[str, ...] = ("tiny.yaml",),
+        targets: tuple[str, ...] = (),
+        **how: Any,
     ) -> subprocess.Popen[str]:
         """Start Snakemake, in a process group of its own; `how` goes to Popen."""
+        if targets or self.targets:
+            options = (*options, "--", *(targets or self.targets))
         usual = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
         command = self.command(*options, configuration=configuration)
         return subprocess.Popen(

@@ -161,16 +161,3 @@ def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simu
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
-
-
-def test_a_changed_constant_runs_the_simulations_again(study):
-    material = dict(Material().items()) | {"gamma": 4e3}
-    damped = ("tiny.yaml", study.write("damped.yaml", {"material": material}))
-    assert study.planned(configuration=damped)["simulate_batch"] == 7
-
-
-def test_a_wrong_configuration_is_refused_in_one_sentence(study):
-    wrong = ("tiny.yaml", study.write("wrong.yaml", {"scenes": {"grooves": {"n_s2": [6]}}}))
-    said = study.run("--dry-run", refused=True, configuration=wrong)
-    assert re.search("scenes.grooves: a groove of 6 blocks.*pillar of 5", said), said
-    assert "Traceback" not in said
