@@ -1,5 +1,6 @@
 """springblock make."""
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -9,6 +10,7 @@ from precision import precision_rows, production_rows
 from springblock.accuracy import stability
 from springblock.accuracy.conventions import PAPER_STEP, PLAIN
 from springblock.accuracy.stability.cases import Case, Outcome
+from springblock.accuracy.work_precision import rows_of
 from springblock.io.parquet import write
 from springblock.io.rows import select
 from springblock.model.defaults import STEP
@@ -53,6 +55,12 @@ def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
         write(pa.Table.from_pylist(found), file, {})
     springblock("make", "mechanism", *files, "--output", tmp_path / "page")
     assert "lowest on pillars of 20 blocks" in (tmp_path / "page").read_text()
+
+
+def test_an_error_is_the_root_mean_square_over_realisations():
+    errors = {"t_max": np.array([3.0, 4.0])}
+    (row,) = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
+    assert row["error"] == pytest.approx(12.5**0.5)
 
 
 @pytest.fixture
