@@ -40,6 +40,18 @@ TINY = {
 }
 
 
+#: Of each kind of surface one scene, where the figures of the others do not matter.
+FEWER = {
+    "scenes": dict.fromkeys(PAPER["scenes"])
+    | {
+        "flat": {"seeds": 3, "duration": 2e-5},
+        "pillars": {"n_p": [6], "seeds": 3},
+        "grooves": GROOVES | {"direction": ["x"], "seeds": 1},
+    },
+    "figures": TINY["figures"] | {"figure_5": {"n_p": 6}},
+}
+
+
 @dataclass(frozen=True)
 class Study:
     """A folder with the workflow and a configuration, `tiny.yaml`."""
@@ -56,7 +68,7 @@ class Study:
             copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
             copy(ROOT / part, folder / part)
         study = cls(folder)
-        study.configure(**changes)
+        study.write("tiny.yaml", {**TINY, **changes})
         return study
 
     def copied(self, folder: Path) -> "Study":
@@ -74,8 +86,9 @@ class Study:
         return str(self.folder)
 
     def configure(self, **changes: Any) -> None:
-        """Write the tiny configuration, with other values of these keys."""
-        self.write("tiny.yaml", {**TINY, **changes})
+        """Give keys of the configuration other values."""
+        present = yaml.safe_load((self / "tiny.yaml").read_text())
+        self.write("tiny.yaml", {**present, **changes})
 
     def write(self, name: str, configuration: dict[str, Any]) -> str:
         """Write a configuration; returns its name."""

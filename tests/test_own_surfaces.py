@@ -5,14 +5,13 @@ import shlex
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 from PIL import Image
 
 from springblock import draw_friction, simulate
 from springblock.io.records import read_records
 from springblock.model.blockmap import BlockMap
-from studies import GROOVES, TINY, Study
+from studies import FEWER, Study
 
 EXAMPLE = "config/examples/islands.yaml"
 #: Names that a shell would take apart, and results that lie deeper.
@@ -27,14 +26,6 @@ GROUP = [
     {"n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2, "material": CORRELATED},
 ]
 
-#: Others must be there, too.
-FEWER = {
-    "flat": {"seeds": 1},
-    "pillars": {"n_p": [6], "seeds": 3},
-    "again": None,
-    "grooves": {**GROOVES, "direction": ["x"], "seeds": 1},
-}
-
 
 def files(study):
     """All that a study has beside Snakemake's own notes."""
@@ -47,8 +38,7 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> tuple[Study, set[Path], str
     """A tiny study with a group of one's own surfaces, which files running it made, and the log."""
     study = Study.begun(
         tmp_path_factory.mktemp("a study (1), ü"),
-        scenes={**TINY["scenes"], **FEWER, "surfaces": GROUP},
-        figures=TINY["figures"] | {"figure_5": {"n_p": 6}},
+        **FEWER | {"scenes": FEWER["scenes"] | {"surfaces": GROUP}},
         results=RESULTS,
     )
     (study / MASK).parent.mkdir()
@@ -56,7 +46,7 @@ def ran(tmp_path_factory: pytest.TempPathFactory) -> tuple[Study, set[Path], str
     np.save(study / "mu.npy", np.linspace(0.8, 1.2, 144).reshape(12, 12))
     np.save(study / WEAK, np.full((12, 12), 0.5))
     before = files(study)
-    said = study.run("--printshellcmds", "--quiet", "host", "--", "surfaces", "aggregate")
+    said = study.run("--printshellcmds", "--quiet", "host", "--", "surfaces")
     return study, files(study) - before, said
 
 
@@ -85,6 +75,7 @@ def test_a_study_writes_into_its_folder_alone(ran):
     """Its commands, as the shell splits them, have each path in one piece."""
     _, made, said = ran
     assert {path.parts[:2] for path in made} == {Path(RESULTS).parts}
+    assert Path(RESULTS, "figures/surfaces.png") in made
     commands = map(shlex.split, re.findall(r"^Shell command: (springblock .+)$", said, re.M))
     masked = [words for words in commands if "simulate" in words and "--mask" in words]
     assert {words[words.index("--mask") + 1] for words in masked} == {MASK}
@@ -116,14 +107,6 @@ def test_coefficients_from_files_are_not_drawn(study):
     parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
     (run,) = records(study, *parts)
     assert_same(run, ISLANDS, mu.values, weak.values, direction="y")
-
-
-def test_a_table_holds_them_beside_the_others(study):
-    rows = pq.read_table(study / RESULTS / "tables/realisations.parquet").to_pylist()
-    masks = [(row["level"], row["mask"]) for row in rows]
-    assert masks[:6] == [(-1, str(BlockMap.mask(study / MASK)))] * 6
-    assert masks[6:] == [(0, "")] * 3 + [(1, "")] * 3 + [(2, "")]
-    assert (study / RESULTS / "figures/surfaces.png").stat().st_size > 10_000
 
 
 def test_a_changed_image_is_another_surface(study, tmp_path):

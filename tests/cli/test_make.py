@@ -78,15 +78,6 @@ def page(springblock, batch, tmp_path):
     return written
 
 
-def test_the_page_says_what_the_tables_hold(page):
-    text = page()
-    assert "3 of 3 cases came out as expected, in these families: size." in text
-    assert "The largest energy residual of 1 realisations" in text
-    assert "| static friction | 1.0e-01 | 1.0e-01 | 1.0e-01 |" in text
-    assert "With `production: true` in its configuration a study measures errors" in text
-    assert "total error" not in text
-
-
 def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tmp_path):
     write(pa.Table.from_pylist(production_rows()), tmp_path / "production", {})
     text = page(tmp_path / "production")

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from studies import Study
+from studies import FEWER, Study
 
 
 @pytest.fixture(scope="session")
 def undisturbed(tmp_path_factory) -> Study:
     """A finished study on one core, which no test changes."""
-    begun = Study.begun(tmp_path_factory.mktemp("faults") / "study")
+    begun = Study.begun(tmp_path_factory.mktemp("faults") / "study", **FEWER)
     study = replace(begun, options=("--cores", "1"), targets=("aggregate", "correlations"))
     study.run()
     return study

@@ -16,7 +16,7 @@ import pytest
 
 from faults.damages import BATCH, FLAT, PRELUDE, TABLE, flipped
 from springblock.study.audit import faults
-from studies import ROOT, TINY
+from studies import FEWER, ROOT
 
 
 def begin(study, *options):
@@ -208,7 +208,8 @@ def test_batches_of_another_size_and_results_without_their_record_are_refused(st
 
 def test_a_growing_study_has_each_seed_once(study):
     for seeds in (4, 5):
-        study.configure(scenes=TINY["scenes"] | {"flat": {"seeds": seeds, "duration": 2e-5}})
+        flat = {"flat": {"seeds": seeds, "duration": 2e-5}}
+        study.configure(scenes=FEWER["scenes"] | flat)
         study.run()
     found = pq.read_table(study.results / f"realisations/{FLAT}")
     assert found["seed"].to_pylist() == [0, 1, 2, 3, 4]

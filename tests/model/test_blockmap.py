@@ -98,6 +98,16 @@ def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentenc
     assert "\n" not in str(refusal.value)
 
 
+@pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
+def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
+    """A pickle could run anything; this one would leave a file."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "trap.npy").write_bytes(b"cos\nsystem\n(S'touch trapped'\ntR.")
+    with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers that NumPy"):
+        read(tmp_path / "trap.npy")
+    assert [file.name for file in tmp_path.iterdir()] == ["trap.npy"]
+
+
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
