@@ -23,10 +23,11 @@ def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
 
 
 def test_info_says_what_a_prelude_holds(springblock, tmp_path):
-    springblock("prelude", "--n-blocks", 12, "--output", tmp_path / "prelude")
+    quick = ("--n-blocks", 4, "--material", "slider_velocity=5e-3")
+    springblock("prelude", *quick, "--output", tmp_path / "prelude")
     said = springblock("info", tmp_path / "prelude")
     assert "before its first detachment" in said
-    assert "slider_velocity=0.0005" in said
+    assert "slider_velocity=0.005" in said
 
 
 @pytest.mark.parametrize(

@@ -135,18 +135,6 @@ def test_one_run_needs_no_seeds_and_counts_samples_while_a_batch_counts_runs(spr
     assert "20/20" not in said
 
 
-def test_snapshots_are_stored_where_they_are_asked_for(springblock, tmp_path):
-    times = ("--snapshot", 1e-5, "--snapshot", 2e-5)
-    springblock("simulate", *FLAT, *ONE, *times, "--output", tmp_path / "a")
-    springblock("simulate", *FLAT, *ONE, "--output", tmp_path / "b")
-    with_them, without = (pq.read_table(tmp_path / name) for name in "ab")
-    assert with_them.schema.names == [*without.schema.names, "snapshot_times", "snapshots"]
-    assert with_them["snapshot_times"].to_pylist() == [[pytest.approx(1e-5), pytest.approx(2e-5)]]
-    assert len(with_them["snapshots"][0]) == 2 * 2 * 6 * 6
-    configuration = json.loads(with_them.schema.metadata[b"configuration"])
-    assert configuration["snapshot_times"] == [1e-5, 2e-5]
-
-
 BATCH = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6, "--last-seed", 2)
 OFTEN = ("--checkpoint", 1e-9)  # minutes
 

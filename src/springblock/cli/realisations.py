@@ -75,7 +75,7 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
     columns = {**scene.row, **records[0].constants, "realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
-    if scene.level == 2 and scene.sides:
+    if scene.level == 2:
         yield columns | {"side": "grooves"}, groove_times(records, scene.pattern)
 
 
