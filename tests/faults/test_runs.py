@@ -206,10 +206,9 @@ def test_batches_of_another_size_and_results_without_their_record_are_refused(st
 
 
 def test_a_growing_study_has_each_seed_once(study):
-    for seeds in (4, 5):
-        flat = {"flat": {"seeds": seeds, "duration": 2e-5}}
-        study.configure(scenes=FEWER["scenes"] | flat)
-        study.run()
+    """It had three, in batches of two."""
+    study.configure(scenes=FEWER["scenes"] | {"flat": {"seeds": 5, "duration": 2e-5}})
+    study.run()
     found = pq.read_table(study.results / f"realisations/{FLAT}")
     assert found["seed"].to_pylist() == [0, 1, 2, 3, 4]
 
