@@ -1,4 +1,4 @@
-"""springblock verify, repair and archive: whether results are what they should be, in one file."""
+"""springblock verify, repair and archive: results are checked, mended and packed."""
 
 from pathlib import Path
 
