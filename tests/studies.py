@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ import yaml
 ROOT = Path(__file__).parents[1]
 PARTS = ("Snakefile", "environment.lock", "workflow", "config", "profiles")
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
 #: Each kind of surface, in seven batches of at most two realisations; null leaves a group out.
 TINY = {
@@ -162,3 +164,21 @@ class Study:
             str(file.relative_to(self / results)): repr(pq.read_table(file).to_pylist())
             for file in found
         }
+
+
+def places(schema: dict[str, Any], path: tuple[Any, ...] = ()) -> Iterator[Any]:
+    """Paths to all that a schema takes, with what it says there; names of one's own are `own`."""
+    while "$ref" in schema:
+        reference = SCHEMA["$defs"][schema["$ref"].split("/")[-1]]
+        schema = {key: schema[key] for key in schema if key != "$ref"} | reference
+    yield path, schema
+    inner = dict(schema.get("properties", {}))
+    if isinstance(schema.get("additionalProperties"), dict):
+        inner["own"] = schema["additionalProperties"]
+    if "items" in schema:
+        inner[0] = schema["items"]
+    for name, part in inner.items():
+        yield from places(part, (*path, name))
+    choices = [schema[key] for key in ("then", "else") if key in schema]
+    for part in [*schema.get("anyOf", []), *choices]:
+        yield from places(part, path)

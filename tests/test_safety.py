@@ -20,9 +20,8 @@ from springblock.simulation.checkpoint import Checkpoint
 from springblock.simulation.prelude import Prelude
 from springblock.study.configuration import check, completed
 from springblock.study.texts import check_texts
-from studies import PAPER, ROOT, Study
+from studies import PAPER, ROOT, SCHEMA, Study, places
 
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 #: Plain names, as users have them.
 PLAIN = ["my results", "a b  c", "../elsewhere", "/scratch/a/b", "a//b/", ".", "Größe (1)", "схема"]
 PLAIN += ["摩擦", "run+1,2@3", "_a", ".a", "a-b_c.d", "0", "a/" * 100 + "b"]
@@ -32,24 +31,6 @@ HOSTILE = [f"a{chr(i)}b" for i in range(128) if not re.match(r"[\w ./+,@()-]", c
 HOSTILE += ["$(touch PWNED)", "a;touch PWNED", "{input}", "'a'", "-", "--output", " a", "a ", "a\n"]
 HOSTILE += ["\u202egnp.a", "a\u2028b", "\ud800", "a\u200bb", "\ufeffa", "💥"]
 HOSTILE += ["a" * 300, "a/" * 600 + "a", "ü" * 150]
-
-
-def places(schema, path=()):
-    """Paths to all that a schema takes, with what it says there; names of one's own are `own`."""
-    while "$ref" in schema:
-        reference = SCHEMA["$defs"][schema["$ref"].split("/")[-1]]
-        schema = {key: schema[key] for key in schema if key != "$ref"} | reference
-    yield path, schema
-    inner = dict(schema.get("properties", {}))
-    if isinstance(schema.get("additionalProperties"), dict):
-        inner["own"] = schema["additionalProperties"]
-    if "items" in schema:
-        inner[0] = schema["items"]
-    for name, part in inner.items():
-        yield from places(part, (*path, name))
-    choices = [schema[key] for key in ("then", "else") if key in schema]
-    for part in [*schema.get("anyOf", []), *choices]:
-        yield from places(part, path)
 
 
 def holding(path, value):

@@ -7,14 +7,13 @@ import zipfile
 
 import pyarrow.parquet as pq
 import pytest
-import yaml
 
 from springblock import Material
 from springblock.io.schemas import BATCH
 from springblock.plotting import declarations
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study.archive import archive
-from studies import PAPER, ROOT, TINY, Study
+from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
 FULL = {"configuration": ("config/full.yaml",)}
@@ -58,9 +57,9 @@ def test_each_job_leaves_a_log_and_a_benchmark(study):
 
 def test_the_configuration_offers_what_the_package_has():
     """Every integrator, and every constant with the paper's value, which holds if unsaid."""
-    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
-    assert schema["properties"]["integrator"]["enum"] == list(INTEGRATORS)
-    assert list(schema["properties"]["material"]["properties"]) == list(PAPER["material"])
+    keys = SCHEMA["properties"]
+    assert keys["integrator"]["enum"] == list(INTEGRATORS)
+    assert list(keys["material"]["properties"]) == list(PAPER["material"])
     assert PAPER["material"] == dict(Material().items())
 
 
