@@ -200,9 +200,18 @@ def repeatability(fields: Array) -> Interval:
 
 
 def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
-    """Time in s, (n,), and curves, (runs, n), of the samples that all runs of a scene have."""
+    """Time in s, (n,), and curves, (runs, n), of the samples that all runs have.
+
+    Raises
+    ------
+    ValueError
+        Where the runs do not share one sample interval.
+    """
     n = min(len(curve) for curve in curves)
-    return runs[0].time[:n], np.stack([curve[:n] for curve in curves])
+    time = runs[0].time[:n]
+    if not all(np.allclose(run.time[:n], time) for run in runs):
+        raise ValueError("the runs of an ensemble must share one sample interval")
+    return time, np.stack([curve[:n] for curve in curves])
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,6 +240,7 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
     After its end a run has no force, but it has first detachments: none, since `percent` counts
     shares of those that the run has seen, which are all there are once everything slides.
     """
+    cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
 
     def continued(curve: Array, value: float) -> Array:
