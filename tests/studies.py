@@ -5,7 +5,8 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import yaml
 ROOT = Path(__file__).parents[1]
 PARTS = ("Snakefile", "environment.lock", "workflow", "config", "profiles")
 PAPER = yaml.safe_load((ROOT / "config/config.yaml").read_text())
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 GROOVES = {"n_p": [5], "n_s": [7], "n_p2": [1], "n_s2": [1]}
 #: Each kind of surface, in seven batches of at most two realisations; null leaves a group out.
 TINY = {
@@ -40,11 +42,25 @@ TINY = {
 }
 
 
+#: Of each kind of surface one scene, where the figures of the others do not matter.
+FEWER = {
+    "scenes": dict.fromkeys(PAPER["scenes"])
+    | {
+        "flat": {"seeds": 3, "duration": 2e-5},
+        "pillars": {"n_p": [6], "seeds": 3},
+        "grooves": GROOVES | {"direction": ["x"], "seeds": 1},
+    },
+    "figures": TINY["figures"] | {"figure_5": {"n_p": 6}},
+}
+
+
 @dataclass(frozen=True)
 class Study:
     """A folder with the workflow and a configuration, `tiny.yaml`."""
 
     folder: Path
+    options: tuple[str, ...] = ()  #: of every start of Snakemake
+    targets: tuple[str, ...] = ()  #: what is made unless others are named
 
     @classmethod
     def begun(cls, folder: Path, **changes: Any) -> "Study":
@@ -54,8 +70,16 @@ class Study:
             copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
             copy(ROOT / part, folder / part)
         study = cls(folder)
-        study.configure(**changes)
+        study.write("tiny.yaml", {**TINY, **changes})
         return study
+
+    def copied(self, folder: Path) -> "Study":
+        """Copy the study with its time stamps."""
+        return replace(self, folder=Path(shutil.copytree(self, folder)))
+
+    @property
+    def results(self) -> Path:
+        return self / "results"
 
     def __truediv__(self, path: str | Path) -> Path:
         return self.folder / path
@@ -64,8 +88,9 @@ class Study:
         return str(self.folder)
 
     def configure(self, **changes: Any) -> None:
-        """Write the tiny configuration, with other values of these keys."""
-        self.write("tiny.yaml", {**TINY, **changes})
+        """Give keys of the configuration other values."""
+        present = yaml.safe_load((self / "tiny.yaml").read_text())
+        self.write("tiny.yaml", {**present, **changes})
 
     def write(self, name: str, configuration: dict[str, Any]) -> str:
         """Write a configuration; returns its name."""
@@ -99,12 +124,19 @@ class Study:
 
     def command(self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",)) -> list[str]:
         """Return the words that run Snakemake."""
-        return [sys.executable, "-m", "snakemake", "--configfile", *configuration, *options]
+        snakemake = [sys.executable, "-m", "snakemake", "--configfile", *configuration]
+        return [*snakemake, *self.options, *options]
 
     def start(
-        self, *options: str, configuration: tuple[str, ...] = ("tiny.yaml",), **how: Any
+        self,
+        *options: str,
+        configuration: tuple[str, ...] = ("tiny.yaml",),
+        targets: tuple[str, ...] = (),
+        **how: Any,
     ) -> subprocess.Popen[str]:
         """Start Snakemake, in a process group of its own; `how` goes to Popen."""
+        if targets or self.targets:
+            options = (*options, "--", *(targets or self.targets))
         usual = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
         command = self.command(*options, configuration=configuration)
         return subprocess.Popen(
@@ -132,3 +164,21 @@ class Study:
             str(file.relative_to(self / results)): repr(pq.read_table(file).to_pylist())
             for file in found
         }
+
+
+def places(schema: dict[str, Any], path: tuple[Any, ...] = ()) -> Iterator[Any]:
+    """Paths to all that a schema takes, with what it says there; names of one's own are `own`."""
+    while "$ref" in schema:
+        reference = SCHEMA["$defs"][schema["$ref"].split("/")[-1]]
+        schema = {key: schema[key] for key in schema if key != "$ref"} | reference
+    yield path, schema
+    inner = dict(schema.get("properties", {}))
+    if isinstance(schema.get("additionalProperties"), dict):
+        inner["own"] = schema["additionalProperties"]
+    if "items" in schema:
+        inner[0] = schema["items"]
+    for name, part in inner.items():
+        yield from places(part, (*path, name))
+    choices = [schema[key] for key in ("then", "else") if key in schema]
+    for part in [*schema.get("anyOf", []), *choices]:
+        yield from places(part, path)

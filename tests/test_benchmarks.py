@@ -45,13 +45,6 @@ def test_c_loop_moves_as_the_solver():
     assert np.float64(1e-320) * 0.5 > 0.0  # this process still knows subnormal numbers
 
 
-def test_lammps_moves_as_the_solver():
-    try:
-        lammps_lattice.require()
-    except Missing as why:
-        pytest.skip(str(why))
-
-
 def test_operations_are_those_of_the_c_loop():
     springs = operators("springs") + 4 * operators("pull")
     assert springs == speed.SPRINGS

@@ -1,67 +1,85 @@
 """Surfaces of one's own in the study: planned as in the example, and from end to end."""
 
-import shutil
+import re
+import shlex
+from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 from PIL import Image
 
 from springblock import draw_friction, simulate
 from springblock.io.records import read_records
 from springblock.model.blockmap import BlockMap
-from studies import GROOVES, PAPER, TINY, Study
+from studies import FEWER, Study
 
 EXAMPLE = "config/examples/islands.yaml"
+#: Names that a shell would take apart, and results that lie deeper.
+MASK, WEAK, RESULTS = "my masks/islands (1), ü.png", "weak mu.npy", "my results/ü (2)"
 ISLANDS = np.indices((12, 12)).sum(axis=0) % 5 > 1
 WEIBULL = {"distribution": ["weibull"], "correlation_length": [3e-5]}
 CORRELATED = {"correlation_length": [2e-5]}
 GROUP = [
-    {"mask": "islands.png", "direction": ["x"], "seeds": 3},
-    {"mask": "islands.png", "material": WEIBULL, "direction": ["x"], "seeds": 2},
-    {"mask": "islands.png", "mu_static": "mu.npy", "mu_dynamic": "weak mu.npy", "direction": ["y"]},
+    {"mask": MASK, "direction": ["x"], "seeds": 3},
+    {"mask": MASK, "material": WEIBULL, "direction": ["x"], "seeds": 2},
+    {"mask": MASK, "mu_static": "mu.npy", "mu_dynamic": WEAK, "direction": ["y"]},
     {"n_rows": [6], "edges": "periodic", "direction": ["x"], "seeds": 2, "material": CORRELATED},
 ]
 
-#: Others must be there, too.
-FEWER = {
-    "flat": {"seeds": 1},
-    "pillars": {"n_p": [6], "seeds": 3},
-    "again": None,
-    "grooves": {**GROOVES, "direction": ["x"], "seeds": 1},
-}
+
+def files(study):
+    """All that a study has beside Snakemake's own notes."""
+    own = {path.relative_to(study) for path in study.folder.rglob("*") if path.is_file()}
+    return {path for path in own if path.parts[0] != ".snakemake"}
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """A tiny study with a group of one's own surfaces, its table and their figure made."""
+def ran(tmp_path_factory: pytest.TempPathFactory) -> tuple[Study, set[Path], str]:
+    """A tiny study with a group of one's own surfaces, which files running it made, and the log."""
     study = Study.begun(
-        tmp_path_factory.mktemp("study"),
-        material=PAPER["material"],
-        scenes={**TINY["scenes"], **FEWER, "surfaces": GROUP},
-        figures=TINY["figures"] | {"figure_5": {"n_p": 6}},
+        tmp_path_factory.mktemp("a study (1), ü"),
+        **FEWER | {"scenes": FEWER["scenes"] | {"surfaces": GROUP}},
+        results=RESULTS,
     )
-    Image.fromarray(ISLANDS[::-1]).save(study / "islands.png")
+    (study / MASK).parent.mkdir()
+    Image.fromarray(ISLANDS[::-1]).save(study / MASK)
     np.save(study / "mu.npy", np.linspace(0.8, 1.2, 144).reshape(12, 12))
-    np.save(study / "weak mu.npy", np.full((12, 12), 0.5))
-    study.run("--", "surfaces", "aggregate")
-    return study
+    np.save(study / WEAK, np.full((12, 12), 0.5))
+    before = files(study)
+    said = study.run("--printshellcmds", "--quiet", "host", "--", "surfaces")
+    return study, files(study) - before, said
+
+
+@pytest.fixture
+def study(ran) -> Study:
+    return ran[0]
 
 
 def records(study, *parts):
     """Realisations in the folder of this scene."""
-    folder = study / "results/realisations/n_blocks-12" / name(study) / "/".join(parts)
+    folder = study / RESULTS / "realisations/n_blocks-12" / name(study) / "/".join(parts)
     return read_records(sorted(folder.glob("batch-*.parquet")))
 
 
 def name(study):
-    return f"mask-{BlockMap.mask(study / 'islands.png')}"
+    return f"mask-{BlockMap.mask(study / MASK)}"
 
 
 def assert_same(run, contact, *coefficients, **how):
     """Detachment times of a stored run are those of Python's, to the bit."""
-    alone = simulate(contact, *coefficients, **how)
+    alone = simulate(contact, *coefficients, run.material, **how)
     assert alone.t_det.tobytes() == run.t_det.tobytes()
+
+
+def test_a_study_writes_into_its_folder_alone(ran):
+    """Its commands, as the shell splits them, have each path in one piece."""
+    _, made, said = ran
+    assert {path.parts[:2] for path in made} == {Path(RESULTS).parts}
+    assert Path(RESULTS, "figures/surfaces.png") in made
+    commands = map(shlex.split, re.findall(r"^Shell command: (springblock .+)$", said, re.M))
+    masked = [words for words in commands if "simulate" in words and "--mask" in words]
+    assert {words[words.index("--mask") + 1] for words in masked} == {MASK}
+    assert {Path(words[words.index("--output") + 1]) for words in masked} <= made
 
 
 def test_the_example_can_be_planned(study):
@@ -85,25 +103,15 @@ def test_a_study_simulates_what_python_does(study):
 
 
 def test_coefficients_from_files_are_not_drawn(study):
-    mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", "weak mu.npy"))
+    mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", WEAK))
     parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
     (run,) = records(study, *parts)
     assert_same(run, ISLANDS, mu.values, weak.values, direction="y")
 
 
-def test_a_table_holds_them_beside_the_others(study):
-    rows = pq.read_table(study / "results/tables/realisations.parquet").to_pylist()
-    masks = [(row["level"], row["mask"]) for row in rows]
-    assert masks[:6] == [(-1, str(BlockMap.mask(study / "islands.png")))] * 6
-    assert masks[6:] == [(0, "")] * 3 + [(1, "")] * 3 + [(2, "")]
-    assert (study / "results/figures/surfaces.png").stat().st_size > 10_000
-    jobs = study.planned("--config", "results=elsewhere", "--", "correlations")
-    assert jobs["correlation"] == 1  # a mask has no sides
-
-
 def test_a_changed_image_is_another_surface(study, tmp_path):
-    other = Study(shutil.copytree(study, tmp_path / "study"))
-    Image.fromarray(~ISLANDS).save(other / "islands.png")
+    other = study.copied(tmp_path / "study")
+    Image.fromarray(~ISLANDS).save(other / MASK)
     assert name(other) != name(study)
     jobs = other.planned("--", "surfaces")
     assert (jobs["prelude"], jobs["simulate_batch"], jobs["surfaces"]) == (3, 4, 1)
@@ -111,7 +119,7 @@ def test_a_changed_image_is_another_surface(study, tmp_path):
 
 def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     """Correlated coefficients, too, go around the edges."""
-    batches = (study / "results/realisations/n_blocks-12/n_rows-6").rglob("batch-*.parquet")
+    batches = (study / RESULTS / "realisations/n_blocks-12/n_rows-6").rglob("batch-*.parquet")
     runs = read_records(sorted(batches))
     assert [run.seed for run in runs] == [0, 1]
     for run in runs:

@@ -20,9 +20,8 @@ from springblock.simulation.checkpoint import Checkpoint
 from springblock.simulation.prelude import Prelude
 from springblock.study.configuration import check, completed
 from springblock.study.texts import check_texts
-from studies import PAPER, ROOT, TINY, Study
+from studies import PAPER, ROOT, SCHEMA, Study, places
 
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
 #: Plain names, as users have them.
 PLAIN = ["my results", "a b  c", "../elsewhere", "/scratch/a/b", "a//b/", ".", "Größe (1)", "схема"]
 PLAIN += ["摩擦", "run+1,2@3", "_a", ".a", "a-b_c.d", "0", "a/" * 100 + "b"]
@@ -32,24 +31,6 @@ HOSTILE = [f"a{chr(i)}b" for i in range(128) if not re.match(r"[\w ./+,@()-]", c
 HOSTILE += ["$(touch PWNED)", "a;touch PWNED", "{input}", "'a'", "-", "--output", " a", "a ", "a\n"]
 HOSTILE += ["\u202egnp.a", "a\u2028b", "\ud800", "a\u200bb", "\ufeffa", "💥"]
 HOSTILE += ["a" * 300, "a/" * 600 + "a", "ü" * 150]
-
-
-def places(schema, path=()):
-    """Paths to all that a schema takes, with what it says there; names of one's own are `own`."""
-    while "$ref" in schema:
-        reference = SCHEMA["$defs"][schema["$ref"].split("/")[-1]]
-        schema = {key: schema[key] for key in schema if key != "$ref"} | reference
-    yield path, schema
-    inner = dict(schema.get("properties", {}))
-    if isinstance(schema.get("additionalProperties"), dict):
-        inner["own"] = schema["additionalProperties"]
-    if "items" in schema:
-        inner[0] = schema["items"]
-    for name, part in inner.items():
-        yield from places(part, (*path, name))
-    choices = [schema[key] for key in ("then", "else") if key in schema]
-    for part in [*schema.get("anyOf", []), *choices]:
-        yield from places(part, path)
 
 
 def holding(path, value):
@@ -119,43 +100,13 @@ def test_commands_quote_every_path():
     assert all(each.endswith(":q") for each in placeholders)
 
 
-@pytest.fixture(scope="module")
-def study(tmp_path_factory):
-    """A study of surfaces of one's own, whose folders and files have names that need quotes."""
-    grid = {"mask": "my masks/islands (1), ü.png", "mu_dynamic": "weak mu.npy"}
-    scenes = TINY["scenes"] | {"surfaces": grid | {"direction": ["x"], "seeds": 1}}
-    folder = tmp_path_factory.mktemp("a study (1), ü")
-    study = Study.begun(folder, scenes=scenes, results="my results/ü (2)")
-    (study / "my masks").mkdir()
-    Image.new("L", (6, 6), 255).save(study / grid["mask"])
-    np.save(study / grid["mu_dynamic"], np.full((6, 6), 0.5))
-    return study
-
-
-def files(study):
-    """All that a study has beside Snakemake's own notes."""
-    own = {path.relative_to(study) for path in study.folder.rglob("*") if path.is_file()}
-    return {path for path in own if path.parts[0] != ".snakemake"}
-
-
-def test_a_study_writes_into_its_folder_alone(study):
-    """Its commands, as the shell splits them, have each path in one piece."""
-    before = files(study)
-    said = study.run("--printshellcmds", "--quiet", "host", "--", "surfaces")
-    made = files(study) - before
-    assert {path.parts[:2] for path in made} == {("my results", "ü (2)")}
-    commands = map(shlex.split, re.findall(r"^Shell command: (springblock .+)$", said, re.M))
-    (words,) = (words for words in commands if "simulate" in words)
-    assert words[words.index("--mask") + 1] == "my masks/islands (1), ü.png"
-    assert Path(words[words.index("--output") + 1]) in made
-
-
-def test_a_refused_study_runs_and_writes_nothing(study):
-    wrong = study.write("wrong.yaml", {"results": "a'$(touch PWNED)"})
-    before = files(study)
-    said = study.run(configuration=("tiny.yaml", wrong), refused=True)
-    assert "a text may hold letters, digits" in said
-    assert files(study) == before
+def test_a_refused_study_runs_and_writes_nothing(tmp_path):
+    study = Study.begun(tmp_path, results="a'$(touch PWNED)")
+    before = {*tmp_path.iterdir()}
+    said = study.run(refused=True)
+    assert "The study cannot be run: results is" in said
+    assert "Traceback" not in said
+    assert {*tmp_path.iterdir()} - before <= {tmp_path / ".snakemake"}
 
 
 def png(width, height):

@@ -9,7 +9,7 @@ from springblock.analysis.comparison import discrepancies, significant
 from springblock.model.scene import Scene
 
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
-SCENES = [Scene(12), Scene(12, 6, 6), Scene(12, 6, 6, direction="y")]
+SCENES = [Scene(12, 6, 6), Scene(12, 6, 6, direction="y")]
 
 
 def realisations(rng, shift=0.0, k=10):
@@ -26,7 +26,7 @@ def realisations(rng, shift=0.0, k=10):
 def test_studies_of_one_truth_are_seldom_significant(rng):
     """In 5 of 100 pairs at most, and four standard errors of that number."""
     pairs = [discrepancies(realisations(rng), realisations(rng)) for _ in range(100)]
-    assert {len(found) for found in pairs} == {15}
+    assert {len(found) for found in pairs} == {10}
     assert sum(bool(significant(found)) for found in pairs) <= 5 + 4 * np.sqrt(5 * 0.95)
 
 

@@ -23,6 +23,8 @@ def test_sides_along_both_axes_are_correlated_and_collected(
         assert table.num_rows == 2 * pq.read_metadata(part).num_rows
         assert set(table["side"].to_pylist()) == {"x", "y"}
         assert set(table["realisations"].to_pylist()) == {3}
+        made = pq.read_metadata(part).metadata
+        assert table.schema.metadata[b"code_version"] == made[b"code_version"]
 
 
 def test_surfaces_without_sides_and_two_scenes_are_refused(

@@ -10,8 +10,8 @@ from precision import precision_rows, production_rows
 from springblock.accuracy import stability
 from springblock.accuracy.conventions import PAPER_STEP, PLAIN
 from springblock.accuracy.stability.cases import Case, Outcome
-from springblock.accuracy.work_precision import SCHEMA, rows_of
-from springblock.io.parquet import rows_to_table, write
+from springblock.accuracy.work_precision import rows_of
+from springblock.io.parquet import write
 from springblock.io.rows import select
 from springblock.model.defaults import STEP
 
@@ -38,18 +38,14 @@ def test_cases_are_written_if_each_comes_out_as_expected(springblock, word, tmp_
     assert ("nothing, rk4: expected 'agrees', not 'drifts'" in said) == refused
 
 
-def test_models_on_two_sizes_become_a_table(springblock, tmp_path, monkeypatch):
+def test_models_on_small_pillars_become_a_table(springblock, tmp_path, monkeypatch):
     monkeypatch.setattr("springblock.mechanism.tables.SEEDS", 2)
-    two, four, table = (tmp_path / name for name in ("2", "4", "table"))
-    springblock("make", "mechanism-2", "--output", two)
-    springblock("make", "mechanism-4", "--output", four)
-    springblock("make", "collect", two, four, "--output", table)
-    rows = pq.read_table(four).to_pylist()
+    springblock("make", "mechanism-4", "--output", tmp_path / "table")
+    rows = pq.read_table(tmp_path / "table").to_pylist()
     assert [row["seed"] for row in rows] == [0, 1]
     for row in rows:  # inertia lowers friction, and overshoot of single blocks is most of it
         assert row["overshooting"] == pytest.approx(row["simulation"], rel=0.02)
         assert row["simulation"] < 0.96 * row["quasi_static"]
-    assert pq.read_table(table).num_rows == 4
 
 
 def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
@@ -61,33 +57,10 @@ def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
     assert "lowest on pillars of 20 blocks" in (tmp_path / "page").read_text()
 
 
-@pytest.fixture
-def collect(springblock, tmp_path):
-    """Collect parts of these versions; return what is said, and the table."""
-
-    def collected(*versions, refused=False):
-        parts, output = [], tmp_path / "table.parquet"
-        for number, version in enumerate(versions):
-            errors = {"t_max": np.array([3.0, 4.0])}
-            rows = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
-            parts.append(tmp_path / f"{number}.parquet")
-            write(rows_to_table(list(rows), SCHEMA), parts[-1], {"code_version": version})
-        return springblock("make", "collect", *parts, "--output", output, refused=refused), output
-
-    return collected
-
-
-def test_a_table_of_parts_says_which_code_made_them(collect):
-    _, output = collect("1+a", "1+a")
-    table = pq.read_table(output)
-    assert table.schema.metadata[b"code_version"] == b"1+a"
-    assert table["error"].to_pylist() == 2 * [pytest.approx(12.5**0.5)]
-
-
-def test_parts_of_different_code_are_refused(collect):
-    said, output = collect("1+a", "1+b", refused=True)
-    assert "were made by different code, a and b" in said
-    assert not output.exists()
+def test_an_error_is_the_root_mean_square_over_realisations():
+    errors = {"t_max": np.array([3.0, 4.0])}
+    (row,) = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
+    assert row["error"] == pytest.approx(12.5**0.5)
 
 
 @pytest.fixture
@@ -103,15 +76,6 @@ def page(springblock, batch, tmp_path):
         return (tmp_path / "page.md").read_text(encoding="utf-8")
 
     return written
-
-
-def test_the_page_says_what_the_tables_hold(page):
-    text = page()
-    assert "3 of 3 cases came out as expected, in these families: size." in text
-    assert "The largest energy residual of 1 realisations" in text
-    assert "| static friction | 1.0e-01 | 1.0e-01 | 1.0e-01 |" in text
-    assert "With `production: true` in its configuration a study measures errors" in text
-    assert "total error" not in text
 
 
 def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tmp_path):

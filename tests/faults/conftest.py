@@ -1,14 +1,17 @@
 """A finished tiny study, and a copy of it for each fault to be tried on."""
 
+from dataclasses import replace
+
 import pytest
 
-from faults.studies import Study, copy
+from studies import FEWER, Study
 
 
 @pytest.fixture(scope="session")
 def undisturbed(tmp_path_factory) -> Study:
-    """A finished study, which no test changes."""
-    study = Study.begun(tmp_path_factory.mktemp("faults") / "study")
+    """A finished study on one core, which no test changes."""
+    begun = Study.begun(tmp_path_factory.mktemp("faults") / "study", **FEWER)
+    study = replace(begun, options=("--cores", "1"), targets=("aggregate", "correlations"))
     study.run()
     return study
 
@@ -16,4 +19,4 @@ def undisturbed(tmp_path_factory) -> Study:
 @pytest.fixture
 def study(undisturbed, tmp_path) -> Study:
     """A finished study, to be disturbed."""
-    return copy(undisturbed, tmp_path / "study")
+    return undisturbed.copied(tmp_path / "study")

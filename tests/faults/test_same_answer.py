@@ -2,7 +2,6 @@
 
 import pyarrow.parquet as pq
 
-from faults.studies import copy
 from springblock.analysis.comparison import compare
 
 
@@ -23,10 +22,3 @@ def test_batches_order_and_cores_change_no_bit_of_a_table(springblock, tmp_path)
         springblock("correlation", *files, *given)
         tables.append([pq.read_table(output) for output in outputs])
     assert all(compare(one, two).same for one, two in zip(*tables, strict=True))
-
-
-def test_a_study_on_two_cores_and_in_other_batches_has_the_same_tables(undisturbed, tmp_path):
-    other = copy(undisturbed, tmp_path / "study")
-    other.configure(realisations_per_job=1, results="elsewhere")
-    other.run("--cores", "2", "--scheduler", "greedy")
-    assert other.numbers("elsewhere") == undisturbed.numbers()

@@ -7,40 +7,24 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock import Pattern, draw_friction, read, simulate
-from springblock.cli.simulate import batch_row
-from springblock.io.parquet import rows_to_table, write
-from springblock.io.schemas import BATCH, SNAPSHOTS
+from springblock import draw_friction, read, simulate
+from springblock.io.parquet import write
 from springblock.model.scene import Scene
-from springblock.simulation.setup import Setup
 
 SCENE = Scene(n_blocks=6, n_p=2, n_s=1)
+BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 3, "--last-seed", 4)
 TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
 
 
-@pytest.fixture(scope="module")
-def runs():
-    """By their seeds, the higher one first."""
-    contact = Pattern.pillars(6, 2, 1).contact
-    return {
-        seed: simulate(contact, *draw_friction(6, seed), duration=1.6e-4, snapshot_times=TIMES)
-        for seed in (4, 3)
-    }
-
-
-def stored(runs, path, schema):
-    rows = [batch_row(SCENE, Setup(), seed, run) for seed, run in runs.items()]
-    write(rows_to_table(rows, schema), path, {})
-    return path
-
-
-def test_runs_are_in_order_of_their_seeds_and_have_their_snapshots(runs, tmp_path):
-    path = stored(runs, tmp_path / "a.parquet", pa.schema([*BATCH, *SNAPSHOTS]))
-    assert (runs[3].snapshots[1] != runs[4].snapshots[1]).any()
+def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path):
+    path, duration = tmp_path / "a.parquet", 1.6e-4
+    asked = ("--duration", duration, "--snapshot", TIMES[0], "--snapshot", TIMES[1])
+    springblock(*BATCH, *asked, "--output", path)
     read_back = read(str(path))
     assert [run.seed for run in read_back] == [3, 4]
     for run in read_back:
-        told = runs[run.seed]
+        drawn = draw_friction(6, run.seed)
+        told = simulate(SCENE.contact, *drawn, duration=duration, snapshot_times=TIMES)
         assert run.scene == SCENE
         for name in ("force", "detachments", "switches", "t_det", "contact"):
             np.testing.assert_array_equal(getattr(run, name), getattr(told, name))
@@ -49,10 +33,12 @@ def test_runs_are_in_order_of_their_seeds_and_have_their_snapshots(runs, tmp_pat
         assert run.snapshot_times.tobytes() == told.snapshot_times.tobytes()
         assert run.snapshots.tobytes() == told.snapshots.tobytes()
         assert run.snapshots.shape == (2, 2, 6, 6)
+    assert (read_back[0].snapshots[1] != read_back[1].snapshots[1]).any()
 
 
-def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(runs, tmp_path):
-    (run, _) = read(stored(runs, tmp_path / "a.parquet", BATCH))
+def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(springblock, tmp_path):
+    springblock(*BATCH, "--output", tmp_path / "a.parquet")
+    run, _ = read(tmp_path / "a.parquet")
     assert len(run.snapshots) == len(run.snapshot_times) == 0
     scene = "n_blocks = 6, level = 1, n_p = 2, n_s = 1, direction = x, seed = 3"
     assert repr(run).startswith(f"<{scene}: static friction ")

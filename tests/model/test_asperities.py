@@ -32,13 +32,6 @@ def test_a_seed_stands_for_the_same_surface_everywhere():
     ]
 
 
-def test_a_draw_knows_nothing_of_other_draws():
-    before = draw_friction(8, 5)
-    draw_friction(8, 6)
-    np.random.default_rng(5).normal(size=99)
-    np.testing.assert_array_equal(draw_friction(8, np.int64(5)), before)
-
-
 def test_neither_coefficient_depends_on_the_statistics_of_the_other():
     rough = replace(PAPER, mu_dynamic=0.3, mu_dynamic_std=0.2)
     np.testing.assert_array_equal(draw_friction(8, 5, rough)[0], draw_friction(8, 5)[0])

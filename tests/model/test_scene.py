@@ -99,9 +99,8 @@ def test_folders_options_and_rows_name_all_that_tells_a_scene_apart(scene, folde
     assert Scene.from_row(scene.row) == scene
 
 
-def test_a_row_of_a_table_names_its_scene():
+def test_tables_name_scenes_by_their_own_columns():
     assert set(COLUMNS) == set(SCENE.names)
-    assert Scene.from_row(CUT.row | {"seed": 3}) == CUT
 
 
 def test_a_mask_takes_the_place_of_the_pattern():
@@ -128,11 +127,6 @@ def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
     others = [OWN, Scene(4, n_rows=2), Scene(4, edges="periodic")]
     others += [Scene(4, mu_static_field=field_of_ones), Scene(4, mu_dynamic_field=field_of_ones)]
     assert not any(scene.is_papers for scene in others)
-
-
-def test_rectangles_hold_the_same_patterns():
-    wide = Scene(24, 4, 2, n_rows=12)
-    assert wide.contact.shape == wide.shape == (12, 24)
 
 
 def test_coefficients_are_read_from_their_file_and_matter_in_contact_alone():

@@ -57,6 +57,18 @@ def test_a_block_has_the_height_at_its_centre(tmp_path, spacing, x, y):
     np.testing.assert_array_equal(contact, HEIGHTS[np.ix_(y, x)] >= 6)
 
 
+def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
+    file, mask = written(tmp_path, HEIGHTS), tmp_path / "mask.npy"
+    said = springblock("mask", file, "--bearing-area", 0.25, "--output", mask)
+    assert said == f"{mask}: 3 x 4 blocks, 25.0% in contact\n"
+    np.testing.assert_array_equal(np.flatnonzero(np.load(mask)), range(9, 12))
+    springblock("mask", file, "--height", 6e-9, "--spacing", 2e-5, "--output", mask)
+    np.testing.assert_array_equal(np.load(mask), [[False, True]])
+    refusal = springblock("mask", file, "--output", tmp_path / "none.npy", refused=True)
+    assert "rough.txt is cut at either a bearing_area or a height" in refusal
+    assert not (tmp_path / "none.npy").exists()
+
+
 def test_jobs_read_what_was_cut(tmp_path):
     cut = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5)
     mask = BlockMap.of_topography(cut, tmp_path)

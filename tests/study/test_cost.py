@@ -5,29 +5,25 @@ import pytest
 from springblock import Material, draw_friction, simulate
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
-from springblock.study.cost import cpu_seconds, loading_time, memory, minutes
+from springblock.study.cost import cpu_seconds, memory, minutes
 
 #: N, realisations of a batch on pillars, and the largest resident set of its job, MB.
 MEASURED = [(240, 1, 261), (240, 10, 305), (480, 1, 329)]
 
 
-def test_a_flat_surface_is_loaded_when_the_slider_springs_carry_the_whole_threshold():
-    """K_s v t = mu_s P l²."""
-    paper = Material()
+def test_a_run_takes_until_the_slider_springs_carry_the_whole_threshold():
+    """K_s v t = mu_s P l²; pillars on a quarter of a surface carry four times as much."""
+    paper, flat = Material(), Scene(12)
     time = paper.mu_static * paper.pressure * paper.spacing**2 / (paper.k_s * paper.slider_velocity)
-    assert loading_time(Scene(12), Setup()) == pytest.approx(time)
-
-
-def test_pillars_on_a_quarter_of_the_surface_are_loaded_for_four_times_as_long():
-    """All blocks are pulled, and a quarter of them carries the whole normal force."""
-    ratio = loading_time(Scene(12, 3, 3), Setup()) / loading_time(Scene(12), Setup())
-    assert ratio == pytest.approx(4.0)
+    alone, pillars = (cpu_seconds(scene, Setup(), None) for scene in (flat, Scene(12, 3, 3)))
+    assert alone == pytest.approx(cpu_seconds(flat, Setup(), time))
+    assert pillars == pytest.approx(4.0 * alone)
 
 
 @pytest.mark.parametrize("scene", [Scene(12), Scene(12, 3, 3), Scene(24, 10, 14, 2, 2)])
 def test_a_run_ends_about_when_its_surface_is_loaded(scene):
     run = simulate(scene.contact, *draw_friction(scene.shape, seed=0))
-    assert 0.2 < run.time[-1] / loading_time(scene, Setup()) < 1.4
+    assert 0.2 < run.time[-1] / Setup().loading_time(scene.contact, Material().mu_static) < 1.4
 
 
 def test_more_is_asked_for_with_more_to_do():

@@ -186,9 +186,8 @@ class Correlation:
 
     @cached_property
     def interval(self) -> Interval:
-        """c(r) with its 95 % interval, (r,) each; c(0) = 1 has none."""
-        beyond = bootstrap_interval(lambda w: self.weighted(w)[:, 1:], len(self.times))
-        return Interval(*(np.append(1.0, limit) for limit in beyond))
+        """c(r) with its 95 % interval, (r,) each; that of c(0) = 1 has no width."""
+        return bootstrap_interval(self.weighted, len(self.times))
 
     @property
     def bias(self) -> Array:

@@ -41,8 +41,8 @@ def _stress(records: Records) -> dict[Scene, Array]:
     }
 
 
-def _files(option: str, what: str, **more: Any) -> Callable[..., Any]:
-    return click.option(option, type=INPUT, multiple=True, help=f"{what} Can be repeated.", **more)
+def _files(option: str, what: str) -> Callable[..., Any]:
+    return click.option(option, type=INPUT, multiple=True, help=f"{what} Can be repeated.")
 
 
 @click.command("claims")

@@ -1,13 +1,16 @@
-"""springblock make: tables of accuracy and mechanism, tables joined, and pages in Markdown."""
+"""springblock make and report: tables of accuracy and mechanism, tables joined, and pages."""
 
 from pathlib import Path
+from pkgutil import resolve_name
 
 import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
+from springblock.beyond.question import by_scene
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
+from springblock.io.records import read_records
 from springblock.mechanism.surfaces import TABLES
 
 MEASURED = ["stability"]
@@ -85,17 +88,31 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
-    """Write one of the pages."""
+    """Write one of the pages, whose folders load what they need."""
+    page = resolve_name(f"springblock.{name}.page:page")
+    if name == "beyond":
+        return page(by_scene(read_records(files)))
+    tables = [load(file) for file in files]
     if name == "mechanism":
-        from springblock.mechanism.page import page as mechanism
+        return page(*(table.to_pandas() for table in tables))
+    return page(*(table.to_pylist() for table in tables))
 
-        return mechanism(*(load(file).to_pandas() for file in files))
-    if name == "accuracy":
-        from springblock.accuracy.page import page
 
-        return page(*(load(file).to_pylist() for file in files))
-    from springblock.beyond.page import page as beyond
-    from springblock.beyond.question import by_scene
-    from springblock.io.records import read_records
+@click.command("report")
+@click.argument("files", type=INPUT, nargs=-1, required=True)
+@click.option(
+    "--film",
+    "films",
+    type=(INPUT, INPUT),
+    multiple=True,
+    help="MP4 file, and the batch whose first run it shows. Can be repeated.",
+)
+@click.option("--output", type=OUTPUT, required=True, help="HTML file.")
+def report(files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], output: Path) -> None:
+    """Show FILES of a study in one page: pictures (PNG), pages (Markdown) and tables (Parquet)."""
+    from springblock.report.page import page  # needs what the study needs
 
-    return beyond(by_scene(read_records(files)))
+    with one_sentence():
+        text = page(files, dict(films))
+        with whole_file(output) as partial:
+            partial.write_text(text, encoding="utf-8")

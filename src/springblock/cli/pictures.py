@@ -1,12 +1,10 @@
 """springblock plot, animate and show: pictures of one run, still or moving, and of one surface."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import click
 
-from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
+from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
@@ -14,15 +12,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import film, still, sweep
 from springblock.plotting.style import save
 
-_RUN = [
-    click.argument("run", type=INPUT),
-    click.option("--seed", type=int, help="Which run of the file; the first if unsaid."),
-]
-
-
-def run_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the file that `springblock simulate` has written, and which of its runs is meant."""
-    return with_options(_RUN, command)
+_SEED = click.option("--seed", type=int, help="Which run of a file; the first if unsaid.")
 
 
 def _chosen(path: Path, seed: int | None) -> Record:
@@ -37,7 +27,7 @@ def _chosen(path: Path, seed: int | None) -> Record:
 
 @click.command("plot")
 @click.argument("files", type=INPUT, nargs=-1, required=True)
-@click.option("--seed", type=int, help="Which run of a file; the first if unsaid.")
+@_SEED
 @click.option("--over", help="Draw means of all runs over this instead: slider_velocity, n_p, ...")
 @click.option(
     "--of",
@@ -69,18 +59,16 @@ def plot(
             rows = read_tables(files, SUMMARY).to_pylist()
             picture = sweep.draw(rows, over, observables or ["static_friction"])
             caption = sweep.caption(rows, over)
-            _tell_left_out(len(rows) - len(sweep.drawn(rows, over)), over)
+            left_out = len(rows) - len(sweep.drawn(rows, over))
+            if left_out:
+                click.echo(f"Left out: {left_out} realisations of surfaces with one {over} alone")
         for output in outputs:
             save(picture, output, caption)
 
 
-def _tell_left_out(realisations: int, over: str) -> None:
-    if realisations:
-        click.echo(f"Left out: {realisations} realisations of surfaces with one {over} alone")
-
-
 @click.command("animate")
-@run_options
+@click.argument("run", type=INPUT)
+@_SEED
 @click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file; 7.5 s.")
 def animate(run: Path, seed: int | None, output: Path) -> None:
     """Film one run of a file RUN: the blocks that let go, while the force runs along."""

@@ -15,8 +15,6 @@ from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
-_CONSTANTS = [name for name, _ in Material().items()]
-
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Record(Run):
@@ -31,7 +29,7 @@ class Record(Run):
     @property
     def material(self) -> Material:
         """The layer that was pulled."""
-        return Material(**{name: self.constants[name] for name in _CONSTANTS})
+        return Material(**{name: self.constants[name] for name, _ in Material().items()})
 
     @property
     def name(self) -> str:

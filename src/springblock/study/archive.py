@@ -27,7 +27,7 @@ _PROFILES = [
     "https://w3id.org/ro/wfrun/workflow/0.5",
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0",
 ]
-#: Types of files that the standard library does not know, and of those that are compressed.
+#: Types of files by their ending; all others are text.
 _TYPES = {
     ".md": "text/markdown",
     ".npz": "application/zip",
@@ -38,7 +38,6 @@ _TYPES = {
     ".json": "application/json",
     ".yaml": "application/yaml",
 }
-_COMPRESSED = {".npz", ".parquet", ".png", ".pdf", ".gif", ".mp4"}
 
 
 def archive(study: Path, results: Path, configuration: Path, output: Path) -> int:
@@ -62,13 +61,11 @@ def archive(study: Path, results: Path, configuration: Path, output: Path) -> in
     crate = _crate(study, files, made, configuration.relative_to(study).as_posix())
     with (
         whole_file(output) as partial,
-        zipfile.ZipFile(partial, "w", strict_timestamps=False) as packed,
+        zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as packed,
     ):
-        packed.writestr(CRATE, json.dumps(crate, indent=1), zipfile.ZIP_DEFLATED)
+        packed.writestr(CRATE, json.dumps(crate, indent=1))
         for name in files:
-            stored = Path(name).suffix in _COMPRESSED
-            how = zipfile.ZIP_STORED if stored else zipfile.ZIP_DEFLATED
-            packed.write(study / name, name, how)
+            packed.write(study / name, name)
     return len(files) + 1
 
 
@@ -109,12 +106,8 @@ def _crate(study: Path, files: Iterable[str], made: list[str], configuration: st
     cited = f"https://doi.org/{about['references'][0]['doi']}"
     paper = {"@type": "ScholarlyArticle", "name": about["references"][0]["title"]}
     crate.root_dataset["citation"] = crate.add(ContextEntity(crate, cited, paper))
-    profiles = [
-        crate.add(
-            ContextEntity(crate, url, {"@type": "CreativeWork", "name": url.split("/", 4)[4]})
-        )
-        for url in _PROFILES
-    ]
+    kinds = {url: {"@type": "CreativeWork", "name": url.split("/", 4)[4]} for url in _PROFILES}
+    profiles = [crate.add(ContextEntity(crate, url, kind)) for url, kind in kinds.items()]
     entities = {name: _add(crate, study, name) for name in files}
     results = [entities[name] for name in made]
     crate.root_dataset["conformsTo"] = profiles
@@ -142,18 +135,15 @@ def _action(
     crate: ROCrate, study: Path, entities: dict[str, Any], results: list[Any], configuration: str
 ) -> Any:
     """Describe the run: what was used, what it made, and when."""
-    times = sorted((study / entity.id).stat().st_mtime for entity in results)
-    began, ended = (
-        datetime.fromtimestamp(when, UTC).isoformat(timespec="seconds")
-        for when in (times[0], times[-1])
-    )
+    times = [(study / entity.id).stat().st_mtime for entity in results]
+    began, ended = (datetime.fromtimestamp(when(times), UTC) for when in (min, max))
     properties = {
         "@type": "CreateAction",
         "name": "The study was run",
         "description": f"Python {platform.python_version()}, snakemake {version('snakemake')}, "
         f"{platform.system()} on {platform.machine()}",
-        "startTime": began,
-        "endTime": ended,
+        "startTime": began.isoformat(timespec="seconds"),
+        "endTime": ended.isoformat(timespec="seconds"),
     }
     action = crate.add(ContextEntity(crate, "#run", properties))
     action["instrument"] = crate.mainEntity

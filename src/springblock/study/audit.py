@@ -15,21 +15,17 @@ from springblock.simulation.prelude import Prelude
 from springblock.simulation.setup import Setup
 from springblock.study.record import read
 
-#: Files that say what made them, and the step that makes them; the first pattern that fits counts.
+#: Files that say what made them, by the step that makes them.
 _MADE_BY = {
-    "realisations/**/*.parquet": "simulate",
-    "preludes/**/*.npz": "simulate",
-    "surfaces/*.npy": "mask",
-    "correlations/**/*.parquet": "analyse",
-    "accuracy/**/*.parquet": "accuracy",
-    "mechanism/*.parquet": "mechanism",
-    "tables/mechanism*.parquet": "mechanism",
-    "tables/correlation*.parquet": "analyse",
-    "tables/realisations.parquet": "simulate",
-    "tables/claims.parquet": "claims",
-    "tables/work_precision.parquet": "accuracy",
-    "tables/production.parquet": "accuracy",
-    "tables/stability.parquet": "accuracy",
+    "simulate": ("realisations/**/*.parquet", "preludes/**/*.npz", "tables/realisations.parquet"),
+    "mask": ("surfaces/*.npy",),
+    "analyse": ("correlations/**/*.parquet", "tables/correlation*.parquet"),
+    "accuracy": (
+        "accuracy/**/*.parquet",
+        *(f"tables/{name}.parquet" for name in ("work_precision", "production", "stability")),
+    ),
+    "mechanism": ("mechanism/*.parquet", "tables/mechanism*.parquet"),
+    "claims": ("tables/claims.parquet",),
 }
 _ASIDE = "set-aside"
 
@@ -43,10 +39,9 @@ class Fault(NamedTuple):
 
 def faults(results: Path) -> Iterator[Fault]:
     """Files that are damaged, not in their place, or of other code, as they tell themselves."""
-    constants, seen = _constants(results), set[Path]()
-    for pattern, step in _MADE_BY.items():
-        for file in sorted({*results.glob(pattern)} - seen):
-            seen.add(file)
+    constants = _constants(results)
+    for step, patterns in _MADE_BY.items():
+        for file in sorted(file for pattern in patterns for file in results.glob(pattern)):
             try:
                 _check(file, results, step, constants)
             except (OSError, ValueError) as error:

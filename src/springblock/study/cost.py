@@ -14,18 +14,14 @@ _PER_BLOCK = 600e-6  #: MB of the lattice and its prelude, measured as 400e-6
 _PER_ROW = 130e-6  #: MB of a block in each realisation of a batch, measured as 90e-6
 
 
-def loading_time(scene: Scene, setup: Setup) -> float:
-    """Time in s in which a mean block would be loaded up to its threshold: t = mu_s F_n/(K_s v).
-
-    A run that ends by itself takes 0.2 to 1.4 times as long, on all surfaces of this study.
-    """
-    return setup.loading_time(scene.contact, setup.material.mu_static)
-
-
 def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
-    """CPU time in s of one realisation from zero; its prelude takes no more."""
-    steps = (duration or loading_time(scene, setup)) / setup.step
-    return steps * math.prod(scene.shape) * _RATE[setup.integrator]
+    """CPU time in s of one realisation from zero; its prelude takes no more.
+
+    A run that ends by itself takes 0.2 to 1.4 times as long as loading a mean block up to its
+    threshold, t = mu_s F_n/(K_s v), on all surfaces of this study.
+    """
+    duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
+    return duration / setup.step * math.prod(scene.shape) * _RATE[setup.integrator]
 
 
 def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:

@@ -43,7 +43,7 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
             f"realisations_per_job: {results} was made with {before['realisations_per_job']}, and "
             "batches of another size would hold its seeds twice; keep it, or choose another folder"
         )
-    if not _is_remembered(record):
+    if not (MEMORY / record["identity"]).exists():
         _refuse_other(results, record, configuration, "Snakemake's memory of it is lost")
 
 
@@ -86,10 +86,6 @@ def read(results: Path) -> dict[str, Any] | None:
     except (LookupError, TypeError, ValueError):
         raise ValueError(f"{results / RECORD} is damaged; remove {results}") from None
     return record
-
-
-def _is_remembered(record: Mapping[str, Any]) -> bool:
-    return (MEMORY / record["identity"]).exists()
 
 
 def _refuse_other(

@@ -1,11 +1,11 @@
-"""springblock verify and repair: whether results are what they should be, and what if not."""
+"""springblock verify, repair and archive: results are checked, mended and packed."""
 
 from pathlib import Path
 
 import click
 
 from springblock.analysis import comparison
-from springblock.cli.options import one_sentence
+from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.io.parquet import load
 from springblock.study import audit
 
@@ -68,3 +68,22 @@ def repair(results: Path) -> None:
         click.echo(fault.reason)
     files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
     click.echo(f"{files} set aside in {results / 'set-aside'}" if found else "all is well")
+
+
+@click.command("archive")
+@click.argument("results", type=FOLDER)
+@click.option(
+    "--configuration",
+    type=INPUT,
+    default=Path("config/config.yaml"),
+    show_default=True,
+    help="What the study was run with.",
+)
+@click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
+def archive_study(results: Path, configuration: Path, output: Path) -> None:
+    """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
+    from springblock.study.archive import archive  # needs what the study needs
+
+    with one_sentence():
+        number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
+    click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

@@ -1,12 +1,13 @@
-"""springblock correlation: correlations of detachment times on one scene."""
+"""springblock aggregate and correlation: tables of realisations, and of their correlations."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
 
+from springblock.accuracy.conventions import suspects
 from springblock.analysis.correlation import (
     Correlation,
     Length,
@@ -15,10 +16,32 @@ from springblock.analysis.correlation import (
     side_times,
 )
 from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
-from springblock.io.parquet import load, origin_of, rows_to_table, write
+from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
-from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
+from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.model.scene import COLUMNS
+
+
+@click.command("aggregate")
+@click.argument("batches", type=INPUT, nargs=-1, required=True)
+@click.option("--configuration", required=True, help="Digest of the study's configuration.")
+@click.option("--realisations", type=int, help="How many there must be.")
+@click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
+def aggregate(
+    batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
+) -> None:
+    """Collect the summaries of all BATCHES into one table, a row per realisation."""
+    with one_sentence():
+        table = read(batches, SUMMARY)
+        if realisations not in (None, table.num_rows):
+            raise ValueError(f"the batches hold {table.num_rows} realisations, not {realisations}")
+        table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
+        for row in suspects(table.to_pylist(), COLUMNS):
+            which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
+            click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
+        metadata = {"code_version": code_version("simulate"), "configuration_digest": configuration}
+        write(table, output, metadata)
 
 
 @click.command("correlation")
@@ -52,7 +75,7 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
     columns = {**scene.row, **records[0].constants, "realisations": len(records)}
     for side in scene.sides:
         yield columns | {"side": side}, side_times(records, scene.pattern, side)
-    if scene.level == 2 and scene.sides:
+    if scene.level == 2:
         yield columns | {"side": "grooves"}, groove_times(records, scene.pattern)
 
 
@@ -60,29 +83,27 @@ def _curve(found: Correlation, length: Length) -> Iterator[Row]:
     k, pillars, sides, _ = found.times.shape
     residuals = np.full((3, len(found.mean)), np.nan)
     residuals[:, 1 : length.last + 1] = length.residual
-    for r, (mean, low, high, bias) in enumerate(zip(*found.interval, found.bias, strict=True)):
-        yield {
-            "r": r,
-            "correlation": mean,
-            "ci_low": low,
-            "ci_high": high,
-            "bias": bias,
-            **dict(
-                zip(("residual", "residual_low", "residual_high"), residuals[:, r], strict=True)
-            ),
-            "samples": k * pillars * sides,
-        }
+    correlations = np.transpose(found.interval)
+    for r, (each, bias, residual) in enumerate(
+        zip(correlations, found.bias, residuals.T, strict=True)
+    ):
+        limits = _columns("correlation", each, "ci") | _columns("residual", residual)
+        yield {"r": r, **limits, "bias": bias, "samples": k * pillars * sides}
 
 
 def _length(length: Length) -> Row:
-    names = ["l_c", "ci_low", "ci_high"]
-    names += [
-        f"{key}{end}" for key in ("integral", "tail", "amplitude") for end in ("", "_low", "_high")
-    ]
-    values = map(float, (*length.fitted, *length.integral, *length.tail, *length.amplitude))
     return {
-        **dict(zip(names, values, strict=True)),
+        **_columns("l_c", length.fitted, "ci"),
+        **_columns("integral", length.integral),
+        **_columns("tail", length.tail),
+        **_columns("amplitude", length.amplitude),
         "bias": length.bias,
         "r_last": length.last,
         "deviation": length.deviation,
     }
+
+
+def _columns(name: str, interval: Iterable[Any], limits: str = "") -> Row:
+    """Columns of a value and the limits of its interval."""
+    names = name, f"{limits or name}_low", f"{limits or name}_high"
+    return dict(zip(names, map(float, interval), strict=True))

@@ -1,0 +1,53 @@
+"""The record of a results folder, and what it refuses where Snakemake's memory is lost."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from springblock.study import record
+
+RESULTS = Path("results")
+BEFORE = {"step": 2e-8, "realisations_per_job": 2}
+OTHER = BEFORE | {"step": 1e-8}
+
+
+@pytest.fixture(autouse=True)
+def recorded(tmp_path, monkeypatch):
+    """Begin a folder of results under one configuration."""
+    monkeypatch.chdir(tmp_path)
+    record.begin(RESULTS, BEFORE, touched=False)
+    (RESULTS / "realisations").mkdir()
+
+
+def test_results_of_another_configuration_or_code_are_refused_without_memory(monkeypatch):
+    record.refuse_unknown(RESULTS, OTHER)  # Snakemake compares them itself
+    shutil.rmtree(".snakemake")
+    record.refuse_unknown(RESULTS, BEFORE)
+    with pytest.raises(ValueError, match=r"results of another configuration \(step\), and Snakem"):
+        record.refuse_unknown(RESULTS, OTHER)
+    monkeypatch.setattr(record, "digest", lambda step: f"of another {step}")
+    with pytest.raises(ValueError, match=r"results of another code \(compile, mask, simulate, "):
+        record.refuse_unknown(RESULTS, BEFORE)
+
+
+def test_whatever_a_folder_was_made_under_counts():
+    record.begin(RESULTS, OTHER, touched=False)
+    shutil.rmtree(".snakemake")
+    with pytest.raises(ValueError, match="another configuration"):
+        record.refuse_unknown(RESULTS, OTHER)
+
+
+def test_batches_of_another_size_are_refused():
+    with pytest.raises(ValueError, match=r"^realisations_per_job: results was made with 2, and"):
+        record.refuse_unknown(RESULTS, BEFORE | {"realisations_per_job": 3})
+
+
+def test_results_without_their_record_or_with_half_of_it_are_refused():
+    file = RESULTS / record.RECORD
+    file.write_text(file.read_text()[:20])
+    with pytest.raises(ValueError, match=r"study\.json is damaged; remove results"):
+        record.refuse_unknown(RESULTS, BEFORE)
+    file.unlink()
+    with pytest.raises(ValueError, match=r"results holds results without study\.json"):
+        record.refuse_unknown(RESULTS, BEFORE)
