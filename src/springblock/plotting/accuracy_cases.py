@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
 from pandas import DataFrame
 
 from springblock.plotting import style
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
+from springblock.plotting.looks import METHODS
+from springblock.plotting.style import BLACK, GREY, Look
 
-_INTEGRATORS: dict[str, tuple[str, Look]] = {
-    "leapfrog": ("leapfrog", {"color": BLUE, "marker": "o"}),
-    "rk4": (
-        "Runge–Kutta",
-        {"color": VERMILION, "marker": "s", "markersize": 3.8, "markerfacecolor": "none"},
-    ),
+#: Outcomes without an error to show: marker, its height as a share of the panel, and name.
+_ENDS = {
+    "refused": ("x", 0.95, "refused at the start"),
+    "raises": ("^", 0.87, "ended by an exception"),
+    "nothing": ("d", 0.79, "as expected, nothing to compare"),
 }
-#: Outcomes without an error to show.
-_ENDS = {"refused": ("refused at the start", "x"), "raises": ("ended by an exception", "^")}
-_NOTHING = ("as expected, nothing to compare", "d")
-_HEIGHTS = {"x": 0.95, "^": 0.87, "d": 0.79}  #: of these, as shares of the panel
-_ACCEPTED: Look = {"color": GREY, "marker": "_", "markersize": 6.0, "linestyle": ""}
+_ACCEPTED: Look = {"label": "accepted", "color": GREY, "marker": "_", "markersize": 6.0}
+_ACCEPTED |= {"linestyle": ""}
 
 #: Families over a parameter: the name of the axis, and the beginnings of the quantities shown,
 #: each with a label at (share of the axis, error).
@@ -64,7 +61,9 @@ def stability(cases: DataFrame) -> Figure:
         ax.set_xlabel(name)
         ax.tick_params(labelleft=ax is families[0])
     families[0].set_ylabel("relative error")
-    _draw_legend(picture)
+    for marker, _, name in _ENDS.values():
+        _mark(families[0], [], 0.0, {"color": GREY, "label": name}, marker)
+    style.legend_above(picture, steps, families[0], ncols=6, columnspacing=1.4)
     return picture
 
 
@@ -80,7 +79,7 @@ def _of(cases: DataFrame, integrator: str, outcome: str) -> DataFrame:
 def _draw_steps(ax: Axes, cases: DataFrame) -> None:
     """Draw the energy residual of one scene over the step, small and unstable steps too."""
     scene = cases.loc[cases["case"].str.startswith("pillars")]
-    for integrator, (_, look) in _INTEGRATORS.items():
+    for integrator, look in METHODS.items():
         runs = _of(scene, integrator, "stable")
         ax.plot(runs["parameter"], runs["energy_error"].abs(), linewidth=0.6, **look)
     ax.axvline(1.0, color=BLACK, linewidth=0.8, linestyle="--", zorder=0.5)
@@ -97,21 +96,19 @@ def _draw_steps(ax: Axes, cases: DataFrame) -> None:
 def _draw_overview(ax: Axes, cases: DataFrame) -> None:
     """Draw error over accepted error, family by family; within each, the cases lie side by side."""
     families = list(dict.fromkeys(cases["family"]))
-    for number, family in enumerate(families):
-        for integrator, (_, look) in _INTEGRATORS.items():
-            runs = _family(cases, family).query("integrator == @integrator")
-            middle = number + (-0.21 if integrator == "leapfrog" else 0.21)
-            known = runs.loc[runs["tolerance"].notna()]
-            error = known["relative_error"].abs()
-            share = (error / known["tolerance"]).where(error > 0.0, 0.0).clip(lower=_LEAST)
-            aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0 * share
-            ax.plot(middle + aside, share, linestyle="", **look)
-            outcomes = set(runs["outcome"])
-            markers = [marker for word, (_, marker) in _ENDS.items() if word in outcomes]
-            if (runs["tolerance"].isna() & ~runs["outcome"].isin(_ENDS)).any():
-                markers.append(_NOTHING[1])
-            for marker in markers:
-                _mark(ax, [middle], _HEIGHTS[marker], look, marker)
+    nothing = cases["tolerance"].isna() & ~cases["outcome"].isin(_ENDS)
+    cases = cases.assign(outcome=cases["outcome"].mask(nothing, "nothing"))
+    for (number, family), integrator in product(enumerate(families), METHODS):
+        look, middle = METHODS[integrator], number + (-0.21 if integrator == "leapfrog" else 0.21)
+        runs = _family(cases, family).query("integrator == @integrator")
+        known = runs.dropna(subset="tolerance")
+        share = known["relative_error"].abs() / known["tolerance"]
+        share = share.fillna(0.0).clip(lower=_LEAST)  # 0/0: none is accepted, and none there
+        aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0 * share
+        ax.plot(middle + aside, share, linestyle="", **look)
+        for outcome, (marker, height, _) in _ENDS.items():
+            if outcome in set(runs["outcome"]):
+                _mark(ax, [middle], height, look, marker)
     ax.axhline(1.0, color=GREY, linewidth=0.8)
     ax.text(len(families) - 0.5, 1.4, "accepted", color=GREY, ha="right", va="bottom")
     ax.set(yscale="log", ylim=(_LEAST / 4.0, 1e4), xlim=(-0.6, len(families) - 0.4))
@@ -129,7 +126,7 @@ def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, 
     """Draw the error of a family over its parameter."""
     for start, (label, across, up) in shown.items():
         same = cases.loc[cases["quantity"].str.startswith(start)]
-        for integrator, (_, look) in _INTEGRATORS.items():
+        for integrator, look in METHODS.items():
             runs = _of(same, integrator, "agrees")
             error = runs["relative_error"].abs().clip(lower=_SMALLEST)
             ax.plot(runs["parameter"], error, linewidth=0.6, **look)
@@ -140,10 +137,10 @@ def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, 
     ax.set(yscale="log", ylim=(_SMALLEST / 5.0, 1e3))
     ax.margins(x=0.1)  # of whole symbols
     ax.set_yticks([10.0**k for k in range(-16, 1, 4)])
-    parameters = cases["parameter"]
-    smallest, largest = (np.log10(parameters[parameters > 0.0].agg(end)) for end in ("min", "max"))
-    powers = [10.0**k for k in range(round(smallest), round(largest) + 1, 2)]
-    if (parameters > 0.0).all():
+    positive = cases["parameter"][cases["parameter"] > 0.0]
+    smallest, largest = np.log10([positive.min(), positive.max()]).round()
+    powers = 10.0 ** np.arange(smallest, largest + 1.0, 2.0)
+    if len(positive) == len(cases):
         ax.set_xscale("log")
         ax.set_xticks(powers)
     else:
@@ -156,8 +153,8 @@ def _draw_family(ax: Axes, cases: DataFrame, shown: dict[str, tuple[str, float, 
 
 def _draw_ends(ax: Axes, cases: DataFrame) -> None:
     """Mark the cases that end early at the top of the panel."""
-    for (integrator, (_, look)), height in zip(_INTEGRATORS.items(), (0.95, 0.87), strict=True):
-        for outcome, (_, marker) in _ENDS.items():
+    for (integrator, look), height in zip(METHODS.items(), (0.95, 0.87), strict=True):
+        for outcome, (marker, _, _) in _ENDS.items():
             _mark(ax, _of(cases, integrator, outcome)["parameter"], height, look, marker)
 
 
@@ -165,14 +162,3 @@ def _mark(ax: Axes, places: Any, height: float, look: Look, marker: str) -> None
     """Draw markers at a share of the panel's height."""
     looks = {**look, "marker": marker, "markersize": 4.0, "linestyle": ""}
     ax.plot(places, np.full(len(places), height), transform=ax.get_xaxis_transform(), **looks)
-
-
-def _draw_legend(picture: Figure) -> None:
-    kinds = [
-        Line2D([], [], linewidth=0.6, label=name, **look) for name, look in _INTEGRATORS.values()
-    ]
-    kinds.append(Line2D([], [], label="accepted", **_ACCEPTED))
-    for label, marker in (*_ENDS.values(), _NOTHING):
-        look: Look = {"color": GREY, "linestyle": "", "marker": marker, "markersize": 4.0}
-        kinds.append(Line2D([], [], label=label, **look))
-    picture.legend(handles=kinds, loc="outside upper center", ncols=6, columnspacing=1.4)

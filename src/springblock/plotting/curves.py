@@ -85,34 +85,28 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
 
 
+def lesser_peaks(runs: Sequence[Run]) -> Array:
+    """Return the prominence of the lesser load peak of each run, % of the largest force."""
+    return PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
+
+
 def lesser_peak(runs: Sequence[Run]) -> str:
-    """Return the mean prominence of the lesser load peak of each run, with its 95 % interval."""
-    found = [PERCENT * statistics.prominence(friction(run)) for run in runs]
-    mean, low, high = statistics.mean_interval(found)
+    """Return the mean prominence of the lesser load peaks with its 95 % interval."""
+    mean, low, high = statistics.mean_interval(lesser_peaks(runs))
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
-def enlarged_span(curves: Sequence[Curve], share: float) -> Span:
-    """Return the times from which the first mean force is close to its maximum to the last's end.
+def fit_forces(ax: Axes, curves: Sequence[Curve], share: float) -> None:
+    """Fit axes to the ends of mean forces, with room for triangles.
 
-    Close is a `share` of the maximum.
+    They begin where the first force reaches a `share` of its maximum.
     """
-    means = [(curve.time, statistics.mean_of_rest(curve.friction).mean) for curve in curves]
+    means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
     start = min(time[np.argmax(mean >= share * np.nanmax(mean))] for time, mean in means)
     end = max(time[np.isfinite(mean)][-1] for time, mean in means)
-    return MICRO * float(start), MICRO * float(end)
-
-
-def fit_forces(ax: Axes, curves: Sequence[Curve], span: Span) -> None:
-    """Fit axes to the mean forces within `span`, with room for triangles."""
-    means = [_within(span, c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
-    low, high = np.nanmin(np.concatenate(means)), np.nanmax(np.concatenate(means))
-    ax.set(xlim=span, ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
-
-
-def _within(span: Span, time: Array, values: Array) -> Array:
-    """Return the values at times in s that lie within `span`."""
-    return values[(MICRO * time >= span[0]) & (MICRO * time <= span[1])]
+    shown = np.concatenate([mean[(time >= start) & (time <= end)] for time, mean in means])
+    low, high = np.nanmin(shown), np.nanmax(shown)
+    ax.set(xlim=(start, end), ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
 
 
 def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
@@ -142,7 +136,8 @@ def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
         ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
         ax.plot(MICRO * time, forces.mean(axis=0), label="their mean", **_MEAN)
     ax.plot(MICRO * run.time, friction(run), color=BLACK, label="one run")
-    shown = np.concatenate([_within(span, one.time, friction(one)) for one in (run, *others)])
+    curves = [(MICRO * one.time, friction(one)) for one in (run, *others)]
+    shown = np.concatenate([y[(span[0] <= x) & (x <= span[1])] for x, y in curves])
     room = 0.08 * float(np.ptp(shown))
     ax.set_ylim(max(0.0, float(shown.min()) - room), float(shown.max()) + room)
     ax.set_ylabel(FORCE)

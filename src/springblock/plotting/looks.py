@@ -11,6 +11,12 @@ from springblock.plotting.style import BLACK, BLUE, GREEN, VERMILION, Look
 
 Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
 
+#: Integrators by name. Symbols of Runge-Kutta are open, as some cover those of the leapfrog.
+METHODS: dict[str, Look] = {
+    "leapfrog": {"label": "leapfrog", "color": BLUE, "marker": "o"},
+    "rk4": {"label": "Runge–Kutta", "color": VERMILION, "marker": "s"}
+    | {"markersize": 3.8, "markerfacecolor": "none"},
+}
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
 _STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}
 #: By n_p.

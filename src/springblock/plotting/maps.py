@@ -1,11 +1,12 @@
 """Maps of a surface, block by block: where it touches, and when blocks have detached."""
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize, TwoSlopeNorm, to_rgb
+from matplotlib.colors import ListedColormap, TwoSlopeNorm, to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
@@ -26,12 +27,13 @@ DISPLACEMENT = r"displacement $|u|$ (nm)"
 _LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 
 
-def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
+def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l", **look: Any) -> AxesImage:
     """Show one value or colour per block; block (x, y) covers x ± 1/2, y ± 1/2.
 
-    What is drawn later does not stretch the panel. `axes` follows x and y in their names.
+    What is drawn later does not stretch the panel. `axes` follows x and y in their names; `look`
+    are further arguments of `Axes.imshow`.
     """
-    image = ax.imshow(values, origin="lower", interpolation="nearest")
+    image = ax.imshow(values, origin="lower", interpolation="nearest", **look)
     ax.autoscale(False)
     ax.set(xlabel=f"$x{axes}$", ylabel=f"$y{axes}$")
     for axis in (ax.xaxis, ax.yaxis):
@@ -39,11 +41,9 @@ def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
     return image
 
 
-def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l") -> AxesImage:
+def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l", **look: Any) -> None:
     """Show which blocks touch the substrate."""
-    image = draw_map(ax, contact, axes)
-    image.set(cmap=_BLOCKS, clim=(0, 1))
-    return image
+    draw_map(ax, contact, axes, cmap=_BLOCKS, vmin=0, vmax=1, **look)
 
 
 def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0)) -> None:
@@ -57,8 +57,7 @@ def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0,
 def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> None:
     """Map mean t_det/t_max on a scale of its own."""
     norm = scale(times)
-    image = draw_map(ax, times, axes)
-    image.set(cmap=BEFORE_AFTER, norm=norm)
+    image = draw_map(ax, times, axes, cmap=BEFORE_AFTER, norm=norm)
     color_bar(ax, image, label, ticks=_ticks(norm))
 
 
@@ -77,23 +76,20 @@ def _ticks(norm: TwoSlopeNorm) -> list[float]:
     return ticks
 
 
-def draw_times_bar(ax: Axes, run: Run) -> None:
-    """Say below a map of one run which colour stands for which time."""
+def draw_times(ax: Axes, run: Run, until: float = math.inf) -> AxesImage:
+    """Map the blocks of a run that have detached until a time in s, with the colours below."""
+    if np.isfinite(run.t_det).any():
+        _draw_times_bar(ax, run)
+    return draw_map(ax, painted(run, until))
+
+
+def _draw_times_bar(ax: Axes, run: Run) -> None:
     label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
     norm = scale(run.t_det / run.t_max)
     look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
     bar = color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look).ax
     for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
-
-
-def draw_times(ax: Axes, run: Run, *names: str, until: float = math.inf) -> AxesImage:
-    """Map the blocks that have detached until a time in s, and name the colours of others."""
-    image = draw_map(ax, painted(run, until))
-    draw_key(ax, *names, *([] if run.contact.all() else ["not in contact"]))
-    if np.isfinite(run.t_det).any():
-        draw_times_bar(ax, run)
-    return image
 
 
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
@@ -118,9 +114,9 @@ def draw_key(ax: Axes, *names: str) -> None:
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
 
 
-def displacements(snapshots: Array) -> tuple[Array, ScalarMappable]:
-    """Return |u| in nm of snapshots, (k, 2, N, N) m, and their common colours."""
+def displacements(snapshots: Array) -> tuple[Array, Look]:
+    """Return |u| in nm of snapshots, (k, 2, N, N) m, and the look of their maps."""
     sizes = style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
     # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
     # doi:10.1371/journal.pone.0199239).
-    return sizes, ScalarMappable(Normalize(0.0, max(float(sizes.max()), 1e-12)), "cividis")
+    return sizes, {"cmap": "cividis", "vmin": 0.0, "vmax": max(float(sizes.max()), 1e-12)}

@@ -5,10 +5,8 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from springblock.analysis import statistics
@@ -71,12 +69,9 @@ def figure_2(runs: Sequence[Run]) -> Figure:
 
 def figure_3(runs: Sequence[Record]) -> Figure:
     """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
-    run = runs[0]
     picture, (ax,) = style.panels(style.COLUMN, 100.0)
-    image = maps.draw_map(ax, run.t_det / run.t_max)
-    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run.t_det / run.t_max))
-    maps.draw_times_bar(ax, run)
-    draw_sliding(ax, run.scene.direction)
+    maps.draw_times(ax, runs[0])
+    draw_sliding(ax, runs[0].scene.direction)
     return picture
 
 
@@ -139,8 +134,7 @@ def figure_6(ensembles: BySize) -> Figure:
     friction.set_ylabel(points.FRICTION)
     friction.tick_params(labelbottom=False)
     lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
-    names = force.get_legend_handles_labels()
-    picture.legend(*names, loc="outside upper center", ncols=8)
+    style.legend_above(picture, force, ncols=8)
     return picture
 
 
@@ -253,13 +247,11 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     All rows have the same axes; triangles stand above load peaks.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    every = list(found.values())
     rows = sorted({key[:2] for key in found})
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
-    named: dict[str, Artist] = {}
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
         peaks = [f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}, lesser peak:"]
         for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
@@ -268,16 +260,17 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
             curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
             peaks.append(f"{name} {curves.lesser_peak(ensembles[*row, direction])}")
-        named |= dict(zip(*force.get_legend_handles_labels()[::-1], strict=True))
         force.set_ylabel(FORCE)
         force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
-        curves.fit_forces(force, every, curves.enlarged_span(every, _SHOWN))
-        force.set_ylim(0.0, 1.05 * force.get_ylim()[1])
+        force.sharey(panels[0])
         blocks.sharey(panels[1])
+    curves.fit_forces(panels[0], list(found.values()), _SHOWN)
+    panels[0].set_ylim(0.0, 1.05 * panels[0].get_ylim()[1])
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
-    named["load peak of the mean"] = Line2D([], [], color=GREY, marker="v", linestyle="none")
-    named["fewer runs"] = Line2D([], [], color=GREY, **curves.REST)
-    picture.legend(named.values(), named.keys(), loc="outside upper center", ncols=4)
+    peak: Look = {"marker": "v", "linestyle": "none", "label": "load peak of the mean"}
+    panels[-2].plot([], [], color=GREY, **peak)
+    panels[-2].plot([], [], color=GREY, **curves.REST, label="fewer runs")
+    style.legend_above(picture, *panels[::2], ncols=4)
     return picture

@@ -73,10 +73,8 @@ def name_places(ax: Axes, places: ArrayLike) -> None:
 
 def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Samples]:
     """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
-    highest, lag = {}, {}
-    for key, runs in ensembles.items():
-        highest[key] = np.array([run.static_friction for run in runs])
-        lag[key] = np.array([MICRO * (run.t_max - run.t_avg) for run in runs])
+    highest = {k: np.array([r.static_friction for r in runs]) for k, runs in ensembles.items()}
+    lag = {k: MICRO * np.array([r.t_max - r.t_avg for r in runs]) for k, runs in ensembles.items()}
     return highest, lag
 
 

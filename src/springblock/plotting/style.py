@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib import style
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
@@ -113,6 +114,15 @@ def share_axes(row: Sequence[Axes]) -> None:
         ax.sharex(row[0])
         ax.sharey(row[0])
         ax.tick_params(labelleft=False)
+
+
+def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:
+    """Name what panels show above all of them, each name once."""
+    named: dict[str, Artist] = {}
+    for ax in panels:
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            named.setdefault(label, handle)
+    picture.legend(named.values(), named.keys(), **{"loc": "outside upper center"} | look)
 
 
 def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Colorbar:

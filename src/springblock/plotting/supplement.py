@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -16,8 +15,8 @@ from springblock.io.records import Record
 from springblock.model.direction import degrees
 from springblock.plotting import curves, looks, maps, points, style
 from springblock.plotting.looks import Key
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
-from springblock.simulation.run import Array, Run, friction, percent
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
+from springblock.simulation.run import Array, Run, percent
 
 _SPREAD = 2.0  #: degrees over which single runs are spread
 _CLOSE = 0.85  #: share of the maximum from which the force on three levels is shown
@@ -75,10 +74,7 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     names = {degrees(name): name for name in ensembles}
     by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
     highest, lag = points.highest_and_lag(by_angle)
-    lesser = {
-        angle: PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
-        for angle, runs in by_angle.items()
-    }
+    lesser = {angle: curves.lesser_peaks(runs) for angle, runs in by_angle.items()}
     for ax, samples in zip(panels, (highest, lag, lesser), strict=True):
         for angle, sample in samples.items():
             color = looks.direction_color(names[angle])
@@ -95,7 +91,6 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
 def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level."""
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    span = curves.enlarged_span(list(found.values()), _CLOSE)
     picture, panels = style.panels(style.COLUMN, 99.0, "a;b", sharex=True, sharey=True)
     for direction, ax in zip(("x", "y"), panels, strict=True):
         shown = {level: curve for (name, level), curve in found.items() if name == direction}
@@ -109,7 +104,7 @@ def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> 
             ax.legend(loc="lower left", title=_TITLE, alignment="left")
         ax.set_ylabel(FORCE)
         ax.set_title(f"sliding {looks.direction_name(direction)}", loc="right")
-    curves.fit_forces(panels[0], list(found.values()), span)
+    curves.fit_forces(panels[0], list(found.values()), _CLOSE)
     low, high = panels[0].get_ylim()
     panels[0].set_ylim(low - 0.4 * (high - low), high)  # room for the legends
     panels[-1].set_xlabel("time (µs)")
@@ -121,8 +116,11 @@ def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     picture, (ax,) = style.panels(style.COLUMN, 76.0)
     for key in looks.in_order(ensembles):
         name, look = looks.surface_look(key)
-        friction = np.array([run.static_friction for run in ensembles[key]])
-        _draw_widths(ax, _MILLI * friction, look | {"label": name})
+        values = _MILLI * np.array([run.static_friction for run in ensembles[key]])
+        if widths := statistics.half_widths(values, _SIZES):
+            sizes, predicted = np.array(list(widths)), _NORMAL * values.std(ddof=1)
+            ax.plot(sizes, list(widths.values()), linestyle="none", label=name, **look)
+            ax.plot(sizes, predicted / np.sqrt(sizes), color=look["color"], linewidth=0.5)
     ax.set(yscale="log", ylabel="± of static friction (10⁻³)", xlabel="number of realisations")
     ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     ax.yaxis.set_major_formatter("{x:g}")
@@ -130,19 +128,8 @@ def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     most = max(map(len, ensembles.values()))
     points.name_places(ax, [k for k in _SIZES if k <= max(most, _SIZES[0])])
     ax.plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
-    picture.legend(loc="outside upper center", ncols=3)
+    style.legend_above(picture, ax, ncols=3)
     return picture
-
-
-def _draw_widths(ax: Axes, values: Array, look: Look) -> None:
-    """Draw widths measured on subsets, over the line that the whole ensemble predicts."""
-    widths = statistics.half_widths(values, _SIZES)
-    if not widths:
-        return
-    sizes = np.array(list(widths))
-    ax.plot(sizes, list(widths.values()), linestyle="none", **look)
-    predicted = _NORMAL * values.std(ddof=1) / np.sqrt(sizes)
-    ax.plot(sizes, predicted, color=look["color"], linewidth=0.5)
 
 
 def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:

@@ -130,8 +130,7 @@ def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
             points.name_places(ax, every)
     panels[-1].set_xlabel(_axis(over))
     if len(found) > 1:
-        named = panels[0].get_legend_handles_labels()
-        picture.legend(*named, loc="outside upper left", ncols=columns)
+        style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
 
 
