@@ -67,9 +67,11 @@ def plot(
             picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
         else:
             rows = read_tables(files, SUMMARY).to_pylist()
-            picture = sweep.draw(rows, over, observables or ["static_friction"])
-            caption = sweep.caption(rows, over)
-            _tell_left_out(len(rows) - len(sweep.drawn(rows, over)), over)
+            found = sweep.lines(rows, over)
+            picture = sweep.draw(found, over, observables or ["static_friction"])
+            caption = sweep.caption(found)
+            drawn = sum(len(runs) for line in found.values() for runs in line.values())
+            _tell_left_out(len(rows) - drawn, over)
         for output in outputs:
             save(picture, output, caption)
 

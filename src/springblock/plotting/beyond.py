@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, NullLocator
+from matplotlib.ticker import NullFormatter
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.statistics import Interval, cluster_sizes
@@ -17,11 +17,8 @@ from springblock.beyond import clusters, friction, lattice, peaks, scatter, slid
 from springblock.beyond.question import Ensembles, by_scene
 from springblock.beyond.resampling import FEWEST, lowest
 from springblock.io.records import Record
-from springblock.plotting import style
-from springblock.plotting.curves import draw_band
-from springblock.plotting.looks import pillar_look, pillar_name, shades
-from springblock.plotting.points import FRICTION, ZERO, draw_means, draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, color_bar
+from springblock.plotting import curves, style
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
 from springblock.simulation.run import Array
 
 Folders = Mapping[str, Sequence[Record]]  #: realisations by the folder of their scene
@@ -58,7 +55,7 @@ def beyond_lattice(ensembles: Folders) -> Figure:
 
 def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
     """Draw c_x(r) with its band over r in µm."""
-    colors = shades(at.spacing for at in lattices)
+    colors = style.shades(at.spacing for at in lattices)
     for at, sizes in lattices.items():
         runs = list(sizes.values())[-1]
         if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
@@ -66,8 +63,8 @@ def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
         found = Correlation(side_times(runs, runs[0].scene.pattern, "x")).interval
         label = _LABELS["spacing"].format(at.spacing)
         look = {"color": colors[at.spacing], "label": label} | _DOTS
-        draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
-    ax.axhline(0.0, **ZERO)
+        curves.draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
+    ax.axhline(0.0, **curves.ZERO)
     ax.set(xlabel="distance along the side $r$ (µm)", ylabel="time correlation $c_x(r)$")
     ax.legend(loc="upper right")
 
@@ -87,7 +84,7 @@ def _draw_lengths(
         if lengths:
             places = [getattr(at, varied) for at in lengths]
             intervals = [at.spacing * np.array(blocks) for at, blocks in lengths.items()]  # µm
-            draw_points(ax, places, intervals, color, marker=marker, label=label)
+            curves.draw_points(ax, places, intervals, color, marker=marker, label=label)
             spots += places
     ax.set_yscale("log")
     ends = np.array([min(spots), max(spots)])
@@ -95,7 +92,7 @@ def _draw_lengths(
     for slope in (0.0, 1.0):
         guide = height * (ends / np.sqrt(ends.prod())) ** slope
         ax.plot(ends, guide, color=GREY, linewidth=0.5, linestyle=":", zorder=0)
-    name_places(ax, spots)
+    curves.name_places(ax, spots)
     ax.set(xlabel="spacing $l$ or thickness $l_z$ (µm)", ylabel="decay length (µm)")
     ax.set_ylim(None, 8.0 * ax.get_ylim()[1])
     ax.legend(loc="upper left")
@@ -104,11 +101,11 @@ def _draw_lengths(
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     """Draw static friction over the size of pillars, and mark where it is lowest."""
     lines = {getattr(at, varied): sizes for at, sizes in part.items()}
-    colors = shades(lines)
+    colors = style.shades(lines)
     for value, sizes in lines.items():
         samples = {size: friction.static_friction(runs) for size, runs in sizes.items()}
         label = _LABELS[varied].format(value)
-        draw_means(ax, samples, colors[value], marker="o", label=label)
+        curves.draw_means(ax, samples, colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
     for i, (value, sizes) in enumerate(lines.items(), 1):
@@ -117,8 +114,8 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
         ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
-    name_places(ax, [size for sizes in part.values() for size in sizes])
-    ax.set(xlabel="size of pillars (µm)", ylabel=FRICTION)
+    curves.name_places(ax, [size for sizes in part.values() for size in sizes])
+    ax.set(xlabel="size of pillars (µm)", ylabel=curves.FRICTION)
     ax.legend(loc="upper center", ncols=2)
 
 
@@ -128,11 +125,11 @@ def beyond_disorder(ensembles: Folders) -> Figure:
     scatters = scatter.shared(scatter.by_scatter(found))
     picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
     _draw_lengths_of_scatters(panels[0], scatters)
-    for std, color in shades(scatters).items():
+    for std, color in style.shades(scatters).items():
         samples = {n_p: friction.static_friction(runs) for n_p, runs in scatters[std].items()}
-        draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
-    name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
-    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+        curves.draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
+    curves.name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
+    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     panels[1].legend(loc="best", title="scatter")
     _draw_variance(panels[2], found)
     return picture
@@ -140,12 +137,12 @@ def beyond_disorder(ensembles: Folders) -> Figure:
 
 def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes]) -> None:
     sizes = scatter.long_enough(scatters)
-    for n_p, color in shades(sizes).items():
+    for n_p, color in style.shades(sizes).items():
         fitted = scatter.fits(scatters, int(n_p))
         lengths = [fit.interval for fit in fitted.values()]
         places = [std * (1.0 + 0.03 * (sizes.index(int(n_p)) - 1)) for std in fitted]
-        draw_points(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
-    name_places(ax, list(scatters))
+        curves.draw_points(ax, places, lengths, color, marker="o", label=f"$n_p$ = {n_p}")
+    curves.name_places(ax, list(scatters))
     ax.set(xlabel="scatter of static coefficients", ylabel="decay length (blocks)")
     ax.set_yscale("log")
     ax.yaxis.set_minor_formatter(NullFormatter())
@@ -159,12 +156,12 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
         spread = [variance.variance(values) for values in sizes.values()]
         named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
         label = f"{named}: $x$ = {float(variance.exponent(sizes).mean):.2f}"
-        draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
+        curves.draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
         products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
         independent = np.exp(np.mean(np.log(products))) / np.array(blocks)
         ax.plot(blocks, independent, color=GREY, linewidth=0.5, zorder=0)
     ax.set_yscale("log")
-    name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
+    curves.name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
     ax.set(xlabel="blocks of the surface $N^2$", ylabel="variance of static friction")
     ax.legend(loc="best")
 
@@ -189,24 +186,24 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
     ax.set(xlabel="size $n_p$ (blocks)", ylabel="distance $n_s$ (blocks)")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_ticks(_TICKS, labels=[str(tick) for tick in _TICKS])
-        axis.set_minor_locator(NullLocator())
+        axis.minorticks_off()
     ax.set(xlim=ends, ylim=(0.8 * gaps.min(), 1.25 * gaps.max()))
-    color_bar(ax, points, FRICTION)
+    style.color_bar(ax, points, curves.FRICTION)
 
 
 def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
     alike = friction.families(found)
     left = friction.residuals(friction.crossed(found))
-    colors = shades(float(kind) for kind in alike)
+    colors = style.shades(float(kind) for kind in alike)
     for kind, sizes in alike.items():
         color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
-        draw_means(ax, sizes, color, marker="o", label=label)
+        curves.draw_means(ax, sizes, color, marker="o", label=label)
         here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
         model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
         look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
         ax.plot(list(model), list(model.values()), color=color, **look)
-    name_places(ax, sorted({n_p for n_p, _ in found}))
-    ax.set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+    curves.name_places(ax, sorted({n_p for n_p, _ in found}))
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     ax.legend(loc="best")
 
 
@@ -263,9 +260,10 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
     for scene, runs in clusters.surfaces(ensembles).items():
         if scene.n_p2 or scene.n_p not in _SHOWN:
             continue
-        masks, color = [clusters.precursors(run) for run in runs], pillar_look(scene.n_p)["color"]
+        masks = [clusters.precursors(run) for run in runs]
+        color = style.pillar_look(scene.n_p)["color"]
         anywhere = [clusters.shuffled(mask, scene.contact, rng) for mask in masks]
-        _draw_shares(ax, masks, color, linestyle="-", label=pillar_name(scene.n_p))
+        _draw_shares(ax, masks, color, linestyle="-", label=style.pillar_name(scene.n_p))
         _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
         _draw_shares(ax, clusters.mixed(masks, rng), color, linestyle=":", linewidth=0.9)
     ax.set(xlabel="size of the cluster (blocks)", ylabel="share of precursors in clusters as large")
@@ -284,12 +282,12 @@ def _draw_shares(ax: Axes, masks: Iterable[clusters.Mask], color: Any, **look: A
 
 def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
     found = sliding.by_angle(ensembles)
-    colors = shades(found)
+    colors = style.shades(found)
     for angle, runs in found.items():
         curve = Correlation(sliding.edges(runs)["grooves"]).interval
         shown = Interval(*(part[: _LAST + 1] for part in curve))
         look = {"color": colors[angle], "opacity": 0.12, "label": f"{angle:g}°"} | _DOTS
-        draw_band(ax, range(len(shown.mean)), shown, **look)
-    ax.axhline(0.0, **ZERO)
+        curves.draw_band(ax, range(len(shown.mean)), shown, **look)
+    ax.axhline(0.0, **curves.ZERO)
     ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.legend(loc="upper right", title="sliding at", ncols=2)

@@ -14,9 +14,8 @@ from springblock.mechanism.page import NAMES
 from springblock.mechanism.table import scene
 from springblock.model.material import Material
 from springblock.plotting import style
-from springblock.plotting.curves import draw_band
+from springblock.plotting.curves import FRICTION, draw_band, draw_means, name_places
 from springblock.plotting.maps import draw_map
-from springblock.plotting.points import FRICTION, draw_means, name_places
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, VERMILION, Look, color_bar
 from springblock.simulation.run import Array
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
-from springblock.plotting.dimensions import draw_sliding
+from springblock.plotting.maps import draw_sliding
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
 
