@@ -20,7 +20,7 @@ from springblock.plotting.curves import draw_points, name_places
 from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, Look
 from springblock.simulation.run import Array
 
-Cases = dict[tuple[str, str], list[Row]]  #: by quantity and scene, finest step first
+Cases = dict[tuple[str, str], DataFrame]  #: by quantity and scene, finest step first
 
 #: Names, colours and markers, with the Runge-Kutta whose order is lost.
 _METHODS = style.METHODS | {
@@ -102,10 +102,10 @@ def work_precision(table: DataFrame, production: DataFrame | None = None) -> Fig
     return picture
 
 
-def _name_scene(ax: Axes, rows: DataFrame) -> None:
+def _name_scene(ax: Axes, rows: DataFrame, pad: float | None = None) -> None:
     """Write above a panel which scene it shows, and how large it is."""
     sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
-    ax.set_title(f"{rows.scene.iloc[0]}, {sizes} blocks")
+    ax.set_title(f"{rows.scene.iloc[0]}, {sizes} blocks", pad=pad)
 
 
 def _draw_costs(ax: Axes, rows: DataFrame) -> None:
@@ -153,11 +153,15 @@ def _draw_paired(ax: Axes, table: DataFrame) -> None:
 
 def _draw_production(ax: Axes, rows: DataFrame) -> None:
     """Draw biases and scatter of ensembles of the study's size; the finest step has no bias."""
-    share = rows[["bias", "ci_low", "ci_high"]].div(rows.scale, axis=0)[1:]
-    draw_points(ax, NANO * rows.step[1:], PERCENT * share, **_FULL)
+    draw_points(ax, NANO * rows.step[1:], _percent(rows), **_FULL)
     spread = float((rows.deviation / rows.scale).iloc[0])
     half = PERCENT * conventions.half_width(spread, ENSEMBLE)
     ax.axhspan(-half, half, label="the same, 120 × 120 blocks", **_FULL_SCATTER)
+
+
+def _percent(rows: DataFrame) -> DataFrame:
+    """Return biases at all steps but the finest with their intervals, (n, 3) %."""
+    return PERCENT * rows[["bias", "ci_low", "ci_high"]].div(rows.scale, axis=0)[1:]
 
 
 def _fit_percent(panels: Sequence[Axes], linear: float, ticks: Sequence[float]) -> None:
@@ -179,7 +183,9 @@ def total_error(table: DataFrame) -> Figure:
     """Draw the table `production`: biases, and total errors."""
     picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|.jL", height_ratios=(3, 1))
     *panels, legend = panels
-    cases, colors = _cases(table), style.shades(table.step)
+    measured = table.sort_values("step").groupby(["quantity", "scene"])
+    every = [case for case in product(_QUANTITIES, SCENES) if case in measured.groups]
+    cases, colors = {case: measured.get_group(case) for case in every}, style.shades(table.step)
     _draw_biases(panels[:3], cases)
     for ax, rows in zip(panels[3:], cases.values(), strict=True):
         _draw_errors(ax, rows, colors)
@@ -195,29 +201,16 @@ def total_error(table: DataFrame) -> Figure:
     return picture
 
 
-def _cases(table: DataFrame) -> Cases:
-    """Return the rows of each quantity and scene that were measured together."""
-    ordered = table.sort_values("step")
-    cases = {}
-    for quantity, scene in product(_QUANTITIES, SCENES):
-        rows = ordered[(ordered.quantity == quantity) & (ordered.scene == scene)]
-        if len(rows):
-            cases[quantity, scene] = cast(list[Row], rows.to_dict("records"))
-    return cases
-
-
 def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:
     """Draw biases of all quantities, side by side at each step but the finest, which has none."""
     for ax, scene in zip(panels, SCENES, strict=True):
         for aside, quantity in zip((0.95, 1.0, 1.05), _QUANTITIES, strict=True):
-            if rows := cases.get((quantity, scene), [])[1:]:
-                keys = ("bias", "ci_low", "ci_high")
-                percent = [[PERCENT * row[key] / row["scale"] for key in keys] for row in rows]
-                places = [aside * row["cpu_seconds"] for row in rows]
-                draw_points(ax, places, percent, **_QUANTITIES[quantity])
+            if (quantity, scene) in cases:
+                rows = cases[quantity, scene]
+                places = aside * rows.cpu_seconds[1:]
+                draw_points(ax, places, _percent(rows), **_QUANTITIES[quantity])
         _mark_steps(ax, cases["static_friction", scene])
-        n = cases["static_friction", scene][0]["n_blocks"]
-        ax.set_title(f"{scene}, {n} × {n} blocks", pad=13.0)
+        _name_scene(ax, cases["static_friction", scene], pad=13.0)
         ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
         ax.set(xscale="log", xlabel="CPU time of a realisation (s)")
         ax.margins(x=0.08)
@@ -233,21 +226,22 @@ def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:
     panels[0].legend(*named, loc="lower right", **frame)
 
 
-def _mark_steps(ax: Axes, rows: list[Row]) -> None:
+def _mark_steps(ax: Axes, rows: DataFrame) -> None:
     """Draw a line at the CPU time of each step, and write the step in ns above it."""
-    for row in rows:
-        ax.axvline(row["cpu_seconds"], color=GREY, linewidth=0.3, zorder=0.3)
-        name = f"{NANO * row['step']:g}{' ns' if row is rows[0] else ''}"
+    for spent, step in zip(rows.cpu_seconds, rows.step, strict=True):
+        ax.axvline(spent, color=GREY, linewidth=0.3, zorder=0.3)
+        name = f"{NANO * step:g}{' ns' if step == rows.step.min() else ''}"
         look: Look = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-        look |= {"ha": "center", "fontweight": "bold" if row["step"] == STEP else "normal"}
-        ax.annotate(name, (row["cpu_seconds"], 1.0), (0.0, 2.5), **look)
+        look |= {"ha": "center", "fontweight": "bold" if step == STEP else "normal"}
+        ax.annotate(name, (spent, 1.0), (0.0, 2.5), **look)
 
 
-def _draw_errors(ax: Axes, rows: list[Row], colors: dict[float, Any]) -> None:
+def _draw_errors(ax: Axes, table: DataFrame, colors: dict[float, Any]) -> None:
     """Draw the total error of each step over the CPU time of ensembles, and the least of all.
 
     Words name the best step and number of seeds at the ring, and what half its error costs.
     """
+    rows = cast(list[Row], table.to_dict("records"))
     by_bias = [budget.choices(rows, bias) for bias in Bias._fields]
     spent = np.geomspace(*_SPENT, 400)
     for choice, low, high in zip(*by_bias, strict=True):

@@ -1,7 +1,7 @@
 """Figures beyond the paper; each function takes realisations by the folder of their scene."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
+from pandas import DataFrame
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.statistics import Interval, cluster_sizes
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
-from springblock.beyond.question import Ensembles, by_scene
+from springblock.beyond.question import Ensembles
 from springblock.beyond.resampling import FEWEST, lowest
 from springblock.io.records import Record
 from springblock.plotting import curves, style
@@ -33,8 +34,8 @@ _LAST = 15  #: blocks, distance up to which correlations along grooves are drawn
 
 
 def _by_scene(ensembles: Folders) -> Ensembles:
-    """Return the realisations of each scene that the paper could have."""
-    return by_scene(list(chain.from_iterable(ensembles.values())))
+    """Return the realisations of each scene."""
+    return {runs[0].scene: runs for runs in ensembles.values()}
 
 
 def beyond_lattice(ensembles: Folders) -> Figure:
@@ -100,16 +101,15 @@ def _draw_lengths(
 
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     """Draw static friction over the size of pillars, and mark where it is lowest."""
-    lines = {getattr(at, varied): sizes for at, sizes in part.items()}
+    lines = {getattr(at, varied): lattice.samples(sizes) for at, sizes in part.items()}
     colors = style.shades(lines)
-    for value, sizes in lines.items():
-        samples = {size: friction.static_friction(runs) for size, runs in sizes.items()}
+    for value, samples in lines.items():
         label = _LABELS[varied].format(value)
         curves.draw_means(ax, samples, colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
-    for i, (value, sizes) in enumerate(lines.items(), 1):
-        found = lowest(lattice.samples(sizes))
+    for i, (value, samples) in enumerate(lines.items(), 1):
+        found = lowest(samples)
         bars = [[found.place - min(found.alike)], [max(found.alike) - found.place]]
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
         ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
@@ -230,19 +230,15 @@ def _draw_peaks(
     ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Array]], largest: float
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
-    angles = sorted({angle for each in part.values() for angle in each})
-    pawls = sorted(key.n_p2 for key in part)
-    cells = np.full((len(pawls), len(angles)), np.nan)
-    for key, each in part.items():
-        for angle, values in each.items():
-            cells[pawls.index(key.n_p2), angles.index(angle)] = values.mean()
+    means = {key.n_p2: {at: v.mean() for at, v in each.items()} for key, each in part.items()}
+    cells = DataFrame(means).sort_index().T.sort_index()  # by pawl and angle
     ax.imshow(cells, cmap=_COLORS, vmin=0.0, vmax=largest, origin="lower", aspect="auto")
-    for (row, column), value in np.ndenumerate(cells):
+    for (row, column), value in np.ndenumerate(cells.to_numpy()):
         if np.isfinite(value):
             color = "white" if value > 0.55 * largest else "black"
             ax.text(column, row, f"{value:.1f}", ha="center", va="center", color=color)
-    ax.set_xticks(range(len(angles)), [f"{angle:g}" for angle in angles])
-    ax.set_yticks(range(len(pawls)), [str(pawl) for pawl in pawls])
+    ax.set_xticks(range(len(cells.columns)), [f"{angle:g}" for angle in cells.columns])
+    ax.set_yticks(range(len(cells)), cells.index)
     ax.tick_params(length=0.0)
 
 
