@@ -11,7 +11,7 @@ import yaml
 
 from springblock import Material
 from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
-from springblock.plotting import declarations
+from springblock.plotting.figures import FIGURES
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study.archive import archive
 from studies import PAPER, ROOT, TINY, Study
@@ -22,7 +22,7 @@ FULL = {"configuration": ("config/full.yaml",)}
 #: Those of the study without its optional groups of scenes and without its tables of errors.
 FIGURES = {
     name
-    for name, figure in declarations().items()
+    for name, figure in FIGURES.items()
     if figure.is_part_of(TINY["scenes"])
     and figure.category not in ("Mechanism", "Accuracy", "Beyond")
 }
@@ -83,7 +83,7 @@ def test_the_configuration_offers_what_the_package_has():
 
 def test_the_configuration_alone_decides_what_is_planned(study):
     """The paper's study, and with config/full.yaml all that the package can do."""
-    known = declarations()
+    known = FIGURES
     beyond = {name for name, figure in known.items() if figure.category == "Beyond"}
     further = {*beyond, "beyond", "production_table", "total_error"}
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}

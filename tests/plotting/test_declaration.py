@@ -14,18 +14,18 @@ from snakemake.utils import update_config
 
 from plotting.test_paper_results import NORMAL_FORCE, SIZE, record
 from springblock import Material
-from springblock import plotting as figures
 from springblock.cli import main
 from springblock.cli.figure import ensembles
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import Record
 from springblock.io.schemas import BATCH
 from springblock.model.scene import Scene
+from springblock.plotting import drawing
 from springblock.plotting.declaration import Need
+from springblock.plotting.figures import FIGURES
 from springblock.study import configuration as study
 
 CONFIG = Path(__file__).parents[2] / "config"
-FIGURES = figures.declarations()
 
 
 def configuration(*files: str):
@@ -43,7 +43,7 @@ QUICK = configuration("config.yaml", "quick.yaml")
 
 
 def test_a_dry_run_loads_nothing_that_draws():
-    script = "from springblock.plotting import declarations; declarations(); "
+    script = "from springblock.plotting.figures import FIGURES; "
     script += "import sys; print(*sys.modules)"
     loaded = subprocess.check_output([sys.executable, "-c", script], text=True).split()
     assert "springblock.plotting.figures" in loaded
@@ -61,7 +61,7 @@ def test_each_figure_declares_all_that_the_study_needs(name):
         if declared.is_part_of(groups):
             source, lengths = declared.source, config["figures"].get(name, {})
             given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
-            assert given or not signature(figures.drawing(name)).parameters
+            assert given or not signature(drawing(name)).parameters
 
 
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
@@ -202,7 +202,7 @@ def refusal(*arguments: str) -> str:
 
 def test_a_name_that_is_no_figure_is_refused_with_those_that_are():
     sentence = refusal("figure_0", "--output", "figure.png")
-    assert sentence == f"Error: 'figure_0' is no figure; there are {', '.join(FIGURES)}"
+    assert sentence == f"Error: 'figure_0' is no figure; there are {', '.join(sorted(FIGURES))}"
 
 
 def test_the_help_lists_figures_by_name_and_title():
@@ -232,7 +232,7 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
     lengths = ["--n-blocks", "40", "--n-p", "2", "--n-s", "2"]
     output = ["--output", str(tmp_path / "figure.png")]
     assert CliRunner().invoke(main, ["figure", "figure_4", *lengths, *output]).exit_code == 0
-    surface, _ = figures.drawing("figure_4")(Scene(40, 2, 2).pattern).axes
+    surface, _ = drawing("figure_4")(Scene(40, 2, 2).pattern).axes
     assert surface.images[0].get_array().shape == (12, 12)
     assert "a flat surface has no pillar" in refusal("figure_4", "--n-blocks", "8", *output)
 

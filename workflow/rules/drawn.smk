@@ -1,6 +1,6 @@
 # What is drawn: figures, sweeps and films, what each needs, and what its caption says.
 
-from springblock.plotting import declarations
+from springblock.plotting import figures as declared
 from springblock.plotting.declaration import having
 
 #: Groups that questions beyond the paper look at.
@@ -11,7 +11,7 @@ PAPERS = study.for_figures(ENSEMBLES)
 SCENES = {group: [each.scene for each in members] for group, members in PAPERS.items()}
 FIGURES = {
     name: figure
-    for name, figure in declarations().items()
+    for name, figure in declared.FIGURES.items()
     if figure.is_part_of(SCENES)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
