@@ -1,4 +1,4 @@
-"""One look for all figures: sizes, colours, lettered panels, and files that are always the same.
+"""One look for all figures: sizes, colours, names, panels, and files that are always the same.
 
 Figures are drawn without pyplot, so that nothing depends on global state: functions that draw wear
 the decorator `journal`, which puts the style in force whatever the reader's own settings are. To
