@@ -1,6 +1,7 @@
 """Curves over time, and means of ensembles with their intervals over what these vary with."""
 
 from collections.abc import Mapping, Sequence
+from string import ascii_lowercase
 from typing import Any, TypeVar
 
 import numpy as np
@@ -231,15 +232,18 @@ def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Sa
     return highest, lag
 
 
-def friction_and_lag(xlabel: str, *further: str) -> tuple[Figure, list[Axes]]:
-    """Make panels for a) static friction, b) t_max - t_avg and `further` quantities."""
-    labels = (FRICTION, LAG, *further)
-    letters = ";".join("abcdef"[: len(labels)])
-    picture, panels = style.panels(style.COLUMN, 12.0 + 43.0 * len(labels), letters, sharex=True)
+def stacked(
+    xlabel: str, labels: Sequence[str] = (FRICTION, LAG), room: float = 12.0
+) -> tuple[Figure, list[Axes]]:
+    """Make a panel below the other for each quantity, with `room` in mm for what is around them."""
+    letters = ";".join(ascii_lowercase[: len(labels)])
+    height = room + 43.0 * len(labels)
+    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
     for ax, label in zip(panels, labels, strict=True):
         ax.set_ylabel(label)
+        if label == LAG:
+            ax.axhline(0.0, **ZERO)
     panels[-1].set_xlabel(xlabel)
-    panels[1].axhline(0.0, **ZERO)
     return picture, panels
 
 

@@ -30,7 +30,7 @@ _LINE = 120  #: letters that fit above a row
 
 def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p."""
-    picture, panels = curves.friction_and_lag("distance between the pillars $n_s$ (blocks)")
+    picture, panels = curves.stacked("distance between the pillars $n_s$ (blocks)")
     for n_p in sorted({n_p for n_p, _ in ensembles}):
         by_gap = {n_s: runs for (size, n_s), runs in sorted(ensembles.items()) if size == n_p}
         look, (highest, lag) = style.pillar_look(n_p), curves.highest_and_lag(by_gap)
@@ -43,7 +43,7 @@ def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Fi
 
 def supplement_size(ensembles: Mapping[tuple[int, int, str, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction over its mean at the largest N and b) t_max - t_avg, over N."""
-    picture, (ratio, lags) = curves.friction_and_lag("side of the surface $N$ (blocks)")
+    picture, (ratio, lags) = curves.stacked("side of the surface $N$ (blocks)")
     surfaces = style.in_order({key[:3] for key in ensembles})
     every = sorted({key[3] for key in ensembles})
     for i, surface in enumerate(surfaces):
@@ -68,7 +68,8 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     """
     label = "angle between sliding and grooves (°)"
-    picture, panels = curves.friction_and_lag(label, "lesser peak (% of force)")
+    quantities = (curves.FRICTION, curves.LAG, "lesser peak (% of force)")
+    picture, panels = curves.stacked(label, quantities)
     names = {degrees(name): name for name in ensembles}
     by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
     highest, lag = curves.highest_and_lag(by_angle)

@@ -102,15 +102,14 @@ def _math(name: str) -> str:
 @style.journal
 def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
     """Draw observables of lines over an axis, a panel each."""
-    letters = ";".join("abcdef"[: len(observables)])
     columns = 1 if max(map(len, found)) > _WIDE else 2
     names = _LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0
-    height = 15.0 + 43.0 * len(observables) + names
-    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
+    labels = [OBSERVABLES[name][0] for name in observables]
+    picture, panels = curves.stacked(_axis(over), labels, 15.0 + names)
     every = sorted({place for places in found.values() for place in places})
     log = 0.0 < _DECADE * every[0] <= every[-1]
     for ax, name in zip(panels, observables, strict=True):
-        label, of = OBSERVABLES[name]
+        _, of = OBSERVABLES[name]
         looks = zip(found.items(), cycle(_COLORS), cycle(_MARKERS), strict=False)
         for i, ((line, runs), color, marker) in enumerate(looks):
             moved = curves.aside(runs, every, i, len(found), log)
@@ -120,10 +119,8 @@ def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
                 curves.draw_realisations(ax, samples, color, label=line, **look)
             else:
                 curves.draw_means(ax, samples, color, marker=marker, label=line)
-        ax.set_ylabel(label)
         if log:
             curves.name_places(ax, every)
-    panels[-1].set_xlabel(_axis(over))
     if len(found) > 1:
         style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
