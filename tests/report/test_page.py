@@ -118,9 +118,9 @@ def test_symbols_are_set_and_nothing_but_symbols():
 def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
     shown = markup.shown("t", table)
-    assert shown.same == ["b = 5"]
-    assert [column["name"] for column in shown.columns] == ["a", "c"]
-    assert shown.rows == [["1", ""], ["2", "0.123457"]]
+    assert shown["same"] == ["b = 5"]
+    assert [column["name"] for column in shown["columns"]] == ["a", "c"]
+    assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
 
 def test_a_film_is_told_in_words(tmp_path):
