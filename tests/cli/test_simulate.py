@@ -100,7 +100,7 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
         (["--duration", 2e3], "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         (["--snapshot", 1e300], "for a loading time of 1e+300 s"),
         (["--integrator", "euler"], "'--integrator': 'euler' is not one of 'leapfrog', 'rk4'"),
-        (["--material", "gama=3"], "'--material': 'gama' is no constant; there are youngs_modulus"),
+        (["--material", "gama=3"], "'gama' is no constant; there are youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
         (["--direction", "up"], "'--direction': direction must be 'x', 'y' or an angle"),
         (["--prelude", "absent.npz"], "'--prelude': File 'absent.npz' does not exist"),

@@ -170,7 +170,7 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         (STRIPS | {"n_s3": 2}, "n_s3 = 2 needs n_p3"),
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
         (STRIPS | {"n_p3": 8, "n_s3": 2, "along_3": "z"}, "along_3 must be 'x' or 'y', not 'z'"),
-        ({"varied": {"speed": 1}}, "'speed' is no constant; there are youngs_modulus, .*, step"),
+        ({"varied": {"a-b": 1}}, "'a-b' is no constant; there are youngs_modulus, .*, step"),
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )

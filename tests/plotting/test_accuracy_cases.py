@@ -22,6 +22,7 @@ ROWS = [
     ("damping", 1e4, "refused", "largest step", NAN, 1e-4, 1e-3),
     ("speed", 1e-4, "agrees", "spring force, F_n", 1e-16, 3e-5, 1e-3),
     ("speed", 1e2, "agrees", "spring force, F_n", 1e-16, 2e-7, 4e-2),
+    ("scatter", 0.0, "agrees", "displacement, l", 1e-7, 0.0, 0.0),
     ("rest", 1e6, "at rest", "none", 0.0, NAN, NAN),
     ("overflow", NAN, "raises", "none", NAN, NAN, NAN),
 ]
@@ -77,3 +78,4 @@ def test_the_overview_counts_all_cases_and_marks_those_without_a_number():
     assert len(points(overview, "^")) == 2
     assert len(points(overview, "d")) == 4  # step and rest
     assert (heights(overview, "o") <= 1.0).all()
+    assert len(heights(overview, "o")) == sum(tolerance == tolerance for *_, tolerance in ROWS)

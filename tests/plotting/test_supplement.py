@@ -14,8 +14,8 @@ from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
+from springblock.plotting.curves import draw_realisations
 from springblock.plotting.figures import FIGURES
-from springblock.plotting.points import draw_realisations
 from springblock.plotting.supplement import let_go_again
 from springblock.study.configuration import Ensemble
 

@@ -13,7 +13,7 @@ from springblock.claims.table import rows
 from springblock.cli import main
 from springblock.io.records import read_records
 from springblock.model.scene import Scene
-from springblock.plotting import declarations
+from springblock.plotting.figures import FIGURES
 from springblock.report import findings, markup, media
 from springblock.report.markup import typeset
 from springblock.report.page import counted, page, statements
@@ -83,7 +83,7 @@ def test_constants_of_their_own_are_left_out_of_the_findings():
 
 
 def test_each_statement_belongs_to_a_figure():
-    assert {f"figure_{claim.figure}" for claim in CLAIMS} <= declarations().keys()
+    assert {f"figure_{claim.figure}" for claim in CLAIMS} <= FIGURES.keys()
 
 
 def test_statements_link_to_where_their_page_says_more():
@@ -118,9 +118,9 @@ def test_symbols_are_set_and_nothing_but_symbols():
 def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
     shown = markup.shown("t", table)
-    assert shown.same == ["b = 5"]
-    assert [column["name"] for column in shown.columns] == ["a", "c"]
-    assert shown.rows == [["1", ""], ["2", "0.123457"]]
+    assert shown["same"] == ["b = 5"]
+    assert [column["name"] for column in shown["columns"]] == ["a", "c"]
+    assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
 
 def test_a_film_is_told_in_words(tmp_path):
@@ -138,7 +138,7 @@ def test_a_film_is_told_in_words(tmp_path):
 def test_captions_are_those_that_pictures_keep(picture):
     written = page([picture("figure_6.png", "N = 120, seeds 0 to 19.")], {})
     assert "<figcaption>N = 120, seeds 0 to 19.</figcaption>" in written
-    assert declarations()["figure_6"].title in written
+    assert FIGURES["figure_6"].title in written
 
 
 def test_nothing_given_becomes_part_of_the_page(nasty):

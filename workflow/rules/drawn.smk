@@ -1,6 +1,6 @@
 # What is drawn: figures, sweeps and films, what each needs, and what its caption says.
 
-from springblock.plotting import declarations
+from springblock.plotting import figures as declared
 from springblock.plotting.declaration import having
 
 #: Groups that questions beyond the paper look at.
@@ -11,7 +11,7 @@ PAPERS = study.for_figures(ENSEMBLES)
 SCENES = {group: [each.scene for each in members] for group, members in PAPERS.items()}
 FIGURES = {
     name: figure
-    for name, figure in declarations().items()
+    for name, figure in declared.FIGURES.items()
     if figure.is_part_of(SCENES)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
@@ -33,7 +33,10 @@ FILMS = {
 
 
 def needed(figure):
-    """Files that a figure is drawn from; there must be surfaces with the lengths that it shows."""
+    """Files that a picture is drawn from; there must be surfaces with the lengths that it shows."""
+    if figure in SWEEPS:
+        yield from batches(ensembles(SWEEPS[figure]["groups"]))
+        return
     lengths, source = config["figures"].get(figure, {}), FIGURES[figure].source
     shown = lengths.items() if source.groups else ()
     scenes = chain.from_iterable(SCENES[group] for group in source.groups)
@@ -42,9 +45,9 @@ def needed(figure):
         raise WorkflowError(
             f"figures.{figure}: no scene of {' or '.join(source.groups)} has {wanted}."
         )
-    for table, scene, number, upon_request in source.needs(SCENES, lengths):
+    for table, scene, number in source.needs(SCENES, lengths):
         if scene is None:
-            if config["production"] or not upon_request:
+            if config["production"] or table != "production":
                 yield f"{RESULTS}/tables/{table}.parquet"
         elif table == "realisations":
             yield from batches([ENSEMBLE[scene.folder]])[:number]
@@ -52,12 +55,18 @@ def needed(figure):
             yield f"{RESULTS}/correlations/{scene.folder}/{table}.parquet"
 
 
-def options_of(figure):
-    """What the command of a figure takes beside files."""
-    return FIGURES[figure].source.options(config["n_blocks"], config["figures"].get(figure, {}))
+def command(figure):
+    """What draws a picture, but for files and caption."""
+    if figure in SWEEPS:
+        of = [f"--of {observable}" for observable in SWEEPS[figure].get("of", [])]
+        return " ".join(["plot", "--over", SWEEPS[figure]["over"], *of])
+    lengths = config["figures"].get(figure, {})
+    return f"figure {figure} {FIGURES[figure].source.options(config['n_blocks'], lengths)}"
 
 
 def caption(figure):
-    """What a figure shows, and what of this study it is drawn from."""
-    lengths, material = config["figures"].get(figure, {}), SETUP.material
-    return FIGURES[figure].caption_in(PAPERS, lengths, material)
+    """What a figure shows, and what of this study it is drawn from; a sweep says it itself."""
+    if figure in SWEEPS:
+        return ""
+    lengths = config["figures"].get(figure, {})
+    return f"--caption {quote(FIGURES[figure].caption_in(PAPERS, lengths, SETUP.material))}"

@@ -1,6 +1,6 @@
 # A rule for each figure, from its declaration, and for each sweep of the configuration.
 
-for figure, declared in FIGURES.items():
+for figure in [*FIGURES, *SWEEPS]:
 
     rule:
         name:
@@ -21,43 +21,12 @@ for figure, declared in FIGURES.items():
             runtime=5,
         params:
             code=code("plot"),
-            figure=figure,
-            options=options_of(figure),
+            command=command(figure),
             caption=lambda wildcards, figure=figure: caption(figure),
         message:
-            f"Drawing {figure}: {declared.title}"
+            f"Drawing {figure}: {FIGURES[figure].title if figure in FIGURES else command(figure)}"
         shell:
-            "springblock --code {params.code} figure {params.figure} {params.options} {input:q} "
-            "--caption {params.caption:q} --output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
-
-
-for name, sweep in SWEEPS.items():
-
-    rule:
-        name:
-            name
-        input:
-            batches(ensembles(sweep["groups"])),
-        output:
-            pdf=f"{RESULTS}/figures/{name}.pdf",
-            png=f"{RESULTS}/figures/{name}.png",
-        log:
-            f"{RESULTS}/logs/{name}.log",
-        benchmark:
-            f"{RESULTS}/benchmarks/{name}.tsv"
-        group:
-            "figures"
-        resources:
-            mem_mb=1200,
-            runtime=5,
-        params:
-            code=code("plot"),
-            over=sweep["over"],
-            of=" ".join(f"--of {observable}" for observable in sweep.get("of", [])),
-        message:
-            f"Drawing {name}: over {sweep['over']}"
-        shell:
-            "springblock --code {params.code} plot {input:q} --over {params.over} {params.of} "
+            "springblock --code {params.code} {params.command} {input:q} {params.caption} "
             "--output {output.pdf:q} --output {output.png:q} > {log:q} 2>&1"
 
 

@@ -12,7 +12,7 @@ from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, 
 from springblock.io.parquet import load, read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
-from springblock.plotting import declarations, drawing
+from springblock.plotting import drawing
 from springblock.plotting.declaration import (
     CorrelationsSource,
     PatternSource,
@@ -20,6 +20,7 @@ from springblock.plotting.declaration import (
     Source,
     TableSource,
 )
+from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import save
 
 Paths = tuple[Path, ...]
@@ -73,13 +74,13 @@ class _Figures(click.Group):
     """A command for each figure, made from what the figure declares."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(declarations())
+        return sorted(FIGURES)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
-        figures = declarations()
-        if cmd_name not in figures:
-            raise click.UsageError(f"{cmd_name!r} is no figure; there are {', '.join(figures)}")
-        declared = figures[cmd_name]
+        if cmd_name not in FIGURES:
+            known = ", ".join(sorted(FIGURES))
+            raise click.UsageError(f"{cmd_name!r} is no figure; there are {known}")
+        declared = FIGURES[cmd_name]
         takes, given = _SOURCES[type(declared.source)]
 
         def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:

@@ -57,10 +57,10 @@ def plot(
             picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
         else:
             rows = read_tables(files, SUMMARY).to_pylist()
-            picture = sweep.draw(rows, over, observables or ["static_friction"])
-            caption = sweep.caption(rows, over)
-            left_out = len(rows) - len(sweep.drawn(rows, over))
-            if left_out:
+            found = sweep.lines(rows, over)
+            picture = sweep.draw(found, over, observables or ["static_friction"])
+            caption = sweep.caption(found)
+            if left_out := len(rows) - len(sweep.drawn(found)):
                 click.echo(f"Left out: {left_out} realisations of surfaces with one {over} alone")
         for output in outputs:
             save(picture, output, caption)

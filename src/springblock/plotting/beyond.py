@@ -1,7 +1,7 @@
 """Figures beyond the paper; each function takes realisations by the folder of their scene."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -9,20 +9,18 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, NullLocator
+from matplotlib.ticker import NullFormatter
+from pandas import DataFrame
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, cluster_sizes
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
-from springblock.beyond.question import Ensembles, by_scene
+from springblock.beyond.question import Ensembles
 from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
-from springblock.plotting import style
-from springblock.plotting.curves import draw_band
-from springblock.plotting.looks import pillar_look, pillar_name, shades
-from springblock.plotting.points import FRICTION, ZERO, draw_means, draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look, color_bar
+from springblock.plotting import curves, style
+from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
 from springblock.simulation.run import Array
 
 Folders = Mapping[str, Sequence[Record]]  #: realisations by the folder of their scene
@@ -37,8 +35,8 @@ _LAST = 15  #: blocks, distance up to which correlations along grooves are drawn
 
 
 def _by_scene(ensembles: Folders) -> Ensembles:
-    """Return the realisations of each scene that the paper could have."""
-    return by_scene(list(chain.from_iterable(ensembles.values())))
+    """Return the realisations of each scene."""
+    return {runs[0].scene: runs for runs in ensembles.values()}
 
 
 def beyond_lattice(ensembles: Folders) -> Figure:
@@ -59,7 +57,7 @@ def beyond_lattice(ensembles: Folders) -> Figure:
 
 def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
     """Draw c_x(r) with its band over r in µm."""
-    colors = shades(at.spacing for at in lattices)
+    colors = style.shades(at.spacing for at in lattices)
     for at, sizes in lattices.items():
         runs = list(sizes.values())[-1]
         if "x" not in runs[0].scene.sides or len(runs) < FEWEST:
@@ -67,8 +65,8 @@ def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
         found = Correlation(side_times(runs, runs[0].scene.pattern, "x")).interval
         label = _LABELS["spacing"].format(at.spacing)
         look = {"color": colors[at.spacing], "label": label} | _DOTS
-        draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
-    ax.axhline(0.0, **ZERO)
+        curves.draw_band(ax, at.spacing * np.arange(len(found.mean)), found, **look)
+    ax.axhline(0.0, **curves.ZERO)
     ax.set(xlabel="distance along the side $r$ (µm)", ylabel="time correlation $c_x(r)$")
     ax.legend(loc="upper right")
 
@@ -87,7 +85,8 @@ def _draw_lengths(
         lengths = {at: at.spacing * np.array(blocks) for at, blocks in found.items() if blocks}
         if lengths:
             places = [getattr(at, varied) for at in lengths]
-            draw_points(ax, places, list(lengths.values()), color, marker=marker, label=label)
+            intervals = list(lengths.values())  # µm
+            curves.draw_points(ax, places, intervals, color, marker=marker, label=label)
             spots += places
     ax.set_yscale("log")
     ends = np.array([min(spots), max(spots)])
@@ -95,7 +94,7 @@ def _draw_lengths(
     for slope in (0.0, 1.0):
         guide = height * (ends / np.sqrt(ends.prod())) ** slope
         ax.plot(ends, guide, color=GREY, linewidth=0.5, linestyle=":", zorder=0)
-    name_places(ax, spots)
+    curves.name_places(ax, spots)
     ax.set(xlabel="spacing $l$ or thickness $l_z$ (µm)", ylabel="decay length (µm)")
     ax.set_ylim(None, 8.0 * ax.get_ylim()[1])
     ax.legend(loc="upper left")
@@ -103,21 +102,21 @@ def _draw_lengths(
 
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     """Draw static friction over the size of pillars, and mark where it is lowest."""
-    lines = {getattr(at, varied): sizes for at, sizes in part.items()}
-    colors = shades(lines)
-    for value, sizes in lines.items():
+    lines = {getattr(at, varied): friction.samples(sizes) for at, sizes in part.items()}
+    colors = style.shades(lines)
+    for value, samples in lines.items():
         label = _LABELS[varied].format(value)
-        draw_means(ax, friction.samples(sizes), colors[value], marker="o", label=label)
+        curves.draw_means(ax, samples, colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
-    for i, (value, sizes) in enumerate(lines.items(), 1):
-        found = lowest(friction.samples(sizes))
+    for i, (value, samples) in enumerate(lines.items(), 1):
+        found = lowest(samples)
         bars = [[found.place - min(found.alike)], [max(found.alike) - found.place]]
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
         ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
-    name_places(ax, [size for sizes in part.values() for size in sizes])
-    ax.set(xlabel="size of pillars (µm)", ylabel=FRICTION)
+    curves.name_places(ax, [size for sizes in part.values() for size in sizes])
+    ax.set(xlabel="size of pillars (µm)", ylabel=curves.FRICTION)
     ax.legend(loc="upper center", ncols=2)
 
 
@@ -127,11 +126,11 @@ def beyond_disorder(ensembles: Folders) -> Figure:
     scatters = scatter.by_scatter(found)
     picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
     _draw_lengths_of_scatters(panels[0], scatters)
-    for std, color in shades(scatters).items():
+    for std, color in style.shades(scatters).items():
         samples = friction.samples(scatters[std])
-        draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
-    name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
-    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+        curves.draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
+    curves.name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
+    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     panels[1].legend(loc="best", title="scatter")
     _draw_variance(panels[2], found)
     return picture
@@ -139,12 +138,12 @@ def beyond_disorder(ensembles: Folders) -> Figure:
 
 def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes]) -> None:
     lengths = scatter.decay_lengths(scatters)
-    colors = shades(lengths)
+    colors = style.shades(lengths)
     for i, (n_p, fitted) in enumerate(lengths.items(), -1):
         places = [std * (1.0 + 0.03 * i) for std in fitted]
         look: Look = {"marker": "o", "label": f"$n_p$ = {n_p}"}
-        draw_points(ax, places, list(fitted.values()), colors[n_p], **look)
-    name_places(ax, list(scatters))
+        curves.draw_points(ax, places, list(fitted.values()), colors[n_p], **look)
+    curves.name_places(ax, list(scatters))
     ax.set(xlabel="scatter of static coefficients", ylabel="decay length (blocks)")
     ax.set_yscale("log")
     ax.yaxis.set_minor_formatter(NullFormatter())
@@ -158,12 +157,12 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
         spread = [variance.variance(values) for values in sizes.values()]
         named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
         label = f"{named}: $x$ = {float(variance.exponent(sizes).mean):.2f}"
-        draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
+        curves.draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
         products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
         independent = np.exp(np.mean(np.log(products))) / np.array(blocks)
         ax.plot(blocks, independent, color=GREY, linewidth=0.5, zorder=0)
     ax.set_yscale("log")
-    name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
+    curves.name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
     ax.set(xlabel="blocks of the surface $N^2$", ylabel="variance of static friction")
     ax.legend(loc="best")
 
@@ -188,24 +187,24 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
     ax.set(xlabel="size $n_p$ (blocks)", ylabel="distance $n_s$ (blocks)")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_ticks(_TICKS, labels=[str(tick) for tick in _TICKS])
-        axis.set_minor_locator(NullLocator())
+        axis.minorticks_off()
     ax.set(xlim=ends, ylim=(0.8 * gaps.min(), 1.25 * gaps.max()))
-    color_bar(ax, points, FRICTION)
+    style.color_bar(ax, points, curves.FRICTION)
 
 
 def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
     alike = friction.families(found)
     left = friction.residuals(friction.crossed(found))
-    colors = shades(float(kind) for kind in alike)
+    colors = style.shades(float(kind) for kind in alike)
     for kind, sizes in alike.items():
         color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
-        draw_means(ax, sizes, color, marker="o", label=label)
+        curves.draw_means(ax, sizes, color, marker="o", label=label)
         here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
         model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
         look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
         ax.plot(list(model), list(model.values()), color=color, **look)
-    name_places(ax, sorted({n_p for n_p, _ in found}))
-    ax.set(xlabel="size $n_p$ (blocks)", ylabel=FRICTION)
+    curves.name_places(ax, sorted({n_p for n_p, _ in found}))
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     ax.legend(loc="best")
 
 
@@ -232,19 +231,15 @@ def _draw_peaks(
     ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Array]], largest: float
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
-    angles = sorted({angle for each in part.values() for angle in each})
-    pawls = sorted(key.n_p2 for key in part)
-    cells = np.full((len(pawls), len(angles)), np.nan)
-    for key, each in part.items():
-        for angle, values in each.items():
-            cells[pawls.index(key.n_p2), angles.index(angle)] = values.mean()
+    means = {key.n_p2: {at: v.mean() for at, v in each.items()} for key, each in part.items()}
+    cells = DataFrame(means).sort_index().T.sort_index()  # by pawl and angle
     ax.imshow(cells, cmap=_COLORS, vmin=0.0, vmax=largest, origin="lower", aspect="auto")
-    for (row, column), value in np.ndenumerate(cells):
+    for (row, column), value in np.ndenumerate(cells.to_numpy()):
         if np.isfinite(value):
             color = "white" if value > 0.55 * largest else "black"
             ax.text(column, row, f"{value:.1f}", ha="center", va="center", color=color)
-    ax.set_xticks(range(len(angles)), [f"{angle:g}" for angle in angles])
-    ax.set_yticks(range(len(pawls)), [str(pawl) for pawl in pawls])
+    ax.set_xticks(range(len(cells.columns)), [f"{angle:g}" for angle in cells.columns])
+    ax.set_yticks(range(len(cells)), cells.index)
     ax.tick_params(length=0.0)
 
 
@@ -262,9 +257,10 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
     for scene, runs in clusters.surfaces(ensembles).items():
         if scene.n_p2 or scene.n_p not in _SHOWN:
             continue
-        masks, color = [clusters.precursors(run) for run in runs], pillar_look(scene.n_p)["color"]
+        masks = [clusters.precursors(run) for run in runs]
+        color = style.pillar_look(scene.n_p)["color"]
         anywhere = [clusters.shuffled(mask, scene.contact, rng) for mask in masks]
-        _draw_shares(ax, masks, color, linestyle="-", label=pillar_name(scene.n_p))
+        _draw_shares(ax, masks, color, linestyle="-", label=style.pillar_name(scene.n_p))
         _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
         _draw_shares(ax, clusters.mixed(masks, rng), color, linestyle=":", linewidth=0.9)
     ax.set(xlabel="size of the cluster (blocks)", ylabel="share of precursors in clusters as large")
@@ -283,12 +279,12 @@ def _draw_shares(ax: Axes, masks: Iterable[clusters.Mask], color: Any, **look: A
 
 def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
     found = sliding.by_angle(ensembles)
-    colors = shades(found)
+    colors = style.shades(found)
     for angle, runs in found.items():
         curve = Correlation(sliding.edges(runs)["grooves"]).interval
         shown = Interval(*(part[: _LAST + 1] for part in curve))
         look = {"color": colors[angle], "opacity": 0.12, "label": f"{angle:g}°"} | _DOTS
-        draw_band(ax, range(len(shown.mean)), shown, **look)
-    ax.axhline(0.0, **ZERO)
+        curves.draw_band(ax, range(len(shown.mean)), shown, **look)
+    ax.axhline(0.0, **curves.ZERO)
     ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
     ax.legend(loc="upper right", title="sliding at", ncols=2)

@@ -1,15 +1,18 @@
-"""Force and detachments over time, of single runs and of ensembles."""
+"""Curves over time, and means of ensembles with their intervals over what these vary with."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from string import ascii_lowercase
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
 from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
+from springblock.plotting import style
 from springblock.plotting.figures import SINGLE
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
 from springblock.simulation.run import Array, Run, friction, percent
@@ -21,6 +24,19 @@ REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs'
 _BIN = 2e-6  #: s, width of the bins of detachments
 _PERCENTILES = (5.0, 95.0)  #: of an ensemble
 _MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
+
+T = TypeVar("T")
+Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ensemble
+
+#: Bars over intervals.
+BAR: Look = {"elinewidth": 0.8, "capsize": 1.8, "capthick": 0.8, "linewidth": 0.7}
+#: A realisation, and the median of an ensemble.
+DOT: Look = {"linestyle": "none", "marker": ".", "markersize": 2.8, "markeredgewidth": 0.0}
+DOT |= {"alpha": 0.6}
+MEDIAN: Look = {"linestyle": "none", "marker": "_", "markersize": 6.0, "markeredgewidth": 1.4}
+ZERO: Look = {"color": GREY, "linewidth": 0.5, "zorder": 0}  #: of a line at zero
+FRICTION = "static friction"
+LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
 
 def draw_band(
@@ -85,34 +101,28 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
 
 
+def lesser_peaks(runs: Sequence[Run]) -> Array:
+    """Return the prominence of the lesser load peak of each run, % of the largest force."""
+    return PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
+
+
 def lesser_peak(runs: Sequence[Run]) -> str:
-    """Return the mean prominence of the lesser load peak of each run, with its 95 % interval."""
-    found = [PERCENT * statistics.prominence(friction(run)) for run in runs]
-    mean, low, high = statistics.mean_interval(found)
+    """Return the mean prominence of the lesser load peaks with its 95 % interval."""
+    mean, low, high = statistics.mean_interval(lesser_peaks(runs))
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
-def enlarged_span(curves: Sequence[Curve], share: float) -> Span:
-    """Return the times from which the first mean force is close to its maximum to the last's end.
+def fit_forces(ax: Axes, curves: Sequence[Curve], share: float) -> None:
+    """Fit axes to the ends of mean forces, with room for triangles.
 
-    Close is a `share` of the maximum.
+    They begin where the first force reaches a `share` of its maximum.
     """
-    means = [(curve.time, statistics.mean_of_rest(curve.friction).mean) for curve in curves]
+    means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
     start = min(time[np.argmax(mean >= share * np.nanmax(mean))] for time, mean in means)
     end = max(time[np.isfinite(mean)][-1] for time, mean in means)
-    return MICRO * float(start), MICRO * float(end)
-
-
-def fit_forces(ax: Axes, curves: Sequence[Curve], span: Span) -> None:
-    """Fit axes to the mean forces within `span`, with room for triangles."""
-    means = [_within(span, c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
-    low, high = np.nanmin(np.concatenate(means)), np.nanmax(np.concatenate(means))
-    ax.set(xlim=span, ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
-
-
-def _within(span: Span, time: Array, values: Array) -> Array:
-    """Return the values at times in s that lie within `span`."""
-    return values[(MICRO * time >= span[0]) & (MICRO * time <= span[1])]
+    shown = np.concatenate([mean[(time >= start) & (time <= end)] for time, mean in means])
+    low, high = np.nanmin(shown), np.nanmax(shown)
+    ax.set(xlim=(start, end), ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
 
 
 def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
@@ -142,7 +152,8 @@ def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
         ax.fill_between(MICRO * time, low, high, color="0.75", linewidth=0.0, label=name)
         ax.plot(MICRO * time, forces.mean(axis=0), label="their mean", **_MEAN)
     ax.plot(MICRO * run.time, friction(run), color=BLACK, label="one run")
-    shown = np.concatenate([_within(span, one.time, friction(one)) for one in (run, *others)])
+    curves = [(MICRO * one.time, friction(one)) for one in (run, *others)]
+    shown = np.concatenate([y[(span[0] <= x) & (x <= span[1])] for x, y in curves])
     room = 0.08 * float(np.ptp(shown))
     ax.set_ylim(max(0.0, float(shown.min()) - room), float(shown.max()) + room)
     ax.set_ylabel(FORCE)
@@ -168,3 +179,82 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     ax.yaxis.set_major_formatter("{x:g}")
     interval = MICRO * (run.time[1] - run.time[0])
     ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")
+
+
+def draw_points(ax: Axes, places: ArrayLike, intervals: ArrayLike, color: Any, **look: Any) -> None:
+    """Draw values at `places` with bars over their intervals, and a line through them.
+
+    `intervals` are (n, 3): value, lower and upper limit. A value without these has no bar.
+    """
+    mean, low, high = np.asarray(intervals, dtype=float).T
+    bars = np.nan_to_num(np.array([mean - low, high - mean]).clip(0.0))
+    ax.errorbar(places, mean, bars, color=color, **(BAR | look))
+
+
+def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: Any) -> None:
+    """Draw the mean of each sample at its place with a bar over its 95 % interval."""
+    intervals = [statistics.mean_interval(sample) for sample in samples.values()]
+    draw_points(ax, list(samples), intervals, color, **look)
+
+
+def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> None:
+    """Draw each realisation as a dot, and the median of each sample as a dash.
+
+    A sample may lie in two clusters, where no realisation has the mean. The median of an even
+    number is the lower one of those in the middle: one of the realisations.
+    """
+    for place, sample in samples.items():
+        ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
+    medians = [np.quantile(sample, 0.5, method="inverted_cdf") for sample in samples.values()]
+    ax.plot(list(samples), medians, color=color, **(MEDIAN | look))
+
+
+def name_places(ax: Axes, places: ArrayLike) -> None:
+    """Make a logarithmic horizontal axis with a tick at each place, and numbers that have room."""
+    ticks = np.unique(places)
+    ax.set_xscale("log")
+    along = np.log(ticks / ticks[0]) / max(1e-9, np.log(ticks[-1] / ticks[0]))
+    at = 0.8 * along * ax.bbox.width * 72.0 / ax.figure.dpi  # pt; margins take the rest
+    names, end = [], -np.inf
+    for place, tick in zip(at, ticks, strict=True):
+        half = 0.32 * style.SMALL * len(f"{tick:g}")
+        names.append(f"{tick:g}" if place - half > end else "")
+        end = place + half + 1.0 if names[-1] else end
+    ax.set_xticks(ticks, names)
+    ax.xaxis.minorticks_off()
+    ax.margins(x=0.1, y=0.1)
+
+
+def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Samples]:
+    """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
+    highest = {k: np.array([r.static_friction for r in runs]) for k, runs in ensembles.items()}
+    lag = {k: MICRO * np.array([r.t_max - r.t_avg for r in runs]) for k, runs in ensembles.items()}
+    return highest, lag
+
+
+def stacked(
+    xlabel: str, labels: Sequence[str] = (FRICTION, LAG), room: float = 12.0
+) -> tuple[Figure, list[Axes]]:
+    """Make a panel below the other for each quantity, with `room` in mm for what is around them."""
+    letters = ";".join(ascii_lowercase[: len(labels)])
+    height = room + 43.0 * len(labels)
+    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
+    for ax, label in zip(panels, labels, strict=True):
+        ax.set_ylabel(label)
+        if label == LAG:
+            ax.axhline(0.0, **ZERO)
+    panels[-1].set_xlabel(xlabel)
+    return picture, panels
+
+
+def aside(
+    samples: Mapping[Any, T], every: Sequence[float], line: int, lines: int, log: bool
+) -> dict[float, T]:
+    """Move samples of one of several lines a little, so that their bars do not cover each other.
+
+    By a share of an axis, logarithmic or not, that shows `every` place.
+    """
+    share, low, high = 0.03 * (line - 0.5 * (lines - 1)), min(every), max(every)
+    if log:
+        return {x * (high / low) ** share: sample for x, sample in samples.items()}
+    return {x + share * (high - low): sample for x, sample in samples.items()}

@@ -6,7 +6,7 @@ The command line and the workflow know figures by their declarations alone.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from springblock.model.material import Material
 from springblock.model.scene import Scene
@@ -17,15 +17,13 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
 
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
-Category = Literal["Figures", "Supplement", "Mechanism", "Accuracy", "Beyond"]
 #: Category of the figures in each module of `plotting`.
-_CATEGORIES: dict[str, Category] = {
+_CATEGORIES = {
     "paper_surfaces": "Figures",
     "paper_results": "Figures",
     "supplement": "Supplement",
     "mechanism": "Mechanism",
-    "accuracy_errors": "Accuracy",
-    "accuracy_cases": "Accuracy",
+    "accuracy": "Accuracy",
     "beyond": "Beyond",
 }
 Scenes = Sequence[Scene]
@@ -39,7 +37,6 @@ class Need(NamedTuple):
     table: str
     scene: Scene | None = None
     batches: int | None = None  #: of its realisations, from the first seed on; None for all
-    upon_request: bool = False  #: in studies with `production: true` alone
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,15 +83,12 @@ class PatternSource(Source):
 
 @dataclass(frozen=True)
 class TableSource(Source):
-    """A table of the whole study, and one that it may have beside it."""
+    """Tables of the whole study, as far as it makes them."""
 
-    name: str
-    beside: str = ""  #: made in studies with `production: true` alone
+    tables: tuple[str, ...]
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        return [Need(self.name)] + [
-            Need(name, upon_request=True) for name in (self.beside,) if name
-        ]
+        return [Need(table) for table in self.tables]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,7 +136,7 @@ class Declaration:
             object.__setattr__(self, name, " ".join(getattr(self, name).split()))
 
     @property
-    def category(self) -> Category:
+    def category(self) -> str:
         """Return the heading under which the report has the figure."""
         return _CATEGORIES[self.module]
 

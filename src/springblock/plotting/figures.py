@@ -256,36 +256,36 @@ FIGURES: dict[str, Declaration] = {
     ),
     "work_precision": Declaration(
         title="Error against run time",
-        module="accuracy_errors",
+        module="accuracy",
         caption="""a-c) Error of first detachment times before the horizon, up to which single
         realisations can be compared, against force evaluations, of single realisations, compared
         with a solution that locates every event. d-f) Bias of mean static friction against the
         step, of ensembles compared with the same seeds at a fine step; on small surfaces and, where
         the study has `production: true`, with 120 × 120 blocks. Both integrators, and Runge-Kutta
         with the friction of each stage, which does not converge.""",
-        source=TableSource("work_precision", beside="production"),
+        source=TableSource(("work_precision", "production")),
         marks="""Blue areas: 95 % of the means over 20 seeds. Bars: 95 % t intervals. The axis of
         biases is linear within ±1 % and logarithmic beyond.""",
     ),
     "total_error": Declaration(
         title="Error against CPU time at full size",
-        module="accuracy_errors",
+        module="accuracy",
         caption="""Errors of ensembles with 120 × 120 blocks over CPU time. a-c) Bias of the mean
         against the finest step with the same seeds, with its 95 % interval, over the CPU time of a
         realisation; numbers above are steps in ns. d-j) Total error, the root of bias² +
         variance/k, of k seeds over the CPU time of all, prelude included: dots stand for 1, 10, 100
         and 1000 seeds, rings for the study's at the default step; lines hold the estimated bias,
         shades the ends of its interval; grey lies the least error at any step.""",
-        source=TableSource("production"),
+        source=TableSource(("production",)),
         upon_request=True,
     ),
     "stability": Declaration(
         title="Stiff and extreme cases",
-        module="accuracy_cases",
+        module="accuracy",
         caption="""a) Energy residual against the step, over the largest stable one; b) error over
         the accepted one in all stiff and extreme cases; c-f) error against stiffness, strain,
         damping and speed.""",
-        source=TableSource("stability"),
+        source=TableSource(("stability",)),
         marks="""Refused cases are beyond the stability limit; failing ones end in an exception.""",
     ),
     "mechanism_friction": Declaration(
@@ -297,7 +297,7 @@ FIGURES: dict[str, Declaration] = {
         equilibrium, with blocks that overshoot and stick again, and of the full model; against the
         size of pillars, on surfaces of 40 to 48 blocks a side with gaps as wide as the pillars. The
         same 10 seeds for each.""",
-        source=TableSource("mechanism"),
+        source=TableSource(("mechanism",)),
         marks=f"""e) Chance plays no part: no bars. f) Means; bars:
         {INTERVALS.replace("realisations", "seeds")}.""",
     ),
@@ -310,7 +310,7 @@ FIGURES: dict[str, Declaration] = {
         the others in contact. Solid: full model; dashed: blocks that overshoot and stick again, in
         which time is the slider's way over its velocity, until each has let go once. Means over 5
         seeds; bands: {INTERVALS.replace("realisations", "seeds")}.""",
-        source=TableSource("mechanism_budget"),
+        source=TableSource(("mechanism_budget",)),
     ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",

@@ -112,8 +112,10 @@ def _place(picture: Figure, left: float, bottom: float, width: float, height: fl
 
 def _blocks(ax: Axes, run: Run) -> Update:
     """Map the blocks that have detached so far."""
-    image = maps.draw_times(ax, run, "not detached", "detaching now", until=0.0)
+    image = maps.draw_times(ax, run, until=0.0)
     image.set_animated(True)
+    others = [] if run.contact.all() else ["not in contact"]
+    maps.draw_key(ax, "not detached", "detaching now", *others)
 
     def update(now: float, before: float) -> list[Artist]:
         image.set_data(maps.painted(run, now, before))
@@ -124,12 +126,11 @@ def _blocks(ax: Axes, run: Run) -> Update:
 
 def _displacement(ax: Axes, run: Run) -> Update:
     """Map the latest snapshot so far; before the first there is none."""
-    fields, colors = maps.displacements(run.snapshots)
+    fields, look = maps.displacements(run.snapshots)
     nothing = np.full_like(fields[0], np.nan)
-    image = maps.draw_map(ax, nothing)
-    image.set(cmap=colors.cmap, norm=colors.norm, animated=True)
+    image = maps.draw_map(ax, nothing, animated=True, **look)
     title = ax.set_title("", animated=True)
-    style.color_bar(ax, colors, maps.DISPLACEMENT, orientation="horizontal")
+    style.color_bar(ax, image, maps.DISPLACEMENT, orientation="horizontal")
 
     def update(now: float, before: float) -> list[Artist]:
         latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1

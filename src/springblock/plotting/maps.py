@@ -1,20 +1,27 @@
-"""Maps of a surface, block by block: where it touches, and when blocks have detached."""
+"""Maps of a surface, block by block, and arrows and lengths beside what they measure."""
 
 import math
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize, TwoSlopeNorm, to_rgb
+from matplotlib.colors import ListedColormap, TwoSlopeNorm, to_rgb
 from matplotlib.image import AxesImage
-from matplotlib.patches import Patch
+from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.model.direction import heading, normalised
 from springblock.plotting import style
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT, Look, color_bar
 from springblock.simulation.run import Array, Run
 
+Axis = Literal["x", "y"]
+Point = tuple[float, float]
+
+_HEAD = "-|>,head_length=0.5,head_width=0.18"
+_HEADS = "<|-|>,head_length=0.5,head_width=0.18"
 _BLOCKS = ListedColormap([NO_CONTACT, CONTACT])
 _KEY = {
     "in contact": CONTACT,
@@ -26,12 +33,13 @@ DISPLACEMENT = r"displacement $|u|$ (nm)"
 _LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 
 
-def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
+def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l", **look: Any) -> AxesImage:
     """Show one value or colour per block; block (x, y) covers x ± 1/2, y ± 1/2.
 
-    What is drawn later does not stretch the panel. `axes` follows x and y in their names.
+    What is drawn later does not stretch the panel. `axes` follows x and y in their names; `look`
+    are further arguments of `Axes.imshow`.
     """
-    image = ax.imshow(values, origin="lower", interpolation="nearest")
+    image = ax.imshow(values, origin="lower", interpolation="nearest", **look)
     ax.autoscale(False)
     ax.set(xlabel=f"$x{axes}$", ylabel=f"$y{axes}$")
     for axis in (ax.xaxis, ax.yaxis):
@@ -39,11 +47,9 @@ def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l") -> AxesImage:
     return image
 
 
-def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l") -> AxesImage:
+def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l", **look: Any) -> None:
     """Show which blocks touch the substrate."""
-    image = draw_map(ax, contact, axes)
-    image.set(cmap=_BLOCKS, clim=(0, 1))
-    return image
+    draw_map(ax, contact, axes, cmap=_BLOCKS, vmin=0, vmax=1, **look)
 
 
 def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0)) -> None:
@@ -57,8 +63,7 @@ def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0,
 def draw_mean_times(ax: Axes, times: Array, label: str, axes: str = "/l") -> None:
     """Map mean t_det/t_max on a scale of its own."""
     norm = scale(times)
-    image = draw_map(ax, times, axes)
-    image.set(cmap=BEFORE_AFTER, norm=norm)
+    image = draw_map(ax, times, axes, cmap=BEFORE_AFTER, norm=norm)
     color_bar(ax, image, label, ticks=_ticks(norm))
 
 
@@ -77,23 +82,20 @@ def _ticks(norm: TwoSlopeNorm) -> list[float]:
     return ticks
 
 
-def draw_times_bar(ax: Axes, run: Run) -> None:
-    """Say below a map of one run which colour stands for which time."""
+def draw_times(ax: Axes, run: Run, until: float = math.inf) -> AxesImage:
+    """Map the blocks of a run that have detached until a time in s, with the colours below."""
+    if np.isfinite(run.t_det).any():
+        _draw_times_bar(ax, run)
+    return draw_map(ax, painted(run, until))
+
+
+def _draw_times_bar(ax: Axes, run: Run) -> None:
     label = r"first detachment $t_\mathrm{det}/t_\mathrm{max}$"
     norm = scale(run.t_det / run.t_max)
     look: Look = {"orientation": "horizontal", "ticks": _ticks(norm)}
     bar = color_bar(ax, ScalarMappable(norm, BEFORE_AFTER), label, **look).ax
     for place, side, name in ((0.0, "left", "precursors"), (1.0, "right", "after the force peak")):
         bar.text(place, 1.15, name, ha=side, va="bottom", transform=bar.transAxes)
-
-
-def draw_times(ax: Axes, run: Run, *names: str, until: float = math.inf) -> AxesImage:
-    """Map the blocks that have detached until a time in s, and name the colours of others."""
-    image = draw_map(ax, painted(run, until))
-    draw_key(ax, *names, *([] if run.contact.all() else ["not in contact"]))
-    if np.isfinite(run.t_det).any():
-        draw_times_bar(ax, run)
-    return image
 
 
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
@@ -118,9 +120,59 @@ def draw_key(ax: Axes, *names: str) -> None:
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
 
 
-def displacements(snapshots: Array) -> tuple[Array, ScalarMappable]:
-    """Return |u| in nm of snapshots, (k, 2, N, N) m, and their common colours."""
+def displacements(snapshots: Array) -> tuple[Array, Look]:
+    """Return |u| in nm of snapshots, (k, 2, N, N) m, and the look of their maps."""
     sizes = style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
     # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
     # doi:10.1371/journal.pone.0199239).
-    return sizes, ScalarMappable(Normalize(0.0, max(float(sizes.max()), 1e-12)), "cividis")
+    return sizes, {"cmap": "cividis", "vmin": 0.0, "vmax": max(float(sizes.max()), 1e-12)}
+
+
+def dimension(
+    ax: Axes, axis: Axis, start: float, end: float, at: float, label: str, narrow: bool = False
+) -> None:
+    """Draw a dimension arrow along `axis` from `start` to `end`, `at` on the other axis.
+
+    All in data coordinates, which may lie outside the panel. A `narrow` length has its arrows
+    outside, pointing at it, and its label where the second one begins.
+    """
+    along_x, middle = axis == "x", 0.5 * (start + end)
+    if narrow:
+        tail = 2.0 * (end - start)
+        arrow(ax, point(axis, start - tail, at), point(axis, start, at))
+        middle = end + tail
+        arrow(ax, point(axis, middle, at), point(axis, end, at))
+    else:
+        arrow(ax, point(axis, start, at), point(axis, end, at), _HEADS)
+    aside = (0.0, 2.5) if along_x else (3.5, 0.0)  # points
+    look: Look = {"ha": "center" if along_x else "left"}
+    look |= {"va": "bottom" if along_x else "center", "textcoords": "offset points"}
+    ax.annotate(label, point(axis, middle, at), aside, annotation_clip=False, **look)
+
+
+def point(axis: Axis, along: float, at: float) -> Point:
+    """Return the point (x, y) at `along` on an axis and `at` on the other one."""
+    return (along, at) if axis == "x" else (at, along)
+
+
+def arrow(ax: Axes, start: Point, end: Point, heads: str = _HEAD, width: float = 0.6) -> None:
+    """Draw an arrow whose tip is at `end`, in data coordinates, also outside the panel."""
+    look: Look = {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 8.0}
+    look |= {"color": BLACK, "linewidth": width, "joinstyle": "miter"}
+    look |= {"clip_on": False, "zorder": 3}
+    ax.add_artist(FancyArrowPatch(start, end, arrowstyle=heads, **look))
+
+
+def draw_sliding(ax: Axes, *directions: str | float) -> None:
+    """Show above the panel's right corner where the slider goes: "x", "y" or degrees from x."""
+    right, top = ax.get_xlim()[1], ax.get_ylim()[1]
+    size = max(right, top) + 0.5
+    length, corner = 0.1 * size, np.array([right - 0.1 * size, top + 0.05 * size])
+    for direction in directions:
+        way = length * np.array(heading(direction))
+        start = corner - way.clip(max=0.0)
+        arrow(ax, tuple(start), tuple(start + way), width=1.0)
+    names = [normalised(direction) for direction in directions]
+    angles = ", ".join(f"${name}$" if name in ("x", "y") else f"{name}°" for name in names)
+    label = f"sliding direction{'s' if len(names) > 1 else ''} {angles}"
+    ax.text(corner[0] - 0.03 * size, corner[1], label, ha="right", va="center")

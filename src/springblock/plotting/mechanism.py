@@ -1,7 +1,7 @@
 """Figures of the mechanism: stress before slip, friction by model, and who bears the load."""
 
 from collections.abc import Sequence
-from itertools import chain
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -14,9 +14,8 @@ from springblock.mechanism.page import NAMES
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
 from springblock.plotting import style
-from springblock.plotting.curves import draw_band
+from springblock.plotting.curves import FRICTION, draw_band, draw_means, name_places
 from springblock.plotting.maps import draw_map
-from springblock.plotting.points import FRICTION, draw_means, name_places
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, VERMILION, Look, color_bar
 from springblock.simulation.run import Array
 
@@ -28,6 +27,7 @@ _LOOKS: dict[str, Look] = {
     "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
     "simulation": {"color": BLACK, "marker": "o"},
 }
+_LINES = {"simulation": "-", "overshooting": "--"}
 _BEARERS = {"both": ("all", BLACK), "edge": ("edges", VERMILION), "core": ("core", BLUE)}
 
 
@@ -52,23 +52,20 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
 
 def mechanism_budget(table: pd.DataFrame) -> Figure:
     """Draw friction and what edges and core bear of it over time, a) along and b) across."""
-    picture, axes = style.panels(style.DOUBLE, 75.0, "ab")
-    style.share_axes(axes)
+    picture, axes = style.panels(style.DOUBLE, 75.0, "ab", sharex=True, sharey=True)
     whole = table.assign(both=table["edge"] + table["core"] + table["free"])
     for ax, direction in zip(axes, "xy", strict=True):
-        for model, look in (("simulation", "-"), ("overshooting", "--")):
-            here = whole[(whole["direction"] == direction) & (whole["model"] == model)]
-            for name, (label, color) in _BEARERS.items():
-                curves = here.pivot(index="seed", columns="time", values=name).dropna(axis=1)
-                shown = mean_interval(curves.to_numpy())
-                draw_band(ax, MICRO * curves.columns.to_numpy(), shown, color=color, linestyle=look)
-                ax.lines[-1].set_label(f"{label}, {NAMES[model]}")
+        here = whole[whole["direction"] == direction]
+        for (name, (label, color)), (model, line) in product(_BEARERS.items(), _LINES.items()):
+            runs = here[here["model"] == model]
+            curves = runs.pivot(index="seed", columns="time", values=name).dropna(axis=1)
+            look: Look = {"linestyle": line, "label": f"{label}, {NAMES[model]}"}
+            shown = mean_interval(curves.to_numpy())
+            draw_band(ax, MICRO * curves.columns.to_numpy(), shown, color, **look)
         ax.set_xlabel("time (µs)")
         ax.set_title({"x": "along the grooves", "y": "across the grooves"}[direction], loc="right")
     axes[0].set(ylabel="force over normal force", ylim=(0.0, None))
-    lines = axes[0].get_lines()
-    pairs = zip(lines[: len(_BEARERS)], lines[len(_BEARERS) :], strict=True)
-    picture.legend(handles=list(chain(*pairs)), loc="outside upper center", ncols=3)
+    style.legend_above(picture, axes[0], ncols=3)
     return picture
 
 
@@ -77,8 +74,7 @@ def _draw_stress(panels: Sequence[Axes]) -> None:
     stresses = {n_p: _pillar_stress(n_p) for n_p in _SHOWN}
     limits = min(map(np.min, stresses.values())), max(map(np.max, stresses.values()))
     for ax, (n_p, stress) in zip(panels, stresses.items(), strict=True):
-        image = draw_map(ax, stress, "_p/l")
-        image.set(cmap=_COLORS, clim=limits)
+        image = draw_map(ax, stress, "_p/l", cmap=_COLORS, vmin=limits[0], vmax=limits[1])
         ax.set_title(f"$n_p$ = {n_p}", loc="right")
     color_bar(panels[-1], image, "stress over its mean")
 

@@ -5,18 +5,14 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from springblock.analysis import statistics
 from springblock.analysis.statistics import Interval
 from springblock.io.records import Record
-from springblock.plotting import curves, maps, points, style
-from springblock.plotting.dimensions import arrow, draw_sliding
-from springblock.plotting.looks import direction_color, direction_name, pillar_look, pillar_name
+from springblock.plotting import curves, maps, style
 from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
 from springblock.simulation.run import Array, Run
 
@@ -64,19 +60,16 @@ def figure_2(runs: Sequence[Run]) -> Figure:
     force.legend(loc="lower right" if early else "upper left")
     blocks.legend(loc="upper right" if early else "upper left")
     end, height, before = MICRO * run.t_max, 6.0, MICRO * _BEFORE
-    arrow(enlarged, (end, height), (end - 0.8 * before, height))
+    maps.arrow(enlarged, (end, height), (end - 0.8 * before, height))
     enlarged.text(end - 0.4 * before, 1.3 * height, "precursors", ha="center", va="bottom")
     return picture
 
 
 def figure_3(runs: Sequence[Record]) -> Figure:
     """Map t_det/t_max of every block in runs[0]; light grey where a block is not in contact."""
-    run = runs[0]
     picture, (ax,) = style.panels(style.COLUMN, 100.0)
-    image = maps.draw_map(ax, run.t_det / run.t_max)
-    image.set(cmap=style.BEFORE_AFTER, norm=maps.scale(run.t_det / run.t_max))
-    maps.draw_times_bar(ax, run)
-    draw_sliding(ax, run.scene.direction)
+    maps.draw_times(ax, runs[0])
+    maps.draw_sliding(ax, runs[0].scene.direction)
     return picture
 
 
@@ -89,7 +82,7 @@ def figure_5(runs: Sequence[Record]) -> Figure:
     times = statistics.pillar_map(runs, scene.pattern)
     picture, (pillar, rings) = style.panels(style.DOUBLE, 75.0, "ab")
     maps.draw_mean_times(pillar, times.mean(axis=0), _TIME.replace("first detachment ", ""), "_p/l")
-    draw_sliding(pillar, scene.direction)
+    maps.draw_sliding(pillar, scene.direction)
     _draw_rings(rings, times)
     return picture
 
@@ -126,21 +119,20 @@ def figure_6(ensembles: BySize) -> Figure:
     picture, panels = style.panels(style.DOUBLE, 118.0, "ac;bd", **ratios)
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
-    highest, lags = points.highest_and_lag(ensembles)
+    highest, lags = curves.highest_and_lag(ensembles)
     for n_p in filter(None, ensembles):
-        look = pillar_look(n_p)
-        points.draw_means(friction, {n_p: highest[n_p]}, linestyle="none", **look)
-        points.draw_realisations(lag, {n_p: lags[n_p]}, look["color"])
+        look = style.pillar_look(n_p)
+        curves.draw_means(friction, {n_p: highest[n_p]}, linestyle="none", **look)
+        curves.draw_realisations(lag, {n_p: lags[n_p]}, look["color"])
     for ax, samples in ((friction, highest), (lag, lags)):
         if 0 in samples:
             _draw_flat(ax, samples[0])
-        points.name_places(ax, [n_p for n_p in samples if n_p])
-    lag.axhline(0.0, **points.ZERO)
-    friction.set_ylabel(points.FRICTION)
+        curves.name_places(ax, [n_p for n_p in samples if n_p])
+    lag.axhline(0.0, **curves.ZERO)
+    friction.set_ylabel(curves.FRICTION)
     friction.tick_params(labelbottom=False)
-    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=points.LAG)
-    names = force.get_legend_handles_labels()
-    picture.legend(*names, loc="outside upper center", ncols=8)
+    lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=curves.LAG)
+    style.legend_above(picture, force, ncols=8)
     return picture
 
 
@@ -148,8 +140,9 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
     highest = 0.0
     for n_p, runs in ensembles.items():
-        curve, look = statistics.whole_curve(runs), pillar_look(n_p)
-        mean = curves.draw_mean_force(force, curve, label=pillar_name(n_p), spread=True, **look)
+        curve, look = statistics.whole_curve(runs), style.pillar_look(n_p)
+        name = style.pillar_name(n_p)
+        mean = curves.draw_mean_force(force, curve, label=name, spread=True, **look)
         curves.draw_detachments(blocks, curve, **look)
         highest = max(highest, float(np.nanmax(mean)))
         for times, face in (
@@ -198,7 +191,7 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
             look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$"}
             curves.draw_band(ax, part["r"], values, **look)
         _draw_fits(log, str(side), curve, shown.loc[side])
-    linear.axhline(0.0, **points.ZERO)
+    linear.axhline(0.0, **curves.ZERO)
     log.plot([], [], color=GREY, label=_EXPONENTIAL)
     log.plot([], [], color=GREY, label=_FREE, **_DASHED)
     log.set(yscale="log", ylim=(_LEAST, 1.1))
@@ -240,8 +233,8 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
         (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),
     ):
         look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
-        points.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
-    points.name_places(ax, lengths["n_p"])
+        curves.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
+    curves.name_places(ax, lengths["n_p"])
     ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="decay length of $c_x$ (blocks)")
     ax.set_ylim(0.0, None)
     ax.legend(loc="lower right")
@@ -253,31 +246,30 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     All rows have the same axes; triangles stand above load peaks.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    every = list(found.values())
     rows = sorted({key[:2] for key in found})
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
-    named: dict[str, Artist] = {}
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
         peaks = [f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}, lesser peak:"]
         for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
-            color, name = direction_color(direction), direction_name(direction)
+            color, name = style.direction_color(direction), style.direction_name(direction)
             curves.draw_single_forces(force, curve, color)
             curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
             peaks.append(f"{name} {curves.lesser_peak(ensembles[*row, direction])}")
-        named |= dict(zip(*force.get_legend_handles_labels()[::-1], strict=True))
         force.set_ylabel(FORCE)
         force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
-        curves.fit_forces(force, every, curves.enlarged_span(every, _SHOWN))
-        force.set_ylim(0.0, 1.05 * force.get_ylim()[1])
+        force.sharey(panels[0])
         blocks.sharey(panels[1])
+    curves.fit_forces(panels[0], list(found.values()), _SHOWN)
+    panels[0].set_ylim(0.0, 1.05 * panels[0].get_ylim()[1])
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
-    named["load peak of the mean"] = Line2D([], [], color=GREY, marker="v", linestyle="none")
-    named["fewer runs"] = Line2D([], [], color=GREY, **curves.REST)
-    picture.legend(named.values(), named.keys(), loc="outside upper center", ncols=4)
+    peak: Look = {"marker": "v", "linestyle": "none", "label": "load peak of the mean"}
+    panels[-2].plot([], [], color=GREY, **peak)
+    panels[-2].plot([], [], color=GREY, **curves.REST, label="fewer runs")
+    style.legend_above(picture, *panels[::2], ncols=4)
     return picture

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Polygon, Rectangle
 
 from springblock.model.pattern import Pattern
-from springblock.plotting import style
-from springblock.plotting.dimensions import Axis, Point, arrow, dimension, draw_sliding, point
-from springblock.plotting.maps import draw_borders, draw_contact
+from springblock.plotting import maps, style
+from springblock.plotting.maps import Axis, Point
 from springblock.plotting.style import BLACK, CONTACT, GREY, NO_CONTACT, Look
 from springblock.simulation.run import Array
 
@@ -92,7 +91,7 @@ def _draw_side_view(ax: Axes) -> None:
     _draw_length(ax, "x", (left, left + 1.0), 0.12, _GROOVE, "$l$")
     _draw_length(ax, "y", (_GROOVE, underside), n - 0.2, n - 1 + _BLOCK / 2, "$l_z$")
     above = underside + _SLAB + 0.25
-    arrow(ax, (n - 2.0, above), (n - 1.0, above), width=1.0)
+    maps.arrow(ax, (n - 2.0, above), (n - 1.0, above), width=1.0)
     ax.text(n - 0.9, above, "$v$", va="center")
     for key, color, name in ((1.0, CONTACT, "in contact"), (3.2, NO_CONTACT, "not in contact")):
         _draw_block(ax, key, _KEYS - _BLOCK / 2, color)
@@ -133,14 +132,14 @@ def _draw_length(ax: Axes, axis: Axis, ends: Point, at: float, edge: float, labe
     """Draw a dimension arrow with lines that extend what it measures, from `edge` to it."""
     extend = ax.vlines if axis == "x" else ax.hlines
     extend(ends, at, edge, color=GREY, linewidth=0.4, zorder=0)
-    dimension(ax, axis, *ends, at, label)
+    maps.dimension(ax, axis, *ends, at, label)
 
 
 def _draw_axes(ax: Axes, x: float, up: str) -> None:
     """Draw the directions of the panel's two coordinates, below the panel."""
     y = -1.2
-    arrow(ax, (x, y), (x + 0.5, y))
-    arrow(ax, (x, y), (x, y + 0.5))
+    maps.arrow(ax, (x, y), (x + 0.5, y))
+    maps.arrow(ax, (x, y), (x, y + 0.5))
     ax.text(x + 0.54, y, "$x$", va="center")
     ax.text(x, y + 0.54, f"${up}$", ha="center", va="bottom")
 
@@ -158,7 +157,7 @@ def figure_4(pattern: Pattern) -> Figure:
     names = {0: "$0$", size // 2: "$n_p/2$", size - 1: "$n_p-1$"}
     for axis in (pillar.xaxis, pillar.yaxis):
         axis.set_ticks(list(names), labels=list(names.values()))
-    draw_sliding(pillar, "x")
+    maps.draw_sliding(pillar, "x")
     _draw_side(pillar, "x", size, style.BLUE)
     _draw_side(pillar, "y", size, style.VERMILION)
     return picture
@@ -168,16 +167,17 @@ def _draw_side(ax: Axes, along: Axis, size: int, color: str) -> None:
     """Mark the blocks of one side, its centre, and a distance r of its correlation function."""
     centre, other = size // 2, size // 2 + max(1, size // 5)
     corners = ((-0.5, -0.5), (size - 0.5, -0.5), (size - 0.5, 0.5), (0.5, 0.5))
-    ax.add_patch(Polygon([point(along, *corner) for corner in corners], color=color, linewidth=0.0))
+    places = [maps.point(along, *corner) for corner in corners]
+    ax.add_patch(Polygon(places, color=color, linewidth=0.0))
     for place, marker in ((centre, "o"), (other, "s")):
-        ax.plot(*point(along, place, 0.0), marker, **_POINT)
+        ax.plot(*maps.point(along, place, 0.0), marker, **_POINT)
     first, second = (0.5 + line * size for line in _LINES)
-    dimension(ax, along, centre, other, first, "$r$")
+    maps.dimension(ax, along, centre, other, first, "$r$")
     name = "$(n_p/2, 0)$" if along == "x" else "$(0, n_p/2)$"
     look: Look = {"ha": "center", "va": "center", "rotation": 0.0 if along == "x" else 90.0}
-    ax.text(*point(along, centre - 0.12 * size, first), name, bbox=_BEHIND, **look)
+    ax.text(*maps.point(along, centre - 0.12 * size, first), name, bbox=_BEHIND, **look)
     side = f"side along ${along}$: $c_{along}(r)$"
-    ax.text(*point(along, centre, second), side, bbox=_BEHIND, **look)
+    ax.text(*maps.point(along, centre, second), side, bbox=_BEHIND, **look)
 
 
 def figure_8(pattern: Pattern) -> Figure:
@@ -189,7 +189,7 @@ def figure_8(pattern: Pattern) -> Figure:
         raise ValueError("figure 8 shows pillars with grooves; this pattern has no second level")
     picture, surface, pillar = _surface_and_pillar(pattern, pattern.n_blocks)
     _draw_pillar_dimensions(surface, pattern, "$n_p^{(1)}$", "$n_s^{(1)}$")
-    draw_sliding(pillar, "x", "y")
+    maps.draw_sliding(pillar, "x", "y")
     _draw_groove_dimensions(pillar, pattern)
     return picture
 
@@ -202,19 +202,19 @@ def _draw_groove_dimensions(ax: Axes, pattern: Pattern) -> None:
     level, size = pattern.levels[1], pattern.levels[0].size
     pawl = starts[size // (level.size + level.gap) // 2]
     groove = pawl + level.size
-    dimension(ax, across, pawl, groove, 0.2 * size, "$n_p^{(2)}$")
-    dimension(ax, across, groove, groove + level.gap, 0.6 * size, "$n_s^{(2)}$", narrow=True)
+    maps.dimension(ax, across, pawl, groove, 0.2 * size, "$n_p^{(2)}$")
+    maps.dimension(ax, across, groove, groove + level.gap, 0.6 * size, "$n_s^{(2)}$", narrow=True)
 
 
 def _surface_and_pillar(pattern: Pattern, portion: int) -> tuple[Figure, Axes, Axes]:
     """Draw a) the first `portion` blocks of the surface each way and b) one whole pillar of it."""
     x, y, size = _chosen_pillar(pattern, portion)
     picture, (surface, pillar) = style.panels(style.ONE_AND_A_HALF, 70.0, "ab")
-    draw_contact(surface, pattern.contact[:portion, :portion])
+    maps.draw_contact(surface, pattern.contact[:portion, :portion])
     enlarged = pattern.contact[y : y + size, x : x + size]
-    draw_contact(pillar, enlarged, axes="_p/l")
+    maps.draw_contact(pillar, enlarged, axes="_p/l")
     if size <= _GRID_LIMIT:
-        draw_borders(pillar, enlarged.shape)
+        maps.draw_borders(pillar, enlarged.shape)
     pillar.yaxis.tick_right()
     pillar.yaxis.set_label_position("right")
     left, bottom = x - 0.5, y - 0.5
@@ -233,12 +233,9 @@ def _chosen_pillar(pattern: Pattern, portion: int) -> tuple[int, int, int]:
     if not pattern.levels:
         raise ValueError("a flat surface has no pillar to enlarge")
     size = pattern.levels[0].size
-    whole = [o for o in pattern.origins.tolist() if max(o) + size <= portion]
-    if not whole:
-        raise ValueError(f"a portion of {portion} blocks holds no whole pillar of {size} blocks")
-    column = max(x for _, x in whole)
-    rows = sorted(y for y, x in whole if x == column)
-    return column, rows[len(rows) // 2], size
+    whole = [(x, y) for y, x in pattern.origins.tolist() if max(x, y) + size <= portion]
+    column = sorted(place for place in whole if place[0] == max(whole)[0])
+    return *column[len(column) // 2], size
 
 
 def _draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str) -> None:
@@ -255,4 +252,4 @@ def _draw_pillar_dimensions(ax: Axes, pattern: Pattern, size: str, spacing: str)
     above = top + 0.035 * (top + 0.5)
     ax.vlines(edges, rows[-1] + 0.5, above, color=GREY, linewidth=0.4, clip_on=False)
     for start, stop, label in zip(edges, edges[1:], (size, spacing), strict=False):
-        dimension(ax, "x", start, stop, above, label)
+        maps.dimension(ax, "x", start, stop, above, label)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
-from springblock.plotting.dimensions import draw_sliding
+from springblock.plotting.maps import draw_sliding
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
 
@@ -46,8 +46,9 @@ def plot(run: Run) -> Figure:
     else:
         draw_force(panels["F"], run, (), span)
         panels["F"].set(xlabel="time (µs)", xlim=span)
-    stuck = (run.contact & np.isnan(run.t_det)).any()
-    maps.draw_times(panels["M"], run, *(["not detached"] if stuck else []))
+    maps.draw_times(panels["M"], run)
+    others = {"not detached": run.contact & np.isnan(run.t_det), "not in contact": ~run.contact}
+    maps.draw_key(panels["M"], *(name for name, blocks in others.items() if blocks.any()))
     if len(run.snapshots):
         _draw_snapshots(parts[1], run)
     return picture
@@ -57,17 +58,17 @@ def _draw_snapshots(part: SubFigure, run: Run) -> None:
     """Map displacements at up to four times, in the same colours."""
     count = len(run.snapshots)
     chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
-    fields, colors = maps.displacements(run.snapshots[chosen])
+    fields, look = maps.displacements(run.snapshots[chosen])
     panels = part.subplots(1, _SNAPSHOTS)
     for ax in panels[len(chosen) :]:
         ax.remove()
     for ax, i, field in zip(panels, chosen, fields, strict=False):
-        maps.draw_map(ax, field).set(cmap=colors.cmap, norm=colors.norm)
+        image = maps.draw_map(ax, field, **look)
         ax.set_title(f"{MICRO * run.snapshot_times[i]:.4g} µs")
         if i:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
-    color_bar(panels[len(chosen) - 1], colors, maps.DISPLACEMENT)
+    color_bar(panels[len(chosen) - 1], image, maps.DISPLACEMENT)
 
 
 @journal
@@ -87,8 +88,7 @@ def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> 
     window = contact[y : y + _ENLARGED, x : x + _ENLARGED]
     rows, columns = window.shape
     extent = (x - 0.5, x + columns - 0.5, y - 0.5, y + rows - 0.5)
-    maps.draw_contact(detail, window).set_extent(extent)
-    detail.set(xlim=extent[:2], ylim=extent[2:])
+    maps.draw_contact(detail, window, extent=extent)
     maps.draw_borders(detail, window.shape, (y, x))
     maps.draw_key(detail, "in contact", "not in contact")
     whole.add_patch(Rectangle((x - 0.5, y - 0.5), columns, rows, fill=False))

@@ -1,16 +1,17 @@
-"""One look for all figures: sizes, colours, lettered panels, and files that are always the same.
+"""One look for all figures: sizes, colours, names, panels, and files that are always the same.
 
 Figures are drawn without pyplot, so that nothing depends on global state: functions that draw wear
 the decorator `journal`, which puts the style in force whatever the reader's own settings are. To
 those of the study's figures `plotting.drawing` gives it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import style
+from matplotlib import colormaps, style
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
@@ -29,7 +30,7 @@ COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's 
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
 # black is flat, blue goes along x, vermilion along y and green askew, whether it is a side or the
-# slider; purple is a third level. Pillars have the colours of `looks.pillar_look`.
+# slider; purple is a third level. Pillars have the colours of `pillar_look`.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
@@ -46,6 +47,25 @@ BEFORE_AFTER = LinearSegmentedColormap.from_list(
     "before_after",
     [(0.0, "#08306B"), (0.5, "#7FB2DB"), (0.5, "#FCEAE2"), (0.8, "#F2AD95"), (1.0, "#DC6B55")],
 ).with_extremes(bad=NO_CONTACT)
+
+Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
+
+#: Integrators by name. Symbols of Runge-Kutta are open, as some cover those of the leapfrog.
+METHODS: dict[str, Look] = {
+    "leapfrog": {"label": "leapfrog", "color": BLUE, "marker": "o"},
+    "rk4": {"label": "Runge–Kutta", "color": VERMILION, "marker": "s"}
+    | {"markersize": 3.8, "markerfacecolor": "none"},
+}
+_DIRECTIONS = {"x": BLUE, "y": VERMILION}
+_STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}
+#: By n_p.
+_MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
+_MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
+_LARGEST = 60  #: n_p at the light end of the colours, and two at the dark one
+#: Ordered for all colour vision, up to a green whose contrast with white is 2.7; yellow fades.
+_SHADES = LinearSegmentedColormap.from_list(
+    "shades", colormaps["viridis"](np.linspace(0.0, 0.64, 33))
+)
 
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
@@ -115,6 +135,15 @@ def share_axes(row: Sequence[Axes]) -> None:
         ax.tick_params(labelleft=False)
 
 
+def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:
+    """Name what panels show above all of them, each name once."""
+    named: dict[str, Artist] = {}
+    for ax in panels:
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            named.setdefault(label, handle)
+    picture.legend(named.values(), named.keys(), **{"loc": "outside upper center"} | look)
+
+
 def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Colorbar:
     """Draw a bar of colours as long as a panel, at its right or, with that orientation, below."""
     below = look.get("orientation") == "horizontal"
@@ -123,6 +152,50 @@ def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Co
     bar: Colorbar = picture.colorbar(mappable, place, label=label, **look)
     bar.outline.set_linewidth(JOURNAL["axes.linewidth"])
     return bar
+
+
+def shades(values: Iterable[float]) -> dict[float, Any]:
+    """A colour for each value, from dark for the smallest to light."""
+    ordered = sorted(set(values))
+    return dict(zip(ordered, map(tuple, _SHADES(np.linspace(0.0, 1.0, len(ordered)))), strict=True))
+
+
+def pillar_look(n_p: int) -> Look:
+    """Colour and marker of pillars of a size; 0 is a flat surface."""
+    if not n_p:
+        return {"color": BLACK, "marker": "o"}
+    place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
+    return {"color": _SHADES(place), "marker": _MARKERS.get(n_p, "o")}
+
+
+def pillar_name(n_p: int) -> str:
+    """Name of pillars of a size."""
+    return f"$n_p$ = {n_p}" if n_p else "flat"
+
+
+def direction_color(direction: str) -> str:
+    """Colour of what goes along x, along y, or askew."""
+    return _DIRECTIONS.get(direction, GREEN)
+
+
+def direction_name(direction: str) -> str:
+    """Name a sliding direction on grooves that run along x."""
+    named = {"x": "along grooves", "y": "across grooves"}
+    return named.get(direction, f"at {direction}° to grooves")
+
+
+def surface_look(key: Key) -> Look:
+    """Name, colour and marker of a surface."""
+    n_p, n_p2, direction = key
+    if not n_p2:
+        return {"label": pillar_name(n_p), **pillar_look(n_p)}
+    look = {"label": direction_name(direction), "color": direction_color(direction)}
+    return look | _STRIPS.get(direction, {"marker": "d"})
+
+
+def in_order(keys: Iterable[Key]) -> list[Key]:
+    """The flat surface, pillars by their size, grooved ones."""
+    return sorted(keys, key=lambda key: (key[1] > 0, key))
 
 
 @journal

@@ -7,17 +7,15 @@ from collections.abc import Mapping, Sequence
 from textwrap import fill
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from springblock.analysis import statistics
 from springblock.io.records import Record
 from springblock.model.direction import degrees
-from springblock.plotting import curves, looks, maps, points, style
-from springblock.plotting.looks import Key
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
-from springblock.simulation.run import Array, Run, friction, percent
+from springblock.plotting import curves, maps, style
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Key, Look
+from springblock.simulation.run import Array, Run, percent
 
 _SPREAD = 2.0  #: degrees over which single runs are spread
 _CLOSE = 0.85  #: share of the maximum from which the force on three levels is shown
@@ -32,35 +30,34 @@ _LINE = 120  #: letters that fit above a row
 
 def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p."""
-    picture, panels = points.friction_and_lag("distance between the pillars $n_s$ (blocks)")
+    picture, panels = curves.stacked("distance between the pillars $n_s$ (blocks)")
     for n_p in sorted({n_p for n_p, _ in ensembles}):
         by_gap = {n_s: runs for (size, n_s), runs in sorted(ensembles.items()) if size == n_p}
-        look, (highest, lag) = looks.pillar_look(n_p), points.highest_and_lag(by_gap)
-        points.draw_means(panels[0], highest, **look, label=looks.pillar_name(n_p))
-        points.draw_realisations(panels[1], lag, look["color"])
-    points.name_places(panels[0], [n_s for _, n_s in ensembles])
+        look, (highest, lag) = style.pillar_look(n_p), curves.highest_and_lag(by_gap)
+        curves.draw_means(panels[0], highest, **look, label=style.pillar_name(n_p))
+        curves.draw_realisations(panels[1], lag, look["color"])
+    curves.name_places(panels[0], [n_s for _, n_s in ensembles])
     panels[0].legend(loc="best", ncols=2)
     return picture
 
 
 def supplement_size(ensembles: Mapping[tuple[int, int, str, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction over its mean at the largest N and b) t_max - t_avg, over N."""
-    picture, (ratio, lags) = points.friction_and_lag("side of the surface $N$ (blocks)")
-    surfaces = looks.in_order({key[:3] for key in ensembles})
+    picture, (ratio, lags) = curves.stacked("side of the surface $N$ (blocks)")
+    surfaces = style.in_order({key[:3] for key in ensembles})
     every = sorted({key[3] for key in ensembles})
     for i, surface in enumerate(surfaces):
-        name, look = looks.surface_look(surface)
+        look = style.surface_look(surface)
         by_size = {key[3]: runs for key, runs in sorted(ensembles.items()) if key[:3] == surface}
-        highest, lag = points.highest_and_lag(by_size)
-        usual = highest[max(by_size)].mean()
-        places = points.aside(by_size, every, i, len(surfaces), log=True)
-        relative = {at: each / usual for at, each in zip(places, highest.values(), strict=True)}
-        points.draw_means(ratio, relative, **look, label=name)
-        at_places = dict(zip(places, lag.values(), strict=True))
-        points.draw_realisations(lags, at_places, look["color"])
-    ratio.axhline(1.0, **points.ZERO)
+        moved = curves.aside(by_size, every, i, len(surfaces), log=True)
+        highest, lag = curves.highest_and_lag(moved)
+        usual = highest[max(highest)].mean()
+        relative = {place: sample / usual for place, sample in highest.items()}
+        curves.draw_means(ratio, relative, **look)
+        curves.draw_realisations(lags, lag, look["color"])
+    ratio.axhline(1.0, **curves.ZERO)
     ratio.set_ylabel("static friction\nover that at the largest $N$")
-    points.name_places(ratio, every)
+    curves.name_places(ratio, every)
     ratio.legend(loc="best")
     return picture
 
@@ -71,22 +68,20 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
     That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     """
     label = "angle between sliding and grooves (°)"
-    picture, panels = points.friction_and_lag(label, "lesser peak (% of force)")
+    quantities = (curves.FRICTION, curves.LAG, "lesser peak (% of force)")
+    picture, panels = curves.stacked(label, quantities)
     names = {degrees(name): name for name in ensembles}
     by_angle = {angle: ensembles[names[angle]] for angle in sorted(names)}
-    highest, lag = points.highest_and_lag(by_angle)
-    lesser = {
-        angle: PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
-        for angle, runs in by_angle.items()
-    }
+    highest, lag = curves.highest_and_lag(by_angle)
+    lesser = {angle: curves.lesser_peaks(runs) for angle, runs in by_angle.items()}
     for ax, samples in zip(panels, (highest, lag, lesser), strict=True):
         for angle, sample in samples.items():
-            color = looks.direction_color(names[angle])
+            color = style.direction_color(names[angle])
             spread = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
-            ax.plot(angle + spread, sample, color=color, **points.DOT)
+            ax.plot(angle + spread, sample, color=color, **curves.DOT)
             if samples is not lag:  # whose mean lies between two clusters of realisations
                 look: Look = {"linestyle": "none", "marker": "o", "zorder": 3}
-                points.draw_means(ax, {angle: sample}, color, **look)
+                curves.draw_means(ax, {angle: sample}, color, **look)
         ax.set_xticks(list(samples))
     panels[2].set_ylim(0.0, None)
     return picture
@@ -95,12 +90,11 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
 def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> Figure:
     """Draw the mean force towards its end, a) along and b) across the grooves, for each level."""
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    span = curves.enlarged_span(list(found.values()), _CLOSE)
     picture, panels = style.panels(style.COLUMN, 99.0, "a;b", sharex=True, sharey=True)
     for direction, ax in zip(("x", "y"), panels, strict=True):
         shown = {level: curve for (name, level), curve in found.items() if name == direction}
         for level, curve in shown.items():
-            color = {2: looks.direction_color(direction), 3: style.PURPLE}.get(level, style.GREEN)
+            color = {2: style.direction_color(direction), 3: style.PURPLE}.get(level, style.GREEN)
             runs = ensembles[direction, level]
             sizes = [str(size) for size in runs[0].scene.lengths.values() if size]
             pairs = ", ".join(map("/".join, zip(sizes[::2], sizes[1::2], strict=True)))
@@ -108,8 +102,8 @@ def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> 
         if shown:
             ax.legend(loc="lower left", title=_TITLE, alignment="left")
         ax.set_ylabel(FORCE)
-        ax.set_title(f"sliding {looks.direction_name(direction)}", loc="right")
-    curves.fit_forces(panels[0], list(found.values()), span)
+        ax.set_title(f"sliding {style.direction_name(direction)}", loc="right")
+    curves.fit_forces(panels[0], list(found.values()), _CLOSE)
     low, high = panels[0].get_ylim()
     panels[0].set_ylim(low - 0.4 * (high - low), high)  # room for the legends
     panels[-1].set_xlabel("time (µs)")
@@ -119,30 +113,22 @@ def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> 
 def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     """Draw half the 95 % interval of static friction over the number of realisations."""
     picture, (ax,) = style.panels(style.COLUMN, 76.0)
-    for key in looks.in_order(ensembles):
-        name, look = looks.surface_look(key)
-        friction = np.array([run.static_friction for run in ensembles[key]])
-        _draw_widths(ax, _MILLI * friction, look | {"label": name})
+    for key in style.in_order(ensembles):
+        look = style.surface_look(key)
+        values = _MILLI * np.array([run.static_friction for run in ensembles[key]])
+        if widths := statistics.half_widths(values, _SIZES):
+            sizes, predicted = np.array(list(widths)), _NORMAL * values.std(ddof=1)
+            ax.plot(sizes, list(widths.values()), linestyle="none", **look)
+            ax.plot(sizes, predicted / np.sqrt(sizes), color=look["color"], linewidth=0.5)
     ax.set(yscale="log", ylabel="± of static friction (10⁻³)", xlabel="number of realisations")
     ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     ax.yaxis.set_major_formatter("{x:g}")
     ax.yaxis.set_minor_formatter(NullFormatter())
     most = max(map(len, ensembles.values()))
-    points.name_places(ax, [k for k in _SIZES if k <= max(most, _SIZES[0])])
+    curves.name_places(ax, [k for k in _SIZES if k <= max(most, _SIZES[0])])
     ax.plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
-    picture.legend(loc="outside upper center", ncols=3)
+    style.legend_above(picture, ax, ncols=3)
     return picture
-
-
-def _draw_widths(ax: Axes, values: Array, look: Look) -> None:
-    """Draw widths measured on subsets, over the line that the whole ensemble predicts."""
-    widths = statistics.half_widths(values, _SIZES)
-    if not widths:
-        return
-    sizes = np.array(list(widths))
-    ax.plot(sizes, list(widths.values()), linestyle="none", **look)
-    predicted = _NORMAL * values.std(ddof=1) / np.sqrt(sizes)
-    ax.plot(sizes, predicted, color=look["color"], linewidth=0.5)
 
 
 def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
@@ -151,14 +137,14 @@ def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
     Up to the force maximum the rule of re-sticking can matter for these blocks alone.
     """
     picture, (ax,) = style.panels(style.COLUMN, 66.0)
-    keys = looks.in_order(ensembles)
+    keys = style.in_order(ensembles)
     again = [np.stack([let_go_again(run) for run in ensembles[key]], axis=1) for key in keys]
-    for i, (time, color) in enumerate(looks.shades(_TIMES).items()):
+    for i, (time, color) in enumerate(style.shades(_TIMES).items()):
         places = np.arange(len(keys)) + 0.25 * (i - 1)
         samples = {place: shares[i] for place, shares in zip(places, again, strict=True)}
         label = rf"$t$ = {time:g} $t_\mathrm{{max}}$"
-        points.draw_realisations(ax, samples, color, label=label)
-    names = [looks.surface_look(key)[0] for key in keys]
+        curves.draw_realisations(ax, samples, color, label=label)
+    names = [style.surface_look(key)["label"] for key in keys]
     ax.set_xticks(range(len(keys)), names, rotation=35.0, ha="right", rotation_mode="anchor")
     ax.set(xlabel="surface", ylabel="let go again (% of blocks)", ylim=(0.0, None))
     ax.legend(loc="upper left", title="up to")

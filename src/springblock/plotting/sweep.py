@@ -13,20 +13,21 @@ from springblock.io.schemas import AXES, SCENE, SETUP
 from springblock.model.direction import degrees
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import LENGTHS, Scene
-from springblock.plotting import points, style
+from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
 
 Names = tuple[tuple[str, str], ...]
+Lines = dict[str, dict[float, list[Row]]]  #: rows by the name of their line and their place
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
-    "static_friction": (points.FRICTION, lambda row: row["static_friction"]),
+    "static_friction": (curves.FRICTION, lambda row: row["static_friction"]),
     "dynamic_friction": ("dynamic friction", lambda row: row["dynamic_friction"]),
     "t_max": (r"$t_\mathrm{max}$ (µs)", lambda row: MICRO * row["t_max"]),
     "t_avg": (r"$t_\mathrm{avg}$ (µs)", lambda row: MICRO * row["t_avg"]),
     "t_first": ("first detachment (µs)", lambda row: MICRO * row["t_first"]),
-    "t_max-t_avg": (points.LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
+    "t_max-t_avg": (curves.LAG, lambda row: MICRO * (row["t_max"] - row["t_avg"])),
 }
 
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
@@ -38,10 +39,10 @@ _WIDE = 24  #: characters of a line's name from which on names stand below each 
 _LINE = 3.6  #: mm, of the legend
 
 
-def caption(rows: Iterable[Row], over: str) -> str:
-    """Return what is drawn over an axis, and of which surfaces and seeds, in words."""
+def caption(found: Lines) -> str:
+    """Return what is drawn of lines, and of which surfaces and seeds, in words."""
     seeds: dict[Scene, list[int]] = {}
-    for row in drawn(rows, over):
+    for row in drawn(found):
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     return (
@@ -52,9 +53,15 @@ def caption(rows: Iterable[Row], over: str) -> str:
     )
 
 
-def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
-    """Return rows by place on the axis, for each line, named by what tells its scenes from others.
+def drawn(found: Lines) -> list[Row]:
+    """Return all rows of lines."""
+    return [row for line in found.values() for runs in line.values() for row in runs]
 
+
+def lines(rows: Iterable[Row], over: str) -> Lines:
+    """Return rows of the table `realisations` by place on an axis, for each line.
+
+    A line is named by what tells its scenes from others.
     Scenes that share a line with no other are left out, if some do.
     """
     rows = list(rows)
@@ -74,11 +81,6 @@ def lines(rows: Iterable[Row], over: str) -> dict[str, dict[float, list[Row]]]:
         own = [f"{_math(key)} = {value}" for key, value in names if (key, value) not in common]
         labelled[", ".join(own) or "as the study"] = dict(sorted(swept[names].items()))
     return labelled
-
-
-def drawn(rows: Iterable[Row], over: str) -> list[Row]:
-    """Return the rows that `lines` has a place for."""
-    return [row for line in lines(rows, over).values() for runs in line.values() for row in runs]
 
 
 def _place(row: Row, over: str) -> float:
@@ -105,41 +107,36 @@ def _math(name: str) -> str:
 
 
 @style.journal
-def draw(rows: Sequence[Row], over: str, observables: Sequence[str]) -> Figure:
-    """Draw observables over an axis, a panel each; rows are of the table `realisations`."""
-    found = lines(rows, over)
-    letters = ";".join("abcdef"[: len(observables)])
+def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
+    """Draw observables of lines over an axis, a panel each."""
     columns = 1 if max(map(len, found)) > _WIDE else 2
     names = _LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0
-    height = 15.0 + 43.0 * len(observables) + names
-    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
+    labels = [OBSERVABLES[name][0] for name in observables]
+    picture, panels = curves.stacked(_axis(over, drawn(found)[0]), labels, 15.0 + names)
     every = sorted({place for places in found.values() for place in places})
     log = 0.0 < _DECADE * every[0] <= every[-1]
     for ax, name in zip(panels, observables, strict=True):
-        label, of = OBSERVABLES[name]
+        _, of = OBSERVABLES[name]
         looks = zip(found.items(), cycle(_COLORS), cycle(_MARKERS), strict=False)
         for i, ((line, runs), color, marker) in enumerate(looks):
-            places = points.aside(runs, every, i, len(found), log)
-            values = [np.array([of(row) for row in rows]) for rows in runs.values()]
-            samples = dict(zip(places, values, strict=True))
+            moved = curves.aside(runs, every, i, len(found), log)
+            samples = {at: np.array([of(row) for row in rows]) for at, rows in moved.items()}
             if name in _CLUSTERED:
                 look: Look = {"linestyle": "-", "linewidth": 0.7}
-                points.draw_realisations(ax, samples, color, label=line, **look)
+                curves.draw_realisations(ax, samples, color, label=line, **look)
             else:
-                points.draw_means(ax, samples, color, marker=marker, label=line)
-        ax.set_ylabel(label)
+                curves.draw_means(ax, samples, color, marker=marker, label=line)
         if log:
-            points.name_places(ax, every)
-    panels[-1].set_xlabel(_axis(over, rows[0]))
+            curves.name_places(ax, every)
     if len(found) > 1:
-        named = panels[0].get_legend_handles_labels()
-        picture.legend(*named, loc="outside upper left", ncols=columns)
+        style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
 
 
 def _axis(over: str, row: Row) -> str:
     """Return the meaning and unit of an axis, as the tables say."""
     units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
-    units |= {"direction": "degrees"} | law_units(row)
-    unit = units[over]
-    return _math(over) + ("" if unit == "1" else f" ({unit})")
+    units |= {"direction": "degrees"}
+    of_law = law_units(row)
+    name, unit = (over, of_law[over]) if over in of_law else (_math(over), units[over])
+    return name + ("" if unit in ("", "1") else f" ({unit})")

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
@@ -46,14 +47,16 @@ def sizes(runs: Runs, lengths: Sequence[Row]) -> list[list[str]]:
     They hold the surface, the number of runs, static friction, t_max - t_avg in µs, and l_c along
     x and along y in blocks, empty where it was not measured.
     """
-    table = []
-    for scene, rows in _family(runs).items():
-        surface = f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat"
-        friction = number(_mean(rows, "static_friction"))
-        lag = number(mean_interval(_lag(rows)), factor=MICRO)
-        correlation = (_l_c(scene, side, lengths) for side in "xy")
-        table.append([surface, str(len(rows)), friction, lag, *correlation])
-    return table
+    return [
+        [
+            f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat",
+            str(len(rows)),
+            number(mean_interval(_static(rows))),
+            number(_lag(rows), factor=MICRO),
+            *(_l_c(scene, side, lengths) for side in "xy"),
+        ]
+        for scene, rows in _family(runs).items()
+    ]
 
 
 def grooves(runs: Runs) -> list[list[str]]:
@@ -66,23 +69,28 @@ def grooves(runs: Runs) -> list[list[str]]:
         [
             surface_in_words(along.lengths),
             f"{len(runs[along])}, {len(runs[across])}",
-            number(_mean(runs[along], "static_friction")),
-            number(_mean(runs[across], "static_friction")),
-            number(_paired(runs, along, across)),
+            number(mean_interval(_static(runs[along]))),
+            number(mean_interval(_static(runs[across]))),
+            number(difference),
         ]
-        for along, across in _pairs(runs)
+        for along, across, difference in _along_and_across(runs)
     ]
 
 
-def _pairs(runs: Runs) -> list[tuple[Scene, Scene]]:
-    """Scenes of the same grooved pillars, along the grooves and across them."""
-    grooved = [scene for scene in runs if scene.level == 2]
-    return [
-        (along, across)
-        for along in grooved
-        for across in grooved
-        if (along.direction, across.direction) == ("x", "y") and along.lengths == across.lengths
-    ]
+def _along_and_across(runs: Runs) -> list[tuple[Scene, Scene, Interval]]:
+    """Return grooved pillars by direction, and the mean difference of friction, seed by seed."""
+    found = []
+    for along in runs:
+        across = replace(along, direction="y")
+        if along.level == 2 and along.direction == "x" and across in runs:
+            first, second = (
+                {row["seed"]: row["static_friction"] for row in runs[each]}
+                for each in (along, across)
+            )
+            common = sorted(first.keys() & second.keys())
+            difference = mean_interval([first[seed] - second[seed] for seed in common])
+            found.append((along, across, difference))
+    return found
 
 
 def _family(runs: Runs) -> dict[Scene, Sequence[Row]]:
@@ -98,14 +106,14 @@ def _friction(runs: Runs) -> Headline | None:
     if len(scenes) < 2 or scenes[0].n_p:
         return None
     flat, *pillars = scenes
-    lowest = min(pillars, key=lambda scene: float(_mean(runs[scene], "static_friction").mean))
-    text = f"Static friction is {_stated(runs, flat)} on a flat surface, and "
-    text += f"{_stated(runs, lowest)} on pillars of n_p = {lowest.n_p}, "
+    lowest = min(pillars, key=lambda scene: float(mean_interval(_static(runs[scene])).mean))
+    text = f"Static friction is {_stated(runs[flat])} on a flat surface, and "
+    text += f"{_stated(runs[lowest])} on pillars of n_p = {lowest.n_p}, "
     text += "the lowest mean of those simulated" if pillars[1:] else "the only ones simulated"
-    text += f": {_told(_against(runs, lowest, flat))}."
+    text += f": {_told(runs[lowest], runs[flat])}."
     if (largest := pillars[-1]) != lowest:
-        change = _told(_against(runs, largest, lowest))
-        text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs, largest)}: {change}."
+        text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs[largest])}: "
+        text += f"{_told(runs[largest], runs[lowest])}."
     return Headline("Friction and the size of pillars", text, "figure_6")
 
 
@@ -113,8 +121,7 @@ def _order(runs: Runs) -> Headline | None:
     """Whether the force peaks before or after the mean detachment."""
     kinds: dict[str, list[Scene]] = {}
     for scene, rows in _family(runs).items():
-        lag = mean_interval(_lag(rows))
-        kind = "not told from" if _open(lag) else "before" if lag.high < 0.0 else "after"
+        kind = _sign(_lag(rows), "before", "after", "not told from")
         kinds.setdefault(kind, []).append(scene)
     if not kinds:
         return None
@@ -133,7 +140,8 @@ def _listed(scenes: Sequence[Scene]) -> str:
 
 def _grooves(runs: Runs) -> Headline | None:
     """Static friction along grooves and across them."""
-    found = Counter(_word(_paired(runs, *pair)) for pair in _pairs(runs))
+    words = ("lower", "higher", "not told apart")
+    found = Counter(_sign(difference, *words) for _, _, difference in _along_and_across(runs))
     if not found:
         return None
     told = ", ".join(f"{word} on {number}" for word, number in found.items())
@@ -150,48 +158,33 @@ def _energy(runs: Runs) -> Headline | None:
     return Headline("Energy", f"The balance of energy of all {len(errors)} realisations {closes}.")
 
 
-def _mean(rows: Sequence[Row], name: str) -> Interval:
-    return mean_interval([row[name] for row in rows])
+def _static(rows: Sequence[Row]) -> list[float]:
+    return [row["static_friction"] for row in rows]
 
 
-def _lag(rows: Sequence[Row]) -> list[float]:
-    return [row["t_max"] - row["t_avg"] for row in rows]
+def _lag(rows: Sequence[Row]) -> Interval:
+    return mean_interval([row["t_max"] - row["t_avg"] for row in rows])
 
 
-def _against(runs: Runs, first: Scene, second: Scene) -> Interval:
-    samples = ([row["static_friction"] for row in runs[scene]] for scene in (first, second))
-    return difference_interval(*samples)
+def _sign(difference: Interval, negative: str, positive: str, unknown: str) -> str:
+    """Return the word for what an interval tells of a sign."""
+    if difference.high < 0.0:
+        return negative
+    return positive if difference.low > 0.0 else unknown
 
 
-def _paired(runs: Runs, first: Scene, second: Scene) -> Interval:
-    """Mean difference of static friction of one surface, seed by seed."""
-    by_seed = [{row["seed"]: row["static_friction"] for row in runs[s]} for s in (first, second)]
-    common = by_seed[0].keys() & by_seed[1].keys()
-    return mean_interval([by_seed[0][seed] - by_seed[1][seed] for seed in sorted(common)])
-
-
-def _open(difference: Interval) -> bool:
-    """Whether an interval tells nothing of a sign."""
-    return not (difference.low > 0.0 or difference.high < 0.0)
-
-
-def _word(difference: Interval) -> str:
-    """Which of two static frictions is less, if the interval of their difference says so."""
-    if _open(difference):
-        return "not told apart"
-    return "lower" if difference.high < 0.0 else "higher"
-
-
-def _told(difference: Interval) -> str:
-    if _open(difference):
+def _told(first: Sequence[Row], second: Sequence[Row]) -> str:
+    """Say by how much static friction is lower or higher on the first surface."""
+    difference = difference_interval(_static(first), _static(second))
+    word = _sign(difference, "lower", "higher", "")
+    if not word:
         return f"not told apart by their difference, {number(difference)}"
     low, high = sorted(map(abs, (difference.low, difference.high)))
-    return f"{_word(difference)} by {number(Interval(abs(difference.mean), low, high))}"
+    return f"{word} by {number(Interval(abs(difference.mean), low, high))}"
 
 
-def _stated(runs: Runs, scene: Scene) -> str:
-    k = len(runs[scene])
-    return f"{number(_mean(runs[scene], 'static_friction'))} ({k} run{'s' * (k > 1)})"
+def _stated(rows: Sequence[Row]) -> str:
+    return f"{number(mean_interval(_static(rows)))} ({len(rows)} run{'s' * (len(rows) > 1)})"
 
 
 def _l_c(scene: Scene, side: str, lengths: Sequence[Row]) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import pyarrow as pa
 from markdown_it import MarkdownIt
@@ -85,17 +85,11 @@ def _html(text: str) -> list[Token]:
     return [Token("html_block", "", 0, content=text)] if text else []
 
 
-class Shown(NamedTuple):
-    """A table: what is the same in all its rows, and the rows without that."""
+def shown(name: str, table: pa.Table) -> dict[str, Any]:
+    """Return what is the same in all rows of a table, as name = value unit, and the rest of it.
 
-    name: str
-    same: list[str]  #: as name = value unit
-    columns: list[dict[str, Any]]  #: name, unit, meaning and whether it holds numbers
-    rows: list[list[str]]
-
-
-def shown(name: str, table: pa.Table) -> Shown:
-    """Lay out a table; numbers have six digits."""
+    Of columns that is name, unit, meaning and whether they hold numbers, which have six digits.
+    """
     columns = {field.name: _column(field) for field in table.schema}
     values = {name: [_text(value) for value in table[name].to_pylist()] for name in columns}
     same = {name: texts[0] for name, texts in values.items() if len(set(texts)) == 1}
@@ -105,8 +99,8 @@ def shown(name: str, table: pa.Table) -> Shown:
         f"{name} = {text} {columns[name]['unit']}".strip() for name, text in same.items() if text
     ]
     kept = [name for name in columns if name not in same]
-    rows = [list(row) for row in zip(*(values[name] for name in kept), strict=True)]
-    return Shown(name, told, [columns[name] for name in kept], rows)
+    rows = list(zip(*(values[name] for name in kept), strict=True))
+    return {"name": name, "same": told, "columns": [columns[key] for key in kept], "rows": rows}
 
 
 def _column(field: pa.Field) -> dict[str, Any]:

@@ -9,8 +9,9 @@ import numpy as np
 from PIL import Image
 
 from springblock.io.records import Record, read_records
-from springblock.plotting import declarations, film
+from springblock.plotting import film
 from springblock.plotting.caption import sample_in_words
+from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import MICRO
 
 _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them
@@ -19,7 +20,7 @@ _SWEEPS = "Sweeps"
 
 def picture(path: Path) -> dict[str, Any]:
     """Read a figure for the page; its caption is the one that the file keeps."""
-    declared, name = declarations().get(path.stem), path.stem
+    declared, name = FIGURES.get(path.stem), path.stem
     with Image.open(path) as file:
         caption = str(file.info.get("Description", ""))
         size = 25.4 * file.width / float(file.info.get("dpi", (600.0,))[0])

@@ -14,7 +14,7 @@ from markupsafe import Markup
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
 from springblock.io.parquet import load
-from springblock.io.rows import Row, select
+from springblock.io.rows import Row
 from springblock.report import findings, markup, media
 
 #: Parts of the page and their titles, in order; those of the study's own pages come last, as these
@@ -39,12 +39,12 @@ _HERE = Path(__file__).parent
 
 
 class Part(NamedTuple):
-    """A part of the page: what a page of the study says, and figures with what is said of them."""
+    """A part of the page: what a page of the study says, and figures."""
 
     name: str
     title: str
     body: Markup
-    figures: list[tuple[dict[str, Any], list[Row]]]
+    figures: list[dict[str, Any]]
 
 
 def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
@@ -66,12 +66,12 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
     rows = {name: table.to_pylist() for name, table in data.items()}
     runs = findings.main_runs(rows.get("realisations", []))
     judged = statements(rows.get("claims", []))
-    parts = _parts(kinds[".png"], kinds[".md"], judged)
+    parts = _parts(kinds[".png"], kinds[".md"])
     return _rendered(
         headlines=findings.headlines(runs),
         sizes=findings.sizes(runs, rows.get("correlation_length", [])),
         grooves=findings.grooves(runs),
-        labels={each["name"]: each["label"] for part in parts for each, _ in part.figures},
+        labels={each["name"]: each["label"] for part in parts for each in part.figures},
         n_blocks=next(iter(runs)).n_blocks if runs else 0,
         statements=judged,
         counted=counted(judged),
@@ -122,13 +122,12 @@ def _rendered(**content: Any) -> str:
     )
 
 
-def _parts(figures: Iterable[Path], pages: Iterable[Path], judged: Sequence[Row]) -> list[Part]:
+def _parts(figures: Iterable[Path], pages: Iterable[Path]) -> list[Part]:
     """Parts of the page that have something to show, in order; a page's figures follow its text."""
     texts = {file.stem: markup.rendered(file.stem, file.read_text("utf-8")) for file in pages}
-    pictures: dict[str, list[tuple[dict[str, Any], list[Row]]]] = {}
+    pictures: dict[str, list[dict[str, Any]]] = {}
     for picture in map(media.picture, sorted(figures)):
-        belonging = select(judged, figure=picture["name"])
-        pictures.setdefault(picture["category"].lower(), []).append((picture, belonging))
+        pictures.setdefault(picture["category"].lower(), []).append(picture)
     titles = FIGURES | PAGES | {name: title for name, (title, _) in texts.items()}
     bodies = {name: body for name, (_, body) in texts.items()}
     return [
