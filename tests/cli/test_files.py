@@ -1,7 +1,6 @@
-"""springblock info, compare and dictionary."""
+"""springblock info, dictionary, and verify of two files."""
 
 import os
-import shutil
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -64,7 +63,7 @@ def changed(file, to, **columns):
 def test_a_difference_is_named_with_its_size(springblock, batch, tmp_path):
     t_max = pq.read_table(batch(0, 2), partitioning=None)["t_max"].to_pylist()
     other = changed(batch(0, 2), tmp_path / "b", t_max=[t_max[0], 1.5 * t_max[1], t_max[2]])
-    said = springblock("compare", batch(0, 2), other, refused=True)
+    said = springblock("verify", batch(0, 2), other, refused=True)
     assert f"t_max: 1 row differs, by {0.5 * t_max[1]:.3g} at most, or 0.5 of the first" in said
 
 
@@ -80,25 +79,18 @@ def test_curves_of_other_lengths_and_missing_rows_are_differences(batch, tmp_pat
 def test_tables_of_other_columns_are_not_compared(springblock, batch, tmp_path):
     table = pq.read_table(batch(0, 2), partitioning=None)
     write(table.drop_columns(["t_avg"]), tmp_path / "b", {})
-    assert "t_avg" in springblock("compare", batch(0, 2), tmp_path / "b", refused=True)
+    assert "t_avg" in springblock("verify", batch(0, 2), tmp_path / "b", refused=True)
 
 
 def test_tables_without_a_common_row_say_so(springblock, batch):
-    said = springblock("compare", batch(0, 2), batch(3, 3), refused=True)
+    said = springblock("verify", batch(0, 2), batch(3, 3), refused=True)
     assert said.endswith(": no rows in both, 3 in the first alone, 1 in the second alone")
 
 
-def test_folders_are_compared_table_by_table(springblock, batch, tmp_path):
-    """And equal tables are the same in any order of their rows."""
-    for folder in ("a", "b"):
-        (tmp_path / folder).mkdir()
-    shutil.copy(batch(0, 2), tmp_path / "a/some.parquet")
-    changed(batch(0, 2), tmp_path / "b/some.parquet")
-    said = springblock("compare", tmp_path / "a", tmp_path / "b")
-    assert "some.parquet: the same 3 rows, to the bit" in said
-    (tmp_path / "a/some.parquet").rename(tmp_path / "a/other.parquet")
-    refusal = springblock("compare", tmp_path / "a", tmp_path / "b", refused=True)
-    assert "do not hold the same tables: other.parquet, some.parquet" in refusal
+def test_equal_tables_are_the_same_in_any_order_of_their_rows(springblock, batch, tmp_path):
+    other = changed(batch(0, 2), tmp_path / "b.parquet")
+    assert "the same 3 rows, to the bit" in springblock("verify", batch(0, 2), other)
+    assert "another one must be given" in springblock("verify", other, refused=True)
 
 
 @pytest.mark.parametrize("kind", ["fifo", "link", "link to nothing", "device", "folder"])

@@ -1,4 +1,4 @@
-"""springblock info, compare and dictionary: what is in a file, and where two differ."""
+"""springblock info and dictionary: what is in a file, and in all of them."""
 
 import zipfile
 from pathlib import Path
@@ -6,7 +6,6 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
-from springblock.analysis import comparison
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
 from springblock.io.parquet import load, origin_of
@@ -60,50 +59,6 @@ def _scenes(table: pa.Table) -> list[str]:
     lines = [f"  {Scene.from_row(row).folder}: {row['count_all']}" for row in found]
     more = [f"  and {len(lines) - _SHOWN} more"] if len(lines) > _SHOWN else []
     return [f"{len(lines)} scenes, with so many rows:", *lines[:_SHOWN], *more]
-
-
-@click.command("compare")
-@click.argument("first", type=click.Path(exists=True, path_type=Path))
-@click.argument("second", type=click.Path(exists=True, path_type=Path))
-def compare(first: Path, second: Path) -> None:
-    """Say where the tables FIRST and SECOND differ, or all tables of two folders.
-
-    Rows of the same scene and seed are compared, to the bit. The exit status is 0 where all is the
-    same, 1 otherwise.
-    """
-    with one_sentence():
-        same = True
-        for name, *files in _pairs(first, second):
-            found = comparison.compare(*map(load, files))
-            click.echo(f"{name}: {_in_words(found)}")
-            same &= found.same
-    if not same:
-        raise SystemExit(1)
-
-
-def _pairs(first: Path, second: Path) -> list[tuple[str, Path, Path]]:
-    """Pairs of files, each with a name for both."""
-    if first.is_file() and second.is_file():
-        return [(f"{first} and {second}", first, second)]
-    folders = first, second
-    found = [{file.relative_to(each) for file in each.rglob("*.parquet")} for each in folders]
-    odd = ", ".join(sorted(map(str, found[0] ^ found[1]))[:_SHOWN])
-    if odd or not found[0]:
-        raise ValueError(f"{first} and {second} do not hold the same tables: {odd or 'none'}")
-    return [(str(name), first / name, second / name) for name in sorted(found[0])]
-
-
-def _in_words(found: comparison.Comparison) -> str:
-    if found.same:
-        return f"the same {found.both} rows, to the bit"
-    lines = [f"{found.both or 'no'} rows in both"]
-    for rows, where in ((found.first, "first"), (found.second, "second")):
-        lines[0] += f", {rows} in the {where} alone" if rows else ""
-    for name, rows, largest, relative in found.differences:
-        how_many = "1 row differs" if rows == 1 else f"{rows} rows differ"
-        size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
-        lines.append(f"  {name}: {how_many}, {size}")
-    return "\n".join(lines)
 
 
 @click.command("dictionary")

@@ -13,15 +13,19 @@ FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 
 
 @click.command("verify")
-@click.argument("results", type=FOLDER)
-@click.argument("other", type=FOLDER, required=False)
+@click.argument("results", type=click.Path(exists=True, path_type=Path))
+@click.argument("other", type=click.Path(exists=True, path_type=Path), required=False)
 def verify(results: Path, other: Path | None) -> None:
     """Hold a folder of RESULTS against its checksums and the code of today.
 
-    With OTHER say where the tables of two studies differ, and whether within their intervals. The
-    exit status is 0 where all is as it should be, or within, 1 otherwise.
+    With OTHER say where the tables of two studies differ, and whether within their intervals; of
+    two files, where they differ to the bit. The exit status is 0 where all is as it should be, or
+    within, 1 otherwise.
     """
     with one_sentence():
+        if results.is_file():
+            _verify_bits(results, other)
+            return
         found = [fault.reason for fault in audit.faults(results)]
         for line in found or [f"{results}: every file is whole, in its place and of today's code"]:
             click.echo(line)
@@ -29,6 +33,29 @@ def verify(results: Path, other: Path | None) -> None:
             found += _differences(results, other)
     if found:
         raise SystemExit(1)
+
+
+def _verify_bits(file: Path, other: Path | None) -> None:
+    """Say where two files differ; rows of the same scene and seed are compared, to the bit."""
+    if other is None or not other.is_file():
+        raise ValueError(f"{file} is a file: another one must be given, to compare it with")
+    found = comparison.compare(load(file), load(other))
+    click.echo(f"{file} and {other}: {_in_words(found)}")
+    if not found.same:
+        raise SystemExit(1)
+
+
+def _in_words(found: comparison.Comparison) -> str:
+    if found.same:
+        return f"the same {found.both} rows, to the bit"
+    lines = [f"{found.both or 'no'} rows in both"]
+    for rows, where in ((found.first, "first"), (found.second, "second")):
+        lines[0] += f", {rows} in the {where} alone" if rows else ""
+    for name, rows, largest, relative in found.differences:
+        how_many = "1 row differs" if rows == 1 else f"{rows} rows differ"
+        size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
+        lines.append(f"  {name}: {how_many}, {size}")
+    return "\n".join(lines)
 
 
 def _differences(results: Path, other: Path) -> list[str]:

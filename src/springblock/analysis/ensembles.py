@@ -1,0 +1,136 @@
+"""Ensembles in tables of realisations: their means, and what changes between two tables."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from springblock.analysis.statistics import Interval, difference_interval, mean_interval
+from springblock.io.rows import Row
+from springblock.io.schemas import SCENE, SETUP
+from springblock.model.material import expanded
+
+#: What a realisation is summed up by, in the order of the tables.
+OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
+_SETUP = (*SCENE.names, *SETUP.names)
+#: Runs of one seed have the same coefficients where all of these are the same.
+_THRESHOLDS = {"n_blocks", "n_rows", "edges", "distribution", "correlation_length"}
+_THRESHOLDS |= {name for name in _SETUP if name.startswith("mu_")}
+
+Names = Mapping[str, object]  #: what an ensemble is computed with, by name
+
+
+class Ensemble(NamedTuple):
+    """Realisations of one scene, computed alike."""
+
+    names: Names
+    rows: list[Row]  #: by rising seed
+
+    @property
+    def seeds(self) -> list[int]:
+        """Seeds of the realisations."""
+        return [row["seed"] for row in self.rows]
+
+    def values(self, observable: str) -> np.ndarray:
+        """Values of the realisations, (k,)."""
+        return np.array([row[observable] for row in self.rows], dtype=float)
+
+
+class Change(NamedTuple):
+    """What changes from one ensemble to another that is computed alike but for what tables say."""
+
+    names: Names
+    first: Ensemble
+    second: Ensemble
+    paired: bool  #: whether differences are taken seed by seed
+
+    def of(self, observable: str) -> Interval:
+        """Second minus first, with the 95 % interval of the mean difference."""
+        one, other = self.first.values(observable), self.second.values(observable)
+        if self.paired:
+            return mean_interval(_known(other - one))
+        return difference_interval(_known(other), _known(one))
+
+
+def _known(values: np.ndarray) -> np.ndarray:
+    known = values[np.isfinite(values)]
+    return known if known.size else np.array([np.nan])
+
+
+def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
+    """Gather rows of the table `realisations` that share all that they are computed with.
+
+    Or the names `by` alone. Realisations that several files hold count once.
+
+    Raises
+    ------
+    ValueError
+        Where rows have no such name.
+    """
+    found: dict[tuple[object, ...], Ensemble] = {}
+    seen = set()
+    for row in sorted(rows, key=lambda row: row["seed"]):
+        every = _names(row)
+        realisation = (*every.items(), row["seed"])
+        if realisation in seen:
+            continue
+        seen.add(realisation)
+        for key in by:
+            if key not in every:
+                raise ValueError(f"by: unknown name {key!r}; choose from {', '.join(every)}")
+        names = {key: value for key, value in every.items() if not by or key in by}
+        found.setdefault(tuple(names.items()), Ensemble(names, [])).rows.append(row)
+    members = list(found.values())
+    apart = telling(each.names for each in members)
+    return sorted(members, key=lambda each: [_order(each.names.get(name)) for name in apart])
+
+
+def _order(value: object) -> tuple[float, str]:
+    """Return a key that sorts numbers by size and texts after them."""
+    return (float(value), "") if isinstance(value, int | float) else (np.inf, str(value))
+
+
+def _names(row: Row) -> dict[str, object]:
+    """What a run is computed with; constants of its own stand among all others."""
+    known = expanded({name: row[name] for name in _SETUP})
+    return {name: value for name, value in known.items() if name not in ("varied", "level")}
+
+
+def telling(members: Iterable[Names]) -> list[str]:
+    """Names whose values tell ensembles apart."""
+    every = list(members)
+    names = dict.fromkeys(name for each in every for name in each)
+    return [name for name in names if len({str(each.get(name)) for each in every}) > 1]
+
+
+def mean(ensemble: Ensemble, observable: str) -> Interval:
+    """Mean over realisations with its 95 % interval; NaN limits of a single one."""
+    with np.errstate(invalid="ignore"):
+        return mean_interval(_known(ensemble.values(observable)))
+
+
+def constants(members: Sequence[Ensemble]) -> dict[str, object]:
+    """Names that have one value in all ensembles, with the value."""
+    apart = set(telling(each.names for each in members))
+    return {name: value for name, value in members[0].names.items() if name not in apart}
+
+
+def changes(
+    first: Sequence[Ensemble], second: Sequence[Ensemble]
+) -> tuple[dict[str, tuple[object, object]], list[Change]]:
+    """Return the constants in which two tables differ, and the changes of what they share."""
+    one, other = constants(first), constants(second)
+    differ = {
+        name: (one[name], other[name]) for name in one if name in other and one[name] != other[name]
+    }
+
+    def shared(ensemble: Ensemble) -> tuple[tuple[str, object], ...]:
+        return tuple(pair for pair in ensemble.names.items() if pair[0] not in differ)
+
+    theirs = {shared(each): each for each in second}
+    found = []
+    for ours in first:
+        if match := theirs.get(shared(ours)):
+            paired = not _THRESHOLDS & differ.keys() and ours.seeds == match.seeds
+            found.append(Change(dict(shared(ours)), ours, match, paired))
+    return differ, found

@@ -1,0 +1,87 @@
+"""springblock table and compare: means, and differences between two tables."""
+
+import csv
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from scipy.stats import ttest_1samp, ttest_ind
+
+from springblock import read
+
+
+def written(file):
+    with file.open(newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
+def test_a_row_holds_the_mean_of_an_ensemble_with_its_interval(springblock, batch, tmp_path):
+    faster = batch(0, 2, "--vary", "slider_velocity=1e-3")
+    output = tmp_path / "table.csv"
+    said = springblock("table", batch(0, 2), faster, "--output", output)
+    rows = written(output)
+    assert [float(row["slider_velocity"]) for row in rows] == [5e-4, 1e-3]
+    assert said.splitlines()[0].split() == [
+        *("slider_velocity", "runs", "static_friction", "t_max", "(µs)", "t_avg", "(µs)")
+    ]
+    for row, file in zip(rows, (batch(0, 2), faster), strict=True):
+        values = np.array([run.t_max for run in read(file)])
+        exact = ttest_1samp(values, 0.0).confidence_interval()
+        assert row["runs"] == "3"
+        assert float(row["t_max"]) == pytest.approx(values.mean(), rel=1e-14)
+        limits = [float(row[f"t_max_{end}"]) for end in ("low", "high")]
+        assert limits == pytest.approx(list(exact), rel=1e-10)
+
+
+def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch, tmp_path):
+    """A folder may hold them twice, beside other tables."""
+    folder, output = tmp_path / "files", tmp_path / "by.parquet"
+    folder.mkdir()
+    pq.write_table(pq.read_table(batch(0, 2)).select(["seed"]), folder / "other.parquet")
+    assert "no realisations in there" in springblock("table", folder, refused=True)
+    for i, file in enumerate((batch(0, 2), batch(0, 2), batch(0, 2, "--vary", "gamma=0"))):
+        (folder / f"{i}.parquet").write_bytes(file.read_bytes())
+    springblock("table", folder, "--by", "direction", "--of", "t_avg", "--output", output)
+    (row,) = pq.read_table(output).to_pylist()
+    assert row["direction"] == "x"
+    assert row["runs"] == 6
+    assert "by: unknown name 'speed'" in springblock("table", folder, "--by", "speed", refused=True)
+
+
+@pytest.mark.parametrize(("last", "paired"), [(2, True), (3, False)])
+def test_a_difference_is_paired_where_seeds_are_the_same(
+    springblock, batch, tmp_path, last, paired
+):
+    """And has the interval of the t test for it."""
+    slow, fast = batch(0, 2), batch(0, last, "--vary", "slider_velocity=1e-3")
+    output = tmp_path / "changes.csv"
+    said = springblock("compare", slow, fast, "--of", "static_friction", "--output", output)
+    assert f"slider_velocity: 0.0005 in {slow}, 0.001 in {fast}" in said
+    (row,) = written(output)
+    assert row["difference"] == ("by seed" if paired else "of means")
+    one, other = (np.array([run.static_friction for run in read(file)]) for file in (slow, fast))
+    test = ttest_1samp(other - one, 0.0) if paired else ttest_ind(other, one, equal_var=False)
+    exact = [other.mean() - one.mean(), *test.confidence_interval()]
+    found = [float(row["static_friction" + end]) for end in ("", "_low", "_high")]
+    assert found == pytest.approx(exact, rel=1e-9)
+
+
+def test_other_thresholds_are_not_paired(springblock, batch):
+    weaker = batch(0, 2, "--vary", "mu_static=0.9")
+    said = springblock("compare", batch(0, 2), weaker)
+    assert "mu_static: 1.0 in" in said
+    assert "of means" in said
+
+
+def test_ensembles_of_one_side_alone_are_named(springblock, batch, tmp_path):
+    for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
+        (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
+    said = springblock("compare", tmp_path, batch(0, 2))
+    assert f"only in {tmp_path}: " in said
+    assert said.splitlines()[-1].split()[:2] == ["3,", "3"]
+
+
+def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
+    said = springblock("table", batch(0, 2), "--output", tmp_path / "a.txt", refused=True)
+    assert "a.txt must end in .csv or .parquet" in said
+    assert not (tmp_path / "a.txt").exists()
