@@ -12,6 +12,7 @@ COMMANDS = {
     "mask": "springblock.cli.mask:mask",
     "prelude": "springblock.cli.simulate:prelude",
     "simulate": "springblock.cli.simulate:simulate_batch",
+    "sweep": "springblock.cli.sweep:sweep",
     "plot": "springblock.cli.pictures:plot",
     "animate": "springblock.cli.pictures:animate",
     "show": "springblock.cli.pictures:show",

@@ -50,7 +50,8 @@ def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
     return in_order(dict(pair.partition("=")[::2] for pair in pairs))
 
 
-_SCENE = [
+#: Options of a surface, without what a sweep varies.
+SURFACE = [
     click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
     click.option("--n-rows", type=int, default=0, help="Blocks along y; as many if unsaid."),
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
@@ -83,6 +84,9 @@ _SCENE = [
         callback=given(BlockMap.coefficients),
         help="The same of dynamic ones.",
     ),
+]
+_SCENE = [
+    *SURFACE,
     click.option(
         "--direction",
         default="x",
@@ -105,12 +109,17 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_scene(**options: Any) -> Any:
-        given = {field.name: options.pop(field.name) for field in fields(Scene)}
         with one_sentence():
-            scene = Scene(**given | {"along_3": given["along_3"] or ""})
+            scene = scene_of(options)
         return command(scene=scene, **options)
 
     return with_options(_SCENE, with_scene)
+
+
+def scene_of(options: dict[str, Any], **others: Any) -> Scene:
+    """Take the options of a scene out of all, and return it."""
+    given = {field.name: options.pop(field.name, None) for field in fields(Scene)} | others
+    return Scene(**given | {"along_3": given["along_3"] or ""})
 
 
 def with_options(

@@ -41,7 +41,7 @@ from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import SimulationError, simulate
 from springblock.solver.integrators import INTEGRATORS
 
-_SETUP = [
+SETUP = [
     click.option(
         "--material",
         multiple=True,
@@ -75,14 +75,19 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_setup(*, scene: Scene, **options: Any) -> Any:
-        given = {field.name: options.pop(field.name) for field in fields(Setup)}
-        law = options.pop("law")
-        constants = dict(given.pop("material")) | ({} if law is None else {"law": law})
         with one_sentence():
-            setup = Setup(Material().vary(constants), **given).vary(dict(scene.varied))
+            setup = setup_of(options).vary(dict(scene.varied))
         return command(scene=scene, setup=setup, **options)
 
-    return scene_options(with_options(_SETUP, with_setup))
+    return scene_options(with_options(SETUP, with_setup))
+
+
+def setup_of(options: dict[str, Any]) -> Setup:
+    """Take the options of a setup out of all, and return it."""
+    given = {field.name: options.pop(field.name) for field in fields(Setup)}
+    law = options.pop("law")
+    constants = dict(given.pop("material")) | ({} if law is None else {"law": law})
+    return Setup(Material().vary(constants), **given)
 
 
 def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
@@ -134,10 +139,14 @@ _CORES = click.option(
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of one scene before its first detachment, for all seeds to share."""
     with one_sentence():
-        known = scene.mu_static_field and scene.mu_static_field.values
-        how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
-        loaded = compute_prelude(scene.contact, direction=scene.direction, **how)
-        replace(loaded, code_version=code_version("simulate")).save(output)
+        replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
+
+
+def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
+    """Compute the prelude of a scene."""
+    known = scene.mu_static_field and scene.mu_static_field.values
+    how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
+    return compute_prelude(scene.contact, direction=scene.direction, **how)
 
 
 @click.command("simulate")
@@ -185,9 +194,9 @@ def simulate_batch(
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
     with one_sentence():
-        loaded = None if prelude is None else _prelude(prelude)
-        row = partial(_row, scene, setup, prelude=loaded, cores=cores, progress=single, **asked)
-        metadata = _metadata(setup.constants | asked)
+        begun = None if prelude is None else _prelude(prelude)
+        row = partial(realised, scene, setup, prelude=begun, cores=cores, progress=single, **asked)
+        metadata = metadata_of(setup.constants | asked)
         folder = output.with_name(f"{output.name}.checkpoint")
         if minutes is not None:
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
@@ -196,7 +205,7 @@ def simulate_batch(
         counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
         with logging_redirect_tqdm(), counted as bar:
             rows = [row(seed=seed) for seed in bar]
-        write(_table(rows), output, metadata)
+        write(batch_table(rows), output, metadata)
         click.echo(_in_words(rows))
         if minutes is not None:
             shutil.rmtree(folder)
@@ -204,10 +213,10 @@ def simulate_batch(
 
 def _prelude(file: Path) -> Prelude:
     """Read a prelude, which must come from the code that goes on from there."""
-    loaded = Prelude.read(file)
-    if not same_code(loaded.code_version, code_version("simulate")):
-        raise ValueError(f"{file} was made by other code, {loaded.code_version}; {MENDING}")
-    return loaded
+    begun = Prelude.read(file)
+    if not same_code(begun.code_version, code_version("simulate")):
+        raise ValueError(f"{file} was made by other code, {begun.code_version}; {MENDING}")
+    return begun
 
 
 def _in_words(rows: list[Row]) -> str:
@@ -224,7 +233,7 @@ def _in_words(rows: list[Row]) -> str:
     return ", ".join(told)
 
 
-def _row(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
+def realised(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
     """Run one realisation."""
     drawn = coefficients(scene, seed, setup.material)
     options |= {"direction": scene.direction, "periodic": scene.is_periodic, **vars(setup)}
@@ -243,17 +252,18 @@ def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row]
         check_belonging(file, json.loads(table.schema.metadata[b"belongs"]), json.loads(ours))
         return table.to_pylist()[0]
     row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))
-    write(_table([row]), file, {"belongs": ours})
+    write(batch_table([row]), file, {"belongs": ours})
     return row
 
 
-def _table(rows: list[Row]) -> pa.Table:
+def batch_table(rows: list[Row]) -> pa.Table:
     """Table of a batch; with snapshots where they were asked for."""
     kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
     return rows_to_table(rows, pa.schema([*BATCH, *kept]))
 
 
-def _metadata(configuration: dict[str, Any]) -> dict[str, str]:
+def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
+    """What a batch says of its making."""
     return {
         "code_version": code_version("simulate"),
         "configuration": json.dumps(configuration, sort_keys=True),
@@ -271,6 +281,6 @@ def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
         with one_sentence():
             how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
-            loaded = compute_prelude(surface, **how)
-            simulate(surface, *draw_friction(4, 0), prelude=loaded, duration=1e-6, **how)
+            begun = compute_prelude(surface, **how)
+            simulate(surface, *draw_friction(4, 0), prelude=begun, duration=1e-6, **how)
         click.echo(f"{integrator} is compiled with the law {law}")

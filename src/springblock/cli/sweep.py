@@ -1,0 +1,176 @@
+"""springblock sweep: ensembles over constants and directions, without Snakemake."""
+
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import replace
+from itertools import product
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+import pyarrow as pa
+from tqdm import tqdm
+
+from springblock.cli.options import SURFACE, given, one_sentence, scene_of, with_options
+from springblock.cli.simulate import (
+    SETUP,
+    batch_table,
+    loaded,
+    metadata_of,
+    realised,
+    setup_of,
+)
+from springblock.io.parquet import load, origin_of, read, write
+from springblock.io.schemas import SUMMARY
+from springblock.model.direction import normalised
+from springblock.model.scene import COLUMNS, Scene, Varied, in_order
+from springblock.plotting import sweep as plot
+from springblock.plotting.style import save
+from springblock.simulation.setup import Setup
+
+_BATCH = 5  #: seeds of one job
+
+
+class Job(NamedTuple):
+    """Seeds of one scene, and the file that keeps them."""
+
+    scene: Scene
+    setup: Setup
+    seeds: range
+    file: Path
+    asked: dict[str, Any]
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What the file says of its making."""
+        return metadata_of(self.setup.constants | self.asked)
+
+    def run(self) -> int:
+        """Simulate the seeds, unless the file has them; returns their number."""
+        if not self.file.exists():
+            prelude = loaded(self.scene, self.setup)
+            rows = [
+                realised(self.scene, self.setup, seed, prelude=prelude, **self.asked)
+                for seed in self.seeds
+            ]
+            self.file.parent.mkdir(parents=True, exist_ok=True)
+            write(batch_table(rows), self.file, self.metadata)
+        elif not self.metadata.items() <= origin_of(load(self.file, [])).items():
+            raise ValueError(f"{self.file} holds runs of other constants or code; remove it first")
+        return len(self.seeds)
+
+
+def _directions(text: str) -> list[str]:
+    return [normalised(each) for each in text.split(",")]
+
+
+def _varied(pairs: tuple[str, ...]) -> list[Varied]:
+    """Read constants with several values each: every combination."""
+    lists = {name: text.split(",") for name, _, text in (pair.partition("=") for pair in pairs)}
+    values = product(*lists.values())
+    return [in_order(dict(zip(lists, each, strict=True))) for each in values]
+
+
+_SWEPT = [
+    click.option(
+        "--direction",
+        "directions",
+        default="x",
+        callback=given(_directions),
+        show_default=True,
+        help="x, y or degrees; several with commas: x,y.",
+    ),
+    click.option(
+        "--vary",
+        multiple=True,
+        callback=given(_varied),
+        help="Values of a constant: slider_velocity=5e-4,1e-3. May be given several times.",
+    ),
+    click.option("--seeds", type=click.IntRange(1, 10**6), default=10, show_default=True),
+    click.option("--duration", type=float, help="s; by default until a scene has shown its peak."),
+    click.option("--jobs", type=click.IntRange(1), default=1, show_default=True, help="At once."),
+    click.option(
+        "--output", type=click.Path(file_okay=False, path_type=Path), required=True, help="Folder."
+    ),
+]
+
+
+def sweep_options(command: Any) -> Any:
+    """Add the options of surface, sweep and setup."""
+    return with_options([*SURFACE, *_SWEPT, *SETUP], command)
+
+
+@click.command("sweep")
+@sweep_options
+def sweep(
+    directions: list[str],
+    vary: list[Varied],
+    seeds: int,
+    duration: float | None,
+    jobs: int,
+    output: Path,
+    **options: Any,
+) -> None:
+    """Run ensembles of one surface over constants and directions.
+
+    The folder gets their runs, the table realisations.parquet and, over each constant or direction
+    with several values, a figure. What is in the folder already is not run again.
+    """
+    with one_sentence():
+        usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
+        scenes = [
+            replace(surface, direction=direction, varied=varied)
+            for varied, direction in product(vary, directions)
+        ]
+        work = [
+            Job(scene, usual.vary(dict(scene.varied)), part, file, {"duration": duration})
+            for scene in scenes
+            for part, file in _batches(scene, seeds, output)
+        ]
+        _run(work, jobs)
+        files = [job.file for job in work]
+        table = _collected(files, output / "realisations.parquet", work[0])
+        for over in _axes(vary, directions):
+            rows = table.to_pylist()
+            found = plot.lines(rows, over)
+            picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
+            save(picture, output / f"{over}.png", plot.caption(found))
+        click.echo(f"springblock table {output} shows the means")
+
+
+def _batches(scene: Scene, seeds: int, output: Path) -> Iterator[tuple[range, Path]]:
+    for first in range(0, seeds, _BATCH):
+        part = range(first, min(first + _BATCH, seeds))
+        name = f"seeds-{part[0]}-{part[-1]}.parquet"
+        yield part, output / "realisations" / scene.folder / name
+
+
+def _run(work: list[Job], jobs: int) -> None:
+    """Run all jobs, so many at once, and count realisations."""
+    number = sum(len(job.seeds) for job in work)
+    with (
+        tqdm(total=number, unit="realisation") as bar,
+        ProcessPoolExecutor(jobs, get_context("spawn")) as pool,
+    ):
+        try:
+            for done in as_completed([pool.submit(job.run) for job in work]):
+                bar.update(done.result())
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:
+    """Collect all realisations in one table, a row each."""
+    table = read(files, SUMMARY).sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
+    write(table, output, {"code_version": job.metadata["code_version"]})
+    return table
+
+
+def _axes(vary: list[Varied], directions: list[str]) -> list[str]:
+    """Names of what has several values, numbers only."""
+    names = [name for name, _ in vary[0]]
+    several = [name for name in names if len({dict(each)[name] for each in vary}) > 1]
+    numbers = [name for name in several if isinstance(dict(vary[0])[name], float)]
+    return numbers + (["direction"] if len(directions) > 1 else [])

@@ -1,0 +1,49 @@
+"""springblock sweep: ensembles without Snakemake."""
+
+import pyarrow.parquet as pq
+import pytest
+
+from springblock.io.schemas import SUMMARY
+
+SURFACE = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("sweep") / "speeds"
+
+
+def swept(springblock, folder, *others, refused=False):
+    how = ("--vary", "slider_velocity=5e-3,1e-2", "--direction", "x,y", "--jobs", 2)
+    return springblock("sweep", *SURFACE, *how, *others, "--output", folder, refused=refused)
+
+
+def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock, folder, tmp_path):
+    """Seeds may be added: what is there stays."""
+    swept(springblock, folder, "--seeds", 2)
+    table = pq.read_table(folder / "realisations.parquet")
+    assert table.num_rows == 8
+    own = ("--vary", "slider_velocity=1e-2", "--direction", "y", "--last-seed", 1)
+    springblock("simulate", *SURFACE, *own, "--output", tmp_path / "alone.parquet")
+    alone = pq.read_table(tmp_path / "alone.parquet", columns=SUMMARY.names).to_pylist()
+    found = [row for row in table.to_pylist() if row in alone]
+    assert sorted(row["seed"] for row in found) == [0, 1]
+    for name in ("slider_velocity.png", "direction.png"):
+        assert (folder / name).stat().st_size > 10_000
+    written = {file: file.stat().st_mtime_ns for file in folder.glob("realisations/**/*.parquet")}
+    assert "springblock table" in swept(springblock, folder, "--seeds", 2)
+    assert {file: file.stat().st_mtime_ns for file in written} == written
+
+
+@pytest.mark.parametrize(
+    ("others", "sentence"),
+    [
+        (("--seeds", 2, "--material", "gamma=0"), "holds runs of other constants or code"),
+        (("--vary", "speed=1,2"), "'speed' is no constant"),
+        (("--vary", "step=a"), "step must be a number, not 'a'"),
+        (("--direction", "x,z"), "direction"),
+        (("--seeds", 0), "0 is not in the range"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_in_a_sentence(springblock, folder, others, sentence):
+    assert sentence in swept(springblock, folder, *others, refused=True)
