@@ -76,7 +76,7 @@ def test_the_readme_can_be_followed(study):
     for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
         exec(example, names)
     assert names["stored"].scene == Scene(60, 10, 10)
-    for file in ("surface.png", "run.parquet", "run.png", "run.gif", "velocity.png"):
+    for file in ("surface.png", "run.parquet", "run.png", "run.gif", "fast.csv"):
         assert (study / file).exists()
     assert 0.5 < names["run"].static_friction < 1.0
     assert abs(names["run"].energy.relative_residual) < 5e-4

@@ -173,10 +173,9 @@ def _share_of_end(law, row, speed, static, dynamic):
 
 
 def _strength(law, static, dynamic):
-    return max(static, _friction(law, _fresh(law), 0.0, static, dynamic))
+    return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
 
 
-@kernel
 def _fresh(law):
     return len(law.state) - 1
 
