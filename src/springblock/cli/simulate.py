@@ -230,7 +230,8 @@ def _in_words(rows: list[Row]) -> str:
         values = factor * np.array([row[name] for row in rows], dtype=float)
         error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
         told.append(f"{name} {values.mean():.5g}" + (f" ± {error:.2g}" if error else "") + unit)
-    return ", ".join(told)
+    runs = f" (means of {len(rows)} runs ± standard error)" if len(rows) > 1 else ""
+    return ", ".join(told) + runs
 
 
 def realised(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
