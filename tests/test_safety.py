@@ -199,12 +199,13 @@ def test_preludes_and_checkpoints_are_read_that_way(tmp_path):
 def test_nothing_that_is_read_can_run():
     """Neither pickles nor texts become code, and no shell is between this package and others.
 
-    Machine code of its own, in the user's cache, is what alone is meant to run.
+    But for machine code of its own, in the user's cache, and laws of friction, which are programs.
     """
     for file in (ROOT / "src").rglob("*.py"):
         text = file.read_text()
         pickles = re.search(r"\b(pickle|marshal|shelve|dill|joblib|read_pickle)\b", text)
         assert not pickles or file.name == "compilation.py", file
-        assert not re.search(r"(?<![.\w])(eval|exec)\(|os\.(system|popen)|shell=True", text), file
+        runs = re.search(r"(?<![.\w])(eval|exec)\(|os\.(system|popen)|shell=True", text)
+        assert not runs or file.name in ("law.py", "law_file.py"), file
         for call in re.findall(r"np\.load\([^)]*\)", text):
             assert "allow_pickle=False" in call, file

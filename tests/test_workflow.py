@@ -10,7 +10,7 @@ import pytest
 
 from springblock import Material
 from springblock.io.schemas import BATCH
-from springblock.plotting.figures import FIGURES
+from springblock.plotting import figures
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study.archive import archive
 from studies import PAPER, ROOT, SCHEMA, TINY, Study
@@ -21,7 +21,7 @@ FULL = {"configuration": ("config/full.yaml",)}
 #: Those of the study without its optional groups of scenes and without its tables of errors.
 FIGURES = {
     name
-    for name, figure in FIGURES.items()
+    for name, figure in figures.FIGURES.items()
     if figure.is_part_of(TINY["scenes"])
     and figure.category not in ("Mechanism", "Accuracy", "Beyond")
 }
@@ -73,7 +73,7 @@ def test_every_step_can_be_planned_and_the_configuration_decides_which_are(study
     steps = set(re.findall(r"^\w+$", listed, re.MULTILINE))
     papers = study.planned(*elsewhere, **WHOLE)
     full = study.planned(*elsewhere, "--", *steps, **FULL)
-    known = FIGURES
+    known = figures.FIGURES
     beyond = {name for name, figure in known.items() if figure.category == "Beyond"}
     further = {*beyond, "beyond", "production_table", "total_error"}
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
