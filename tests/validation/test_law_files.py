@@ -2,6 +2,7 @@
 
 import math
 import os
+import pickle
 import re
 import signal
 import time
@@ -181,9 +182,12 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
         ("import nothing_of_this_name\n", "cannot be run: ModuleNotFoundError"),
         ("def friction(:\n", "cannot be run: SyntaxError"),
         ("def friction(mu):\n    return mu\n", "argument 'mu'; it may have mu_static, mu_dynamic"),
-        ("CONSTANTS = {'a': 1.0}\n" + FRICTION, r"CONSTANTS\['a'\] must be \(value, unit\)"),
+        ("CONSTANTS = {'a': 1.0}\n" + FRICTION, r"CONSTANTS\['a'\] must be \(number, unit\)"),
         ("CONSTANTS = {'speed': (1.0, '')}\n" + FRICTION, "the name 'speed' is given twice"),
-        ("CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION, "the name 'gamma' is given twice"),
+        (
+            "CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION,
+            "'gamma' is a constant of the material already",
+        ),
         ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),
         ("STATE = {'s': 0.0}\n" + FRICTION, "must define the function update"),
         (
@@ -218,8 +222,14 @@ def test_what_numba_cannot_compile_and_what_turns_negative_is_refused(tmp_path):
         simulate(*surface, Material(law=tmp_path / "falling.py"))
     with pytest.raises(ValueError, match="integrator must be leapfrog with the law exponential"):
         Setup(Material(law=EXPONENTIAL), integrator="rk4")
-    with pytest.raises(ValueError, match=r"'d_1' is no constant of .*; there are d_0, floor"):
+    with pytest.raises(ValueError, match=r"'d_1' is no constant of .*\.py; there are d_0, floor"):
         Material(law=EXPONENTIAL).vary({"d_1": 1.0})
+
+
+def test_other_processes_are_given_the_law():
+    material = Material(law=AGEING).vary({"a": 0.02})
+    Setup(material)  # runs the file
+    assert pickle.loads(pickle.dumps(material)) == material
 
 
 def test_a_table_keeps_the_law_with_its_constants():

@@ -5,7 +5,7 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -39,6 +39,10 @@ class LawFile:
 
     def __str__(self) -> str:
         return self.name
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Leave what the file defines behind: another process runs the file itself."""
+        return LawFile, tuple(getattr(self, field.name) for field in fields(self))
 
     @classmethod
     def read(cls, file: Path, **constants: float) -> "LawFile":
@@ -96,7 +100,7 @@ class LawFile:
         for name, value in constants.items():
             if name not in self.constants:
                 there_are = ", ".join(self.constants) or "none"
-                raise ValueError(f"{name!r} is no constant of {self.name}; there are {there_are}")
+                raise ValueError(f"{name!r} is no constant of {self.file}; there are {there_are}")
             if not _is_number(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)
@@ -155,7 +159,7 @@ class LawFile:
         for name, given in self._module.get("CONSTANTS", {}).items():
             if not (isinstance(given, tuple) and len(given) == 2 and _is_number(given[0])):
                 raise ValueError(
-                    f"{self.file}: CONSTANTS[{name!r}] must be (value, unit), not {given!r}"
+                    f"{self.file}: CONSTANTS[{name!r}] must be (number, unit), not {given!r}"
                 )
         for name, given in self._module.get("STATE", {}).items():
             if not (_is_number(given) or given in self.constants):
@@ -193,8 +197,8 @@ class LawFile:
             mu = self._tried("friction", {**at, **self.initial})
             if not (_is_number(mu) and mu >= 0.0):
                 raise ValueError(
-                    f"{self.file}: friction must be finite and not negative, not {mu!r} at "
-                    f"{speed} m/s"
+                    f"{self.file}: friction must be one number, finite and not negative, "
+                    f"not {mu!r} at {speed} m/s{self._with_constants}"
                 )
             state = self._tried("update", {**at, **self.initial}) if self.initial else ()
             after = state if isinstance(state, tuple) else (state,)
@@ -209,8 +213,14 @@ class LawFile:
             return self._function(name)(*(known[each] for each in self.arguments(name)))
         except Exception as error:
             raise ValueError(
-                f"{self.file}: {name} fails at {known['speed']} m/s: {error!r}"
+                f"{self.file}: {name} fails at {known['speed']} m/s{self._with_constants}: "
+                f"{error!r}"
             ) from None
+
+    @property
+    def _with_constants(self) -> str:
+        constants = ", ".join(f"{name} = {value}" for name, value in self.constants.items())
+        return f" with {constants}" if constants else ""
 
 
 def _is_number(value: Any) -> bool:

@@ -121,7 +121,9 @@ class Material:
         if isinstance(self.law, LawFile):
             twice = self.law.constants.keys() & {field.name for field in fields(self)}
             if twice:
-                raise ValueError(f"{self.law}: the name {min(twice)!r} is given twice")
+                raise ValueError(
+                    f"{self.law.file}: {min(twice)!r} is a constant of the material already"
+                )
 
     def items(self) -> Iterator[tuple[str, float | str]]:
         """Yield (name, value) of every constant; all are numbers but words.
@@ -147,7 +149,10 @@ class Material:
         if not others:
             return material
         if not isinstance(material.law, LawFile):
-            raise ValueError(f"{min(others)!r} is no constant; there are {', '.join(known)}")
+            raise ValueError(
+                f"{min(others)!r} is no constant; there are {', '.join(known)}, and those of a law "
+                "from a file"
+            )
         return replace(material, law=material.law.vary(others))
 
     @property

@@ -6,6 +6,7 @@ row. T and V are as in `laws`.
 """
 
 import math
+from collections.abc import Callable
 from functools import cache
 from inspect import isfunction
 from typing import Any, NamedTuple
@@ -96,8 +97,9 @@ def _compiled(law: LawFile) -> dict[str, Any]:
             "update": cfunc(update, error_model="numpy")(module["update_at"]),
         }
     except NumbaError as error:
-        reason = " ".join(str(error).split())
-        raise ValueError(f"{law.file} cannot be compiled by numba: {reason[:200]}") from None
+        lines = [line.strip() for line in str(error).splitlines()]
+        reason = next(line for line in lines if line and not line.startswith("Failed in"))
+        raise ValueError(f"{law.file} cannot be compiled by numba: {reason}") from None
 
 
 @kernel
@@ -126,9 +128,12 @@ def _resistance(law, row, speed, share, static, dynamic):
             break
         if mean <= 0.0 and share < 0.0:
             mean = 0.0
-        friction = _friction(law, row, max(mean, 0.0), static, dynamic)
+        fast, friction = friction, _friction(law, row, max(mean, 0.0), static, dynamic)
+        if friction == fast:  # whatever the speed
+            break
         if share < 0.0 and speed + share * friction >= mean:
-            return _between(law, row, speed, share, static, dynamic, mean, before)
+            low, high = (mean, friction), (before, fast)
+            return _between(law, row, speed, share, static, dynamic, low, high)
         if mean == 0.0:
             return np.inf
     return friction
@@ -136,15 +141,14 @@ def _resistance(law, row, speed, share, static, dynamic):
 
 @kernel
 def _between(law, row, speed, share, static, dynamic, low, high):
-    """T where V = speed + share T lies between two speeds: false position (Illinois) in log V.
+    """T where V = speed + share T lies between two speeds, each given with its T.
 
-    Friction that rises with speed usually does so with the logarithm of it.
+    By false position (Illinois) in log V: friction that rises with speed usually does so with the
+    logarithm of it.
     """
-    left, right = math.log(max(low, _LEAST)), math.log(high)
-    friction = _friction(law, row, math.exp(left), static, dynamic)
-    below = math.exp(left) - speed - share * friction
-    friction = _friction(law, row, high, static, dynamic)
-    above, moved = high - speed - share * friction, 0.0
+    left, right = math.log(max(low[0], _LEAST)), math.log(high[0])
+    below = low[0] - speed - share * low[1]
+    above, friction, moved = high[0] - speed - share * high[1], high[1], 0.0
     for _ in range(_ITERATIONS):
         if above <= below:
             break
@@ -199,7 +203,7 @@ def _keep(law, b, row, moved, slides):
 
 
 #: By the names under which `laws` calls them.
-FUNCTIONS = {
+FUNCTIONS: dict[str, Callable[..., Any]] = {
     "resistance": _resistance,
     "share_of_end": _share_of_end,
     "strength": _strength,

@@ -22,7 +22,7 @@ step, and V for the mean speed of that step.
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -147,7 +147,7 @@ def _keep_slip(law, b, state, moved, slides):
 
 
 #: What laws without a state have in common.
-_STATELESS = {
+_STATELESS: dict[str, Callable[..., Any]] = {
     "share_of_end": _half,
     "strength": _stronger,
     "fresh": _nothing,
@@ -156,7 +156,7 @@ _STATELESS = {
     "keep": _keep_none,
 }
 #: The functions of each law, by its type: those below, which say what they return.
-FUNCTIONS = {
+FUNCTIONS: dict[type, dict[str, Callable[..., Any]]] = {
     type(None): _STATELESS | {"resistance": _resistance_dynamic},
     SlipWeakening: _STATELESS
     | {
