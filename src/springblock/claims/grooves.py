@@ -186,8 +186,8 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
         ("rapid", _LASTING, samples.lasting, ranges.NEGATIVE),
     ):
         for scene, plain in pairs:
-            statistic = f"{name} over t_max, with pawls of {scene.n_p2} minus without"
-            case = {"transition": f"a {word} transition"}
+            statistic = f"{name} over t_max, with grooves minus without"
+            case = {"transition": f"a {word} transition", **surfaces.case_of(scene)}
             yield samples.compared(evidence, statistic, quantity, scene, plain, claimed, case)
 
 
