@@ -31,8 +31,9 @@ FEW, MANY = (
     [Scene(N, varied={name: value}) for name, value in zip(NAMES, values, strict=True)]
     for values in ((5e-5, 1e4, 0.02), (5e-3, 2e5, 0.3))
 )
-#: Surfaces whose lengths differ by less than those of `ALONG`.
+#: Shorter pillars than those of `ALONG`, and some with wider pawls.
 SHORTER = [Scene(N, 17, 7, 5, 1), Scene(N, 11, 13, 5, 1)]
+WIDER = [Scene(N, 23, 25, 11, 1), Scene(N, 17, 7, 8, 1), Scene(N, 23, 25, 7, 1)]
 PILLARS = [Scene(N, n_p, n_p) for n_p in (2, 6, 24)]
 
 DECAY = np.exp(-1.0 / 4.0)  #: of the correlation along long sides, from block to block
@@ -58,6 +59,9 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
 SHORTER_CURVES = {
     SHORTER[0]: (300.0, 0.63, 6.0, [(247.0, 0.60)]),
     SHORTER[1]: (300.0, 0.61, 6.0, [(273.0, 0.59)]),
+    WIDER[0]: (300.0, 0.64, 6.0, [(265.0, 0.62)]),
+    WIDER[1]: (300.0, 0.63, 6.0, [(268.0, 0.60)]),
+    WIDER[2]: (300.0, 0.64, 6.0, [(243.0, 0.62)]),
 }
 
 
