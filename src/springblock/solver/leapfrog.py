@@ -30,7 +30,15 @@ from springblock.solver.lattice import (
     keep_peaks,
     place,
 )
-from springblock.solver.laws import fresh, keep, resistance, state_before, state_of, strength
+from springblock.solver.laws import (
+    fresh,
+    keep,
+    resistance,
+    state_before,
+    state_of,
+    strength,
+    vectorised,
+)
 from springblock.solver.release import force_in, placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 from springblock.solver.stability import leapfrog_force_time
@@ -136,7 +144,7 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
             continue
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         slide, switch = False, False
-        heat, squares = 0.0, 0.0
+        sum_x, sum_y, heat, squares = 0.0, 0.0, 0.0, 0.0
         for x in range(ONE, band.grid.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
@@ -153,6 +161,8 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
             turned[x] = along
             slide = slide | slides
             switch = switch | (slides & (along <= 0.0) & (static[b] > 0.0))
+            sum_x = add(sum_x, there_x)
+            sum_y = add(sum_y, there_y)
             # Friction's work: the momentum that it removes times the mean velocity.
             lost_x, lost_y = trial_x - new_x, trial_y - new_y
             heat = add(heat, lost_x * (vx + new_x) + lost_y * (vy + new_y))
@@ -164,7 +174,8 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
             else (np.int64(0), np.int64(0))
         )
         rows.switching[row], rows.released[row] = more
-        sum_x, sum_y = displacement_of_row(ux, uy, i, band.grid.width)
+        if not vectorised(law):  # in the order in which preludes are summed
+            sum_x, sum_y = displacement_of_row(ux, uy, i, band.grid.width)
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
