@@ -168,8 +168,10 @@ def test_energy_closes_and_nothing_depends_on_prelude_or_cores(law):
     assert abs(run.energy.relative_residual) < 1e-3
     for other in ({"cores": 2}, {"prelude": compute_prelude(pattern, material)}):
         again = simulate(*surface, **how, **other)
-        np.testing.assert_array_equal(again.force, run.force)
         np.testing.assert_array_equal(again.displacement, run.displacement)
+        np.testing.assert_array_equal(again.switches, run.switches)
+        # preludes sum the blocks of a row in another order
+        np.testing.assert_allclose(again.force, run.force, rtol=1e-14)
 
 
 FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"

@@ -4,7 +4,8 @@ Until the first block detaches, the motion depends on the pattern and the direct
 friction coefficients. A prelude runs the scene with blocks that never let go, and keeps a few
 states: how the blocks without contact move, and the running maximum of |F_mot| on those in
 contact, which rest. A realisation may start from the latest state whose maxima all stay under
-its own thresholds: it is then, to the last bit, where it would have come from zero.
+its own thresholds: it is then, to the last bit, where it would have come from zero. (With a law
+from a file the force until then, a sum over blocks in another order, may differ by rounding.)
 """
 
 import json

@@ -180,10 +180,6 @@ def _strength(law, static, dynamic):
     return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
 
 
-def _vectorised(law):
-    return False
-
-
 def _fresh(law):
     return len(law.state) - 1
 
@@ -211,7 +207,6 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "resistance": _resistance,
     "share_of_end": _share_of_end,
     "strength": _strength,
-    "vectorised": _vectorised,
     "fresh": _fresh,
     "state_of": _state_of,
     "state_before": _state_before,

@@ -118,10 +118,6 @@ def _stronger(law, static, dynamic):
     return max(static, dynamic)
 
 
-def _always(law):
-    return True
-
-
 def _nothing(law):
     return 0.0
 
@@ -154,7 +150,6 @@ def _keep_slip(law, b, state, moved, slides):
 _STATELESS: dict[str, Callable[..., Any]] = {
     "share_of_end": _half,
     "strength": _stronger,
-    "vectorised": _always,
     "fresh": _nothing,
     "state_of": _no_slip,
     "state_before": _none_before,
@@ -201,8 +196,6 @@ resistance = _of_each_law("resistance")
 share_of_end = _of_each_law("share_of_end")
 #: (law, static, dynamic) -> T that the force on a block at rest must exceed.
 strength = _of_each_law("strength")
-#: (law) -> whether the compiler can treat several blocks of a row at once.
-vectorised = _of_each_law("vectorised")
 #: (law) -> state of a block that lets go: its slip, or the row where its state is.
 fresh = _of_each_law("fresh")
 #: (law, b) -> state of block b.

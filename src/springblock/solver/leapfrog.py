@@ -26,7 +26,6 @@ from springblock.solver.lattice import (
     book,
     close_edge,
     close_rows,
-    displacement_of_row,
     keep_peaks,
     place,
 )
@@ -37,7 +36,6 @@ from springblock.solver.laws import (
     state_before,
     state_of,
     strength,
-    vectorised,
 )
 from springblock.solver.release import force_in, placed, room, share_of_step
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
@@ -174,8 +172,6 @@ def _move_rows_in_contact(blocks, law, rows, band, s, turned, a):
             else (np.int64(0), np.int64(0))
         )
         rows.switching[row], rows.released[row] = more
-        if not vectorised(law):  # in the order in which preludes are summed
-            sum_x, sum_y = displacement_of_row(ux, uy, i, band.grid.width)
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
