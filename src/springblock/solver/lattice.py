@@ -14,7 +14,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
-from springblock.solver.compilation import add, kernel
+from springblock.solver.compilation import kernel
 from springblock.solver.laws import Law, law_of
 from springblock.solver.springs import (
     FORCE_X,
@@ -257,15 +257,6 @@ def close_rows(ux, uy, grid):
         beyond = grid.n_y * grid.pitch
         for x in range(grid.pitch):
             ux[beyond + x], uy[beyond + x] = ux[x], uy[x]
-
-
-@kernel
-def displacement_of_row(ux, uy, i, n):
-    """Sums over a row, in an order that does not depend on the law: preludes know none."""
-    sum_x, sum_y = 0.0, 0.0
-    for x in range(ONE, n + ONE):
-        sum_x, sum_y = add(sum_x, ux[i + x]), add(sum_y, uy[i + x])
-    return sum_x, sum_y
 
 
 @njit(inline="always")
