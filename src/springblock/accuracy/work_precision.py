@@ -21,7 +21,14 @@ from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
-from springblock.accuracy.conventions import HORIZON_NUDGE, MEANS, ORDERED, PLAIN, half_width
+from springblock.accuracy.conventions import (
+    HORIZON_NUDGE,
+    MEANS,
+    ORDERED,
+    PAPER_STEP,
+    PLAIN,
+    half_width,
+)
 from springblock.accuracy.specimens import Array, Surface, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
@@ -84,8 +91,8 @@ PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
 SAMPLE_INTERVAL = 8e-8
-PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8))
-PAIRED_SEEDS_RK4 = 50  #: fewer where a step costs four times as much
+PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
+PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
 NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
 TWIN_STEP = 5e-9
@@ -152,7 +159,7 @@ def solve_with(
 
 
 def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
-    """Return what one of these timed runs costs."""
+    """Return the cost of one of these timed runs."""
     solutions, seconds = zip(*runs, strict=True)
     steps = float(np.mean([run.steps for run in solutions]))
     return float(np.median(seconds)), steps * FORCE_EVALUATIONS[integrator]
@@ -188,30 +195,46 @@ def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str)
 
 
 def paired_rows(scene: str) -> Iterator[Row]:
-    """Ensembles of both integrators against the leapfrog at the fine step, seed by seed."""
+    """Ensembles of every method against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
-    exact, _ = ensemble(scene, "leapfrog", FINE_STEP, seeds)
+    fine = ensemble(scene, "leapfrog", FINE_STEP, seeds)
+    exact, longest = means_of(fine), max(float(run.time[-1]) for run, _ in fine)
     for integrator, steps in PAIRED_STEPS.items():
-        few = PAIRED_SEEDS_RK4 if integrator == "rk4" else seeds
+        few = min(seeds, PAIRED_SEEDS.get(integrator, seeds))
         for step in steps:
-            means, cost = ensemble(scene, integrator, step, few)
-            errors = {name: found / exact[name][:few] - 1.0 for name, found in means.items()}
+            runs = ensemble(scene, integrator, step, few, longest)
+            means, cost = means_of(runs), cost_of(integrator, runs)
+            errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
             yield from rows_of("paired", scene, integrator, step, errors, cost)
     spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread)
 
 
-def ensemble(scene: str, integrator: str, step: float, seeds: int) -> tuple[Errors, Cost]:
-    """Return what ensembles are used for, of each of so many seeds, and what one of them costs."""
+def ensemble(
+    scene: str, integrator: str, step: float, seeds: int, duration: float | None = None
+) -> list[tuple[Computed, float]]:
+    """Return one run per seed, with its CPU seconds.
+
+    `duration`, s, is for the plain method; the integrators stop once the surface slides.
+    """
     pattern = _SURFACES[scene].ensemble
-    how: Row = {"integrator": integrator, "step": step, "sample_interval": SAMPLE_INTERVAL}
-    pull = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
-    runs = [
-        timed(partial(pull, *drawn(pattern, seed)))
+    how: Row = {"step": step, "sample_interval": SAMPLE_INTERVAL}
+    solve: Callable[..., Computed]
+    if integrator == PLAIN:
+        solve = partial(plain_rk4.solve, duration=duration, **how)
+    else:
+        how["integrator"] = integrator
+        solve = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
+    return [
+        timed(partial(solve, *drawn(pattern, seed)))
         for seed in tqdm(range(seeds), desc=f"{integrator} {step:g}")
     ]
-    means = {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
-    return means, cost_of(integrator, runs)
+
+
+def means_of(runs: Iterable[tuple[Computed, float]]) -> Errors:
+    """Return what ensembles are used for, each (seeds,)."""
+    computed = [run for run, _ in runs]
+    return {name: np.array([getattr(run, name) for run in computed]) for name in MEANS}
 
 
 def twin_rows(scene: str) -> Iterator[Row]:

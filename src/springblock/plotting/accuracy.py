@@ -143,7 +143,7 @@ def _draw_paired(ax: Axes, table: DataFrame) -> None:
     half = 0.5 * PERCENT * float(deviation.item())
     ax.axhspan(-half, half, label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER)
     ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-    for method, aside in (("leapfrog", 0.94), ("rk4", 1.06)):  # side by side
+    for method, aside in (("leapfrog", 0.94), ("rk4", 1.06), (PLAIN, 1.0)):  # side by side
         line = paired[paired.integrator == method].sort_values("step")
         intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
         draw_points(ax, aside * NANO * line.step, intervals, **_METHODS[method])
