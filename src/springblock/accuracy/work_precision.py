@@ -211,7 +211,7 @@ def paired_rows(scene: str) -> Iterator[Row]:
 
 
 def ensemble(
-    scene: str, integrator: str, step: float, seeds: int, duration: float | None = None
+    scene: str, integrator: str, step: float, seeds: int, duration: float = 0.0
 ) -> list[tuple[Computed, float]]:
     """Return one run per seed, with its CPU seconds.
 
