@@ -45,6 +45,14 @@ def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, ste
     assert 0.0 < run.static_friction - mu_static <= RATE * step / LOAD
 
 
+@pytest.mark.parametrize("direction", [60.0, "y", 251.5])
+def test_a_stuck_block_is_found_to_slide_in_time_in_any_direction(direction, integrator):
+    """A row at rest is skipped for many steps, but no further than its weakest block allows."""
+    how = {"direction": direction, "integrator": integrator, "sample_interval": 1e-6}
+    run = simulate(*uniform(4, 1.0, 0.6), duration=release_time(1.0) + 1e-6, **how)
+    assert run.t_det == pytest.approx(np.full((4, 4), release_time(1.0)), rel=1e-12)
+
+
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("gamma", [0.0, 5e5])
 @pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7), (1.0, 0.0)])
