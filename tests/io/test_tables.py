@@ -23,7 +23,7 @@ def test_an_interrupted_file_leaves_nothing_behind(tmp_path):
 def test_an_interrupted_file_does_not_harm_the_one_before(tmp_path):
     file = tmp_path / "a.parquet"
     file.write_text("before")
-    with pytest.raises(ValueError, match="nothing to write"):
+    with pytest.raises(ValueError, match="nothing was written"):
         write(rows_to_table([], BATCH), file, {})
     assert file.read_text() == "before"
 

@@ -151,16 +151,19 @@ def test_a_rectangle_has_a_draw_for_each_block():
     [
         (
             {"distribution": "uniform", "mu_static_std": 0.6},
-            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without going below zero; "
-            "mu_static_std may be up to 0.5774",
+            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without negative values; "
+            "mu_static_std must be at most 0.5774",
         ),
         (
             {"distribution": "weibull", "mu_dynamic": 0.0},
-            "no weibull .*; its mean must be positive",
+            "no weibull .*; mu_dynamic must be positive",
         ),
-        ({"distribution": "weibull", "mu_static_std": 20.0}, "must scatter by 1e-5 to 15 times"),
-        ({"distribution": "lognormal", "mu_static": 0.0}, "its mean must be positive"),
-        ({"correlation_length": 9e-5}, "9e-05 m must not exceed the surface, 8e-05 m"),
+        ({"distribution": "weibull", "mu_static_std": 20.0}, "must be 1e-5 to 15 times the mean"),
+        ({"distribution": "lognormal", "mu_static": 0.0}, "mu_static must be positive"),
+        (
+            {"correlation_length": 9e-5},
+            "must be at most the side of the surface, 8e-05 m, not 9e-05 m",
+        ),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_before_it_is(constants, sentence):

@@ -116,7 +116,7 @@ def test_contact_is_read_only():
         (lambda: Pattern.pillars(12, 2, -2), "n_s must be at least 1"),
         (lambda: Pattern.flat(12).grooved(0, 2), "n_p2 must be at least 1"),
         (lambda: Pattern.flat(12).grooved(2, 0), "n_s2 must be at least 1"),
-        (lambda: Pattern.flat(12).grooved(4, 2, along="z"), "along 'x' or 'y', not 'z'"),
+        (lambda: Pattern.flat(12).grooved(4, 2, along="z"), "along must be 'x' or 'y', not 'z'"),
     ],
 )
 def test_a_level_that_does_not_fit_is_refused(build, message):

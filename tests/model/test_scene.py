@@ -107,7 +107,7 @@ def test_a_mask_takes_the_place_of_the_pattern():
     assert (OWN.shape, OWN.level, OWN.sides, OWN.lengths) == ((2, 3), -1, (), {})
     assert OWN.contact is CORNER.values
     assert Scene(3, n_rows=2, edges="periodic") != OWN
-    with pytest.raises(ValueError, match="mask corner-1a2b3c4d is no pattern of pillars"):
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d is not a pattern of pillars"):
         _ = OWN.pattern
 
 
@@ -115,7 +115,7 @@ def test_a_table_knows_a_mask_by_its_name():
     known = Scene.from_row(OWN.row)
     assert known == OWN
     assert (known.shape, known.mask.values) == ((2, 3), None)
-    with pytest.raises(ValueError, match="mask corner-1a2b3c4d nothing is known here but its name"):
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d are not available, only its name"):
         _ = known.contact
     assert OWN.row["n_rows"] == 2
     assert Scene(9).row["n_rows"] == 9
@@ -143,10 +143,13 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ({"mask": CORNER}, "n_blocks and n_rows are those of the mask, 3 and 2, not 120 and 120"),
+        (
+            {"mask": CORNER},
+            "n_blocks and n_rows must be those of the mask, 3 and 2, not 120 and 120",
+        ),
         (
             {"mask": replace(CORNER, values=None), **STRIPS},
-            "a mask cannot be given together with n_p, n_s, n_p2, n_s2",
+            "mask cannot be combined with n_p, n_s, n_p2, n_s2",
         ),
         ({"edges": "closed"}, "edges must be free or periodic, not 'closed'"),
         (
@@ -156,12 +159,12 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         ),
         (
             ONES | {"varied": {"mu_static_std": 0.3}},
-            "mu_static_std cannot be varied where strong-00000000 says mu_static",
+            "mu_static_std cannot be varied if mu_static is read from strong-00000000",
         ),
         (
             ONES
             | {"mu_dynamic_field": ONES["mu_static_field"], "varied": {"distribution": "weibull"}},
-            "distribution cannot be varied where all coefficients are from files",
+            "distribution cannot be varied if all coefficients are from files",
         ),
         ({"n_p": 20}, "n_p = 20 needs n_s"),
         ({"n_s": 10}, "n_s = 10 needs n_p"),
@@ -170,7 +173,7 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         (STRIPS | {"n_s3": 2}, "n_s3 = 2 needs n_p3"),
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
         (STRIPS | {"n_p3": 8, "n_s3": 2, "along_3": "z"}, "along_3 must be 'x' or 'y', not 'z'"),
-        ({"varied": {"a-b": 1}}, "'a-b' is no constant; there are youngs_modulus, .*, step"),
+        ({"varied": {"a-b": 1}}, "unknown constant 'a-b'; choose from youngs_modulus, .*, step"),
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )

@@ -106,7 +106,9 @@ def test_a_run_that_ends_by_its_own_judgement_does_so_where_it_would_have(stoppe
 def test_the_checkpoint_of_another_run_is_refused_and_kept(stopped, change, named):
     file = stopped()
     content = file.read_bytes()
-    with pytest.raises(ValueError, match=rf"run.npz belongs to a run of other {named}; remove it"):
+    with pytest.raises(
+        ValueError, match=rf"run.npz belongs to a run with other {named}; remove it"
+    ):
         pull(checkpoint=file, **change)
     assert file.read_bytes() == content
 
@@ -114,7 +116,7 @@ def test_the_checkpoint_of_another_run_is_refused_and_kept(stopped, change, name
 def test_so_is_that_of_other_code(stopped, monkeypatch):
     file = stopped()
     monkeypatch.setattr("springblock.simulation.checkpoint.digest", lambda *modules: "0123")
-    with pytest.raises(ValueError, match="belongs to a run of other code; remove it"):
+    with pytest.raises(ValueError, match="belongs to a run with other code; remove it"):
         pull(checkpoint=file)
 
 
@@ -125,7 +127,7 @@ def test_what_is_no_checkpoint_is_refused(stopped, tmp_path):
     prelude = (tmp_path / "prelude.npz").read_bytes()
     for content in (b"", b"text", whole[:1000], whole[: len(whole) // 2], prelude):
         file.write_bytes(content)
-        with pytest.raises(ValueError, match=r"run.npz is no checkpoint: "):
+        with pytest.raises(ValueError, match=r"run.npz is not a checkpoint: "):
             pull(checkpoint=file)
 
 

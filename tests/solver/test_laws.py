@@ -7,7 +7,7 @@ from numba import njit
 from springblock import Material
 from springblock.model.material import LAWS
 from springblock.solver import laws
-from springblock.solver.friction import slow_down
+from springblock.solver.friction import apply_friction
 from springblock.solver.laws import SlipWeakening, VelocityWeakening, law_of
 
 STATIC, DYNAMIC = 1.0, 0.6
@@ -26,7 +26,7 @@ def after(law, w, v, f, static=STATIC, dynamic=DYNAMIC):
 
     The ways of two blocks are kept in between. Coulomb's law is None.
     """
-    return slow_down(law, 1, w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)[:2]
+    return apply_friction(law, 1, w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)[:2]
 
 
 def released(law, force, static=STATIC):
@@ -56,7 +56,7 @@ def test_python_and_compiled_callers_get_the_same(law):
         plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
         assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
     assert laws.state_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
-    laws.keep(law, 1, 0.5, 0.2, True)
+    laws.store_state(law, 1, 0.5, 0.2, True)
     assert laws.state_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 

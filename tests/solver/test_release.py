@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
-from springblock.solver.release import force_in, room, share_of_step
+from springblock.solver.release import force_in_patch, make_releases, release_share
 from springblock.solver.springs import Springs
 
 #: A block that hangs on the slider alone, by a spring of stiffness one.
@@ -14,7 +14,7 @@ SLIDE = (0.1, 0.0)
 
 def surroundings(u_now, u_before):
     """Room for one block in the middle of others that have not moved."""
-    released = room(1)
+    released = make_releases(1)
     released.now[:], released.before[:] = 0.0, 0.0
     released.now[0, 2, 2], released.before[0, 1, 1] = u_now, u_before
     return released
@@ -23,7 +23,7 @@ def surroundings(u_now, u_before):
 @pytest.mark.parametrize(("y", "x"), [(2, 2), (1, 3)])
 def test_the_force_in_a_patch_is_that_of_the_bands(y, x, rng):
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
-    found = force_in(u, y, x, *SPRINGS)
+    found = force_in_patch(u, y, x, *SPRINGS)
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u)[:, y, x], rtol=1e-12)
 
 
@@ -32,16 +32,16 @@ def test_beyond_the_edges_nothing_pulls(rng):
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
     corner = u.copy()
     corner[:, :2], corner[:, :, :2] = np.nan, np.nan
-    found = force_in(corner, 2, 2, *SPRINGS)
+    found = force_in_patch(corner, 2, 2, *SPRINGS)
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u[:, 2:, 2:])[:, 0, 0], rtol=1e-12)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
 def test_the_share_is_where_an_even_rise_meets_the_threshold(share):
     """The slider is at 1 now and was at 0.9; the block has not moved."""
-    found = share_of_step(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
+    found = release_share(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
     assert found == pytest.approx(share, abs=1e-14)
 
 
 def test_a_block_that_felt_more_before_was_moving_then():
-    assert np.isnan(share_of_step(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
+    assert np.isnan(release_share(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
