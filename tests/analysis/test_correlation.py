@@ -159,7 +159,7 @@ def test_sides_cut_by_grooves_are_refused():
     pattern = Pattern.pillars(24, 8, 4).grooved(2, 1, along="x")
     run = SimpleNamespace(t_det=np.ones((24, 24)))
     assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
-    with pytest.raises(ValueError, match="no whole sides along y"):
+    with pytest.raises(ValueError, match="along y are not all in contact"):
         side_times([run], pattern, "y")
 
 
@@ -175,7 +175,7 @@ def test_edges_of_grooves_are_the_rows_beside_them():
     run.t_det[3, 14] = np.nan
     with pytest.raises(ValueError, match="beside a groove never detached"):
         groove_times([run], pattern)
-    with pytest.raises(ValueError, match="no grooves along x"):
+    with pytest.raises(ValueError, match="no uncut grooves along x"):
         groove_times([run], Pattern.pillars(24, 8, 4))
 
 
@@ -183,9 +183,9 @@ def test_what_cannot_be_correlated_is_refused(decaying):
     run = SimpleNamespace(t_det=np.full((24, 24), np.nan))
     with pytest.raises(ValueError, match="never detached"):
         side_times([run], Pattern.pillars(24, 6, 6), "x")
-    with pytest.raises(ValueError, match="3 realisations or more, not 2"):
+    with pytest.raises(ValueError, match="at least 3 realisations, not 2"):
         Correlation(decaying[:2])
-    with pytest.raises(ValueError, match="nothing can correlate"):
+    with pytest.raises(ValueError, match="is not defined"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
 
 

@@ -39,7 +39,7 @@ def test_whatever_a_folder_was_made_under_counts():
 
 
 def test_batches_of_another_size_are_refused():
-    with pytest.raises(ValueError, match=r"^realisations_per_job: results was made with 2, and"):
+    with pytest.raises(ValueError, match=r"^realisations_per_job must remain 2, "):
         record.refuse_unknown(RESULTS, BEFORE | {"realisations_per_job": 3})
 
 
