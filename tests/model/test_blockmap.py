@@ -1,4 +1,4 @@
-"""Surfaces of one's own: what files may hold, and what is read from them."""
+"""Masks and coefficients from files: valid and invalid contents."""
 
 import sys
 from pathlib import Path
@@ -42,12 +42,12 @@ def test_black_and_white_is_read_however_it_is_stored(saved, mode):
 
 
 @pytest.mark.parametrize("kind", [bool, int, np.uint8, float])
-def test_what_is_not_zero_is_in_contact(saved, kind):
+def test_nonzero_values_are_in_contact(saved, kind):
     mask = BlockMap.mask(saved(3 * CORNER.astype(int).astype(kind)))
     np.testing.assert_array_equal(mask.values, CORNER)
 
 
-def test_a_name_tells_contents_apart_and_nothing_else(saved):
+def test_a_name_depends_on_the_contents_only(saved):
     """Eight digits of content: neither how a mask is stored nor its own digits change them."""
     first = BlockMap.mask(saved(CORNER, "a corner (1).npy"))
     assert first.name.startswith("a_corner__1_-")
@@ -90,7 +90,7 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
         (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
     ],
 )
-def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentence):
+def test_invalid_masks_are_refused_in_one_sentence(saved, values, name, sentence):
     file = saved(values, name)
     with pytest.raises(ValueError, match=sentence) as refusal:
         BlockMap.mask(file)
@@ -100,7 +100,7 @@ def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentenc
 
 @pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
 def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
-    """A pickle could run anything; this one would leave a file."""
+    """A pickle can execute any command; this one would create a file."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trap.npy").write_bytes(b"cos\nsystem\n(S'touch trapped'\ntR.")
     with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers saved by NumPy"):
@@ -133,7 +133,7 @@ def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
         (np.ones((2, 2, 2)), r"must have the shape \(N_y, N_x\), not \(2, 2, 2\)"),
     ],
 )
-def test_what_are_no_coefficients_is_refused(saved, values, sentence):
+def test_invalid_coefficients_are_refused(saved, values, sentence):
     with pytest.raises(ValueError, match=f"corner.npy {sentence}"):
         BlockMap.coefficients(saved(values))
 

@@ -1,4 +1,4 @@
-"""Scenes: which lengths belong together, and what follows from them."""
+"""Scenes: valid combinations of lengths, and the surfaces that they describe."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -93,7 +93,7 @@ def test_constants_of_its_own_belong_to_a_scene():
         ),
     ],
 )
-def test_folders_options_and_rows_name_all_that_tells_a_scene_apart(scene, folder, options):
+def test_folders_options_and_rows_identify_a_scene(scene, folder, options):
     assert scene.folder == folder
     assert scene.arguments.endswith(options)
     assert Scene.from_row(scene.row) == scene
@@ -103,7 +103,7 @@ def test_tables_name_scenes_by_their_own_columns():
     assert set(COLUMNS) == set(SCENE.names)
 
 
-def test_a_mask_takes_the_place_of_the_pattern():
+def test_a_mask_replaces_the_pattern():
     assert (OWN.shape, OWN.level, OWN.sides, OWN.lengths) == ((2, 3), -1, (), {})
     assert OWN.contact is CORNER.values
     assert Scene(3, n_rows=2, edges="periodic") != OWN
@@ -111,7 +111,7 @@ def test_a_mask_takes_the_place_of_the_pattern():
         _ = OWN.pattern
 
 
-def test_a_table_knows_a_mask_by_its_name():
+def test_a_table_contains_only_the_name_of_a_mask():
     known = Scene.from_row(OWN.row)
     assert known == OWN
     assert (known.shape, known.mask.values) == ((2, 3), None)
@@ -129,7 +129,7 @@ def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
     assert not any(scene.is_papers for scene in others)
 
 
-def test_coefficients_are_read_from_their_file_and_matter_in_contact_alone():
+def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
     assert STRONG.files == {"mu_static_field": Path("strong.npy")}
     mask = replace(CORNER, values=np.array([[True, False]]))
     Scene(mask=mask, mu_static_field=field([[1.0, np.nan]]))
@@ -177,7 +177,7 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )
-def test_what_does_not_make_a_scene_is_refused(given, sentence):
+def test_invalid_scenes_are_refused(given, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}$"):
         Scene(120, **given)
 

@@ -39,7 +39,7 @@ def test_its_highest_blocks_are_in_contact(tmp_path):
         np.testing.assert_array_equal(np.flatnonzero(contact), range(12 - count, 12))
 
 
-def test_so_are_those_that_reach_a_height_in_metres(tmp_path):
+def test_blocks_above_a_height_are_in_contact(tmp_path):
     contact = Cut(written(tmp_path, HEIGHTS), 1e-5, height=6.5e-9).mask()
     np.testing.assert_array_equal(contact, HEIGHTS >= 7)
 
@@ -104,7 +104,7 @@ def test_jobs_read_what_was_cut(tmp_path):
         (None, {"bearing_area": 30}, "bearing_area must be in .0, 1., not 30"),
     ],
 )
-def test_what_cannot_be_cut_is_refused(tmp_path, header, how, sentence):
+def test_invalid_cuts_are_refused(tmp_path, header, how, sentence):
     file = written(tmp_path, HEIGHTS, **({} if header is None else {"header": header}))
     with pytest.raises(ValueError, match=sentence) as refusal:
         Cut(file, **{"spacing": 1e-5, **how}).mask()
@@ -131,7 +131,7 @@ def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "content", ["", "no heights at all", "1 2 3\n4 5\n", "1 " * 10**4, "# " * 10**5]
 )
-def test_what_is_no_topography_is_refused(tmp_path, content):
+def test_other_files_are_refused(tmp_path, content):
     (tmp_path / "rough.txt").write_text(content)
     with pytest.raises(ValueError, match=r"^\S+rough.txt") as refusal:
         Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()

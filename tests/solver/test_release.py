@@ -1,4 +1,4 @@
-"""Releases within a step: where a block has been, and when it has let go."""
+"""Release times within a step, and the forces from which they are computed."""
 
 import numpy as np
 import pytest
@@ -7,13 +7,13 @@ from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
 from springblock.solver.release import force_in_patch, make_releases, release_share
 from springblock.solver.springs import Springs
 
-#: A block that hangs on the slider alone, by a spring of stiffness one.
+#: A block that is coupled only to the slider, by a spring of stiffness one.
 ALONE = Springs.of(0.0, 1.0)
 SLIDE = (0.1, 0.0)
 
 
 def surroundings(u_now, u_before):
-    """Room for one block in the middle of others that have not moved."""
+    """Work arrays with one displaced block among others that have not moved."""
     released = make_releases(1)
     released.now[:], released.before[:] = 0.0, 0.0
     released.now[0, 2, 2], released.before[0, 1, 1] = u_now, u_before
@@ -27,8 +27,8 @@ def test_the_force_in_a_patch_is_that_of_the_bands(y, x, rng):
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u)[:, y, x], rtol=1e-12)
 
 
-def test_beyond_the_edges_nothing_pulls(rng):
-    """The middle of a patch at a corner of the surface, whose other blocks are not there."""
+def test_beyond_the_edges_there_are_no_springs(rng):
+    """The central block of the patch is at a corner of the surface."""
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
     corner = u.copy()
     corner[:, :2], corner[:, :, :2] = np.nan, np.nan
@@ -37,11 +37,11 @@ def test_beyond_the_edges_nothing_pulls(rng):
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
-def test_the_share_is_where_an_even_rise_meets_the_threshold(share):
+def test_the_share_is_where_a_linear_rise_reaches_the_threshold(share):
     """The slider is at 1 now and was at 0.9; the block has not moved."""
     found = release_share(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
     assert found == pytest.approx(share, abs=1e-14)
 
 
-def test_a_block_that_felt_more_before_was_moving_then():
+def test_a_block_beyond_its_threshold_one_step_earlier_was_sliding():
     assert np.isnan(release_share(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))

@@ -1,4 +1,4 @@
-"""The configuration: what it expands to, and that its documentation keeps up with it."""
+"""The configuration: its expansion, its errors and its documentation."""
 
 import copy
 import shutil
@@ -87,7 +87,7 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
     assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
 
 
-def test_numbers_that_come_as_text_are_numbers():
+def test_numbers_given_as_text_are_converted():
     """YAML takes 1e-8 for text, and Snakemake all within an option."""
     text = {"step": "1e-8", "results": "2024", "scenes": {"flat": {"seeds": "3", "add": "null"}}}
     read = {"step": 1e-8, "results": "2024", "scenes": {"flat": {"seeds": 3, "add": None}}}
@@ -103,7 +103,7 @@ def test_only_keys_can_be_added(added):
         completed(PAPER | {"add": added})
 
 
-def test_lists_can_be_continued_without_being_said_again():
+def test_lists_can_be_extended():
     further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
     whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
     check(whole, SCHEMA)
@@ -179,7 +179,7 @@ def test_masks_are_an_axis_of_a_grid(surfaces):
         ({"edges": "closed"}, "scenes.own.edges is not valid: 'closed'"),
     ],
 )
-def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
+def test_errors_in_surfaces_from_files_name_the_key(surfaces, grid, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         check(surfaces(**grid), SCHEMA)
     assert "\n" not in str(refusal.value)
@@ -206,7 +206,7 @@ def test_the_papers_groups_hold_its_own_surfaces(surfaces):
 
 
 def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
-    """As if their digests met, which they do once in four thousand million."""
+    """As if their digests were equal, which has a probability of one in four thousand million."""
     one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
     both = PAPER | {"scenes": {"one": one, "other": other}}
     monkeypatch.setattr("springblock.model.blockmap._name", lambda file, values: "same-00000000")
@@ -214,7 +214,7 @@ def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
         ensembles(both)
 
 
-def test_one_realisation_is_all_where_nothing_scatters():
+def test_one_realisation_suffices_without_scatter():
     """A correlation needs three, and the paper's figures need correlations."""
     scatter = {"mu_static_std": [0.0], "mu_dynamic_std": [0.0]}
     grid = {"n_p": [6], "n_s": [6], "material": scatter, "direction": ["x"], "seeds": 1}

@@ -75,10 +75,10 @@ class Rows(NamedTuple):
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether any block is in contact
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether its blocks are computed in this step
-    wake: NDArray[np.int64]  #: (N_y,) latest step in which they must be computed again
+    wake: NDArray[np.int64]  #: (N_y,) step in which they must be computed at the latest
     sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block slides, with a row beyond each edge
-    switching: NDArray[np.int64]  #: (N_y,) blocks that slide after rest, even for an instant
-    released: NDArray[np.int64]  #: (N_y,) those among them that were at rest before this step
+    switching: NDArray[np.int64]  #: (N_y,) switches to sliding, also after an instant of rest
+    released: NDArray[np.int64]  #: (N_y,) those of blocks that were at rest before the step
     attached: NDArray[np.bool_]  #: (N_y,) whether any block has never detached
     x: Array  #: (N_y,) sums over its blocks, see `Totals`
     y: Array
@@ -120,7 +120,7 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
 
 @kernel
 def _count_switches(blocks, dots, i, n):
-    """Return how many blocks of a row slide after an instant of rest, and after rest before.
+    """Return the switches to sliding in a row, and those of blocks at rest before the step.
 
     `dots` holds w·v of each block: negative if it has reversed, zero if it was at rest.
     """
@@ -137,7 +137,7 @@ def _count_switches(blocks, dots, i, n):
 def _move_rows_in_contact(blocks, law, rows, band, s, dots, a):
     """Kick and drift the blocks of those rows of a band that are awake and hold contacts.
 
-    `dots` is a work array for w·v along a row.
+    `dots` is a work array for w·v of the blocks of a row.
     """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     static, dynamic = blocks.static, blocks.dynamic
@@ -271,8 +271,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
     """Place the releases of `count` blocks at their times within the step, not at its end.
 
     The loop has moved each block by a since step k. By (10) to (12) of docs/model.md it slips by s
-    until step k and moves on at (1/2 + θ_ε) a. To the heat of the step are added Q and the friction
-    work along s and due to the change of velocity.
+    until step k and moves on at (1/2 + θ_ε) a. Heat grows by Q and the additional friction work.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
     slider, stiffness = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
@@ -304,16 +303,16 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         state = state_at_release(law)
         friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, state, (slip + speed) * a1, True)
-        work = friction * a1 * (slip + 0.5 * (share - 0.5))
-        credit = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)
-        rows.heat[row] += work + credit
+        work = friction * a1 * (slip + 0.5 * (share - 0.5))  # along s, and by the change of speed
+        extra = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)  # Q of (12)
+        rows.heat[row] += work + extra
         rows.squares[row] += (speed * speed - 1.0) * a2
         close_edge(blocks.ux, blocks.uy, U(row), constants.grid)
 
 
 @kernel
 def _record_detachments(blocks, i, n, now):
-    """Record first detachments in one row; return whether any of its blocks is still stuck."""
+    """Record first detachments in a row; return whether any of its blocks has never detached."""
     wx, wy, static, t_det = blocks.wx, blocks.wy, blocks.static, blocks.t_det
     remaining = np.int64(0)
     for x in range(ONE, n + ONE):
