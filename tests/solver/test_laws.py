@@ -51,7 +51,7 @@ def test_there_is_a_law_for_each_name():
 
 @pytest.mark.parametrize("law", [None, slip(0.5, 0.1, 0.2), VelocityWeakening(0.2)])
 def test_python_and_compiled_callers_agree(law):
-    """Python and numba dispatch on the type of the law in different slips."""
+    """Python and numba dispatch on the type of the law in different ways."""
     for s, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
         plain = laws.resistance(law, s, speed, share, STATIC, DYNAMIC)
         assert plain == pytest.approx(resistance(law, s, speed, share), rel=1e-15)

@@ -170,7 +170,7 @@ def test_masks_are_an_axis_of_a_grid(surfaces):
         ({"mask": "corner.npy", "seeds": None}, "scenes.own: 'seeds' is a required property"),
         (
             {"mask": "corner.npy", "mu_static": "strong.npy", "mu_dynamic": "strong.npy"},
-            "seeds must be omitted or 1, since no coefficients are drawn, not 4",
+            "seeds must be 1, since no coefficients are drawn, not 4",
         ),
         ({"material": {"distribution": ["gauss"]}}, "distribution.0 is not valid: 'gauss'"),
         ({"material": {"correlation_length": [1.0]}}, "own: correlation_length must be at most"),

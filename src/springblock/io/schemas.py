@@ -52,12 +52,10 @@ SETUP = pa.schema(
         column("spacing", pa.float64(), "m", "distance l between blocks"),
         column("thickness", pa.float64(), "m", "thickness l_z of the layer"),
         column("gamma", pa.float64(), "1/s", "damping frequency γ"),
-        column("mu_static", pa.float64(), "1", "mean of the static coefficients"),
-        column("mu_static_std", pa.float64(), "1", "standard deviation of the static coefficients"),
-        column("mu_dynamic", pa.float64(), "1", "mean of the dynamic coefficients"),
-        column(
-            "mu_dynamic_std", pa.float64(), "1", "standard deviation of the dynamic coefficients"
-        ),
+        column("mu_static", pa.float64(), "1", "mean of static coefficients"),
+        column("mu_static_std", pa.float64(), "1", "standard deviation of static coefficients"),
+        column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
+        column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
         column("distribution", pa.string(), "1", "distribution of drawn coefficients"),
         column("correlation_length", pa.float64(), "m", "ℓ in the autocorrelation exp(-r²/ℓ²)"),
         column(

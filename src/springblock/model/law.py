@@ -99,8 +99,8 @@ class LawFile:
         given = dict(self.given)
         for name, value in constants.items():
             if name not in self.constants:
-                there_are = ", ".join(self.constants) or "none"
-                raise ValueError(f"{self.file}: unknown constant {name!r}; choose from {there_are}")
+                known = ", ".join(self.constants) or "none"
+                raise ValueError(f"{self.file}: unknown constant {name!r}; choose from {known}")
             if not _is_number(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)

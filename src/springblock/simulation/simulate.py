@@ -38,8 +38,7 @@ _SAMPLES_PER_CALL = 10
 #: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of the
 #: time of the last first detachment.
 _WITHOUT_DROP = 1.5
-#: A run with blocks that do not detach fails at this multiple of the loading time of the strongest
-#: block, mu_s F_n/(K_s v).
+#: A run fails at this multiple of the loading time of its strongest block, mu_s F_n/(K_s v).
 _LATEST = 3.0
 
 

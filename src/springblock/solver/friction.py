@@ -38,8 +38,7 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
 
         v⁺ = w - T (v + w)/|v + w|,    T = `dynamic`:
 
-    friction opposes the mean velocity of the step, which is parallel to v + w. Two cases end at
-    rest:
+    friction opposes the mean velocity, which is parallel to v + w. Two cases end at rest:
 
     - |w| ≤ T: friction can remove all of w (Moreau's step, exact for a block that stops);
     - w·v ≤ 0: the block reverses, or was at rest. It is at rest at an instant of this step, and

@@ -249,8 +249,7 @@ def close_edges(ux, uy, grid):
 def close_rows(ux, uy, grid):
     """Copy the first row beyond the last one, on a periodic surface.
 
-    Call it before blocks move: bands are advanced in turn, and the last one needs the first row
-    at the start of the step.
+    Call it before blocks move: the last band needs the first row as at the start of the step.
     """
     if grid.periodic is not None:
         beyond = grid.n_y * grid.pitch
@@ -279,7 +278,7 @@ def update_peaks(peak, band, s):
 
 
 @kernel
-def record_step(ledger, samples, constants, totals, switches, k, first, every):
+def tally(ledger, samples, constants, totals, switches, k, first, every):
     """Add step k to the ledger, and to the samples if it completes an interval.
 
     Returns the switches that belong to the interval still open.

@@ -30,7 +30,7 @@ from springblock.solver.lattice import (
     close_edge,
     close_rows,
     index_of,
-    record_step,
+    tally,
     update_peaks,
 )
 from springblock.solver.laws import (
@@ -170,12 +170,10 @@ def _move_rows_in_contact(blocks, law, rows, band, s, dots, a):
             heat = add(heat, impulse_x * (vx + new_x) + impulse_y * (vy + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE] = slide
-        more = (
-            _count_switches(blocks, dots, i, band.grid.n_x)
-            if switch
-            else (np.int64(0), np.int64(0))
-        )
-        rows.switching[row], rows.released[row] = more
+        rows.switching[row], rows.released[row] = 0, 0
+        if switch:
+            counts = _count_switches(blocks, dots, i, band.grid.n_x)
+            rows.switching[row], rows.released[row] = counts
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
 
@@ -213,7 +211,7 @@ def _move_free_rows(blocks, rows, band, s, a):
 def _list_releases(blocks, law, released, count, band, s, row):
     """List the blocks of a row that were at rest until this step; return their number so far.
 
-    Their velocity is that which F_mot and friction give a block in one step from rest.
+    F_mot and friction have accelerated them from rest in this one step.
     """
     i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
     for x in range(ONE, band.grid.n_x + ONE):
@@ -423,9 +421,7 @@ def _time_loop(state, constants, first, steps, every, samples, rows, released):
             switches += more
         if count > 0:
             place_releases(blocks, law, rows, released, count, constants, k)
-        switches = record_step(
-            state.ledger, samples, constants, totals(rows), switches, k, first, every
-        )
+        switches = tally(state.ledger, samples, constants, totals(rows), switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
 
 

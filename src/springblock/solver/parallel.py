@@ -19,7 +19,7 @@ from springblock.solver.lattice import (
     State,
     band_from,
     close_rows,
-    record_step,
+    tally,
 )
 from springblock.solver.leapfrog import Rows, make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Releases, make_releases
@@ -130,7 +130,7 @@ def advance(
             if count > 0:
                 place_releases(state.blocks, state.law, rows, released, count, constants, k)
             switches += more
-            switches = record_step(
+            switches = tally(
                 state.ledger, samples, constants, totals(rows), switches, k, first, every
             )
     return steps, -1, -1

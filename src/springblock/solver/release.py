@@ -1,30 +1,15 @@
 """Release times within a step, which make both integrators second order across detachments.
 
-A block at rest detaches where |F_mot| reaches F_c = max(mu_s, mu_d) F_n. If it does so between
-steps k - 1 and k, linear interpolation of |F_mot| gives the release time t_det = (k - θ) h, with
+A block at rest detaches at t_det = (k - θ) h, when |F_mot| reaches F_c = max(mu_s, mu_d) F_n
+between steps k - 1 and k. If the net force adds a velocity a per step, then at step k, by (9) to
+(12) of docs/model.md, which derives them,
 
-    θ = (|F_k| - F_c)/(|F_k| - |F_k-1|)                                         (9)
+    θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),    ε = (h/h_limit)²,
+    slip s = (θ_ε²/2 - ε/8) a,    velocity θ_ε a,    heat Q = (1 - ε) a²/8 - (K_s + 3 K_int) s²/2.
 
-(equation numbers are those of docs/model.md). Under the net force, which adds a velocity a per
-step, the block has at step k the slip and the velocity
-
-    s = (θ²/2) a,    v_k = θ a.                                                 (10)
-
-F_k-1 is needed only for the few blocks that detach. It is reconstructed from the earlier
-displacements of their neighbours, after the loop over all blocks.
-
-The leapfrog conserves v_k-1/2·v_k+1/2/2 = v_k²/2 - a²/8, per mass, in place of v_k²/2, so that
-friction dissipates a²/8 too little until the block stops. A release adds this energy to the
-frictional heat, minus the energy K s²/2 that the displacement by s creates, with K = K_s + 3 K_int:
-
-    Q = a²/8 - K s²/2.                                                          (11)
-
-Near the stability limit Q would be comparable with the kinetic energy that the block attains. With
-ε = (h/h_limit)², θ in (10) becomes θ_ε, and in the leapfrog slip and heat are smaller:
-
-    θ_ε = θ + ε (1/2 - θ),    s = (θ_ε²/2 - ε/8) a,    Q = (1 - ε) a²/8 - K s²/2.  (12)
-
-At ε = 1 both s and Q vanish, and the step is that of a plain leapfrog.
+Q, per mass, is the energy that the leapfrog would not dissipate otherwise; in `rk4` it is zero, and
+s has no term in ε. F_k-1 is needed only for the few blocks that detach, and is reconstructed after
+the loop over all blocks from the earlier displacements of their neighbours.
 
 Under a weakening law the net force at the release is zero, and a is the increase of F_mot since
 then: the slip is of third order in h and the velocity of second, for any θ.
@@ -54,7 +39,7 @@ class Releases(NamedTuple):
 
 
 def make_releases(blocks: int) -> Releases:
-    """Return work arrays for this many blocks; pages never written to take no memory."""
+    """Return work arrays for this many blocks, which take memory only when written to."""
     return Releases(
         np.empty(blocks, np.int64),
         np.empty(blocks, np.int64),
@@ -79,7 +64,7 @@ def _pull(patch, y, x, j, i, kappa):
 
 
 @njit(inline="always")
-def _pull_of_opposite_pair(patch, y, x, j, i, kappa):
+def _pull_of_pair(patch, y, x, j, i, kappa):
     """Force by the two neighbours at (y ± j, x ± i)."""
     ax, ay = _pull(patch, y, x, j, i, kappa)
     bx, by = _pull(patch, y, x, -j, -i, kappa)
@@ -92,10 +77,10 @@ def force_in_patch(patch, y, x, springs, slider):
 
     The order of summation is invariant under reflections, as in `springs`.
     """
-    east_x, east_y = _pull_of_opposite_pair(patch, y, x, 0, 1, springs.kappa)
-    north_x, north_y = _pull_of_opposite_pair(patch, y, x, 1, 0, springs.kappa)
-    ne_x, ne_y = _pull_of_opposite_pair(patch, y, x, 1, 1, springs.kappa)
-    nw_x, nw_y = _pull_of_opposite_pair(patch, y, x, 1, -1, springs.kappa)
+    east_x, east_y = _pull_of_pair(patch, y, x, 0, 1, springs.kappa)
+    north_x, north_y = _pull_of_pair(patch, y, x, 1, 0, springs.kappa)
+    ne_x, ne_y = _pull_of_pair(patch, y, x, 1, 1, springs.kappa)
+    nw_x, nw_y = _pull_of_pair(patch, y, x, 1, -1, springs.kappa)
     fx = (east_x + north_x) + (ne_x + nw_x) + springs.k_s * (slider[0] - patch[0, y, x])
     fy = (east_y + north_y) + (ne_y + nw_y) + springs.k_s * (slider[1] - patch[1, y, x])
     return fx, fy

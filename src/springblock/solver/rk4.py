@@ -20,7 +20,6 @@ from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
     HEAT,
     Array,
-    Blocks,
     Constants,
     Samples,
     State,
@@ -29,7 +28,7 @@ from springblock.solver.lattice import (
     close_edge,
     close_rows,
     index_of,
-    record_step,
+    tally,
     update_peaks,
 )
 from springblock.solver.laws import resistance, state_of, store_state
@@ -253,8 +252,7 @@ def _displacement_of_row(ux, uy, i, n):
 def _finish_step(blocks, law, stage, grid, heat, squares):
     """Complete the step, clear the sums over stages, and return the totals.
 
-    Sums are taken row by row, which limits rounding errors. `heat` and `squares` are the sums over
-    the stages.
+    Sums are taken row by row, which limits rounding; `heat` and `squares` are those of the stages.
     """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     static, ex, ey = blocks.static, stage.ex, stage.ey
@@ -285,12 +283,6 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
     return Totals(total_x, total_y, heat, squares)
 
 
-def _begin_stages(blocks: Blocks, stage: Stage) -> None:
-    """Start the stages from the blocks; without friction the direction e has no effect."""
-    stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    stage.ex[:], stage.ey[:] = 1.0, 0.0
-
-
 @kernel
 def _time_loop(state, stage, constants, first, steps, every, samples, every_row, released):
     """Compiled loop of `advance`, with work arrays for stages and for the blocks that detach."""
@@ -316,10 +308,8 @@ def _time_loop(state, stage, constants, first, steps, every, samples, every_row,
         if count > 0:
             early = _place_releases(blocks, law, stage, released, count, constants, k)
             heat += 0.0 if law is None else early
-        totals = _finish_step(blocks, law, stage, grid, heat, squares)
-        switches = record_step(
-            state.ledger, samples, constants, totals, switches + count, k, first, every
-        )
+        totals, switches = _finish_step(blocks, law, stage, grid, heat, squares), switches + count
+        switches = tally(state.ledger, samples, constants, totals, switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
 
 
@@ -329,5 +319,7 @@ def advance(
     """See `Integrator.advance`."""
     (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)
     every_row, released = np.ones(n_y + 1, np.bool_), make_releases(n_y * n_x)
-    _begin_stages(state.blocks, stage)
+    for field, values in zip(stage[:4], state.blocks[:4], strict=True):
+        field[:] = values
+    stage.ex[:], stage.ey[:] = 1.0, 0.0  # without friction e has no effect
     return _time_loop(state, stage, constants, first, steps, every, samples, every_row, released)

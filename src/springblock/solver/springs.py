@@ -169,7 +169,7 @@ def _series(q, c):
 def _relative_displacements(ux, uy, i, j, x):
     """Relative displacements d of the springs of block (i, x) to the east, north and north-east.
 
-    And of the spring that joins its eastern to its northern neighbour; row j is the next one.
+    The fourth is that of the spring between its eastern and its northern neighbour; row j is next.
     """
     ax, ay = ux[i + x], uy[i + x]
     bx, by = ux[i + x + ONE], uy[i + x + ONE]
@@ -203,8 +203,7 @@ def _store_pulls(s, x, relative, east, north, ne, nw):
 def _row_offsets(row, grid):
     """Return the offsets of a row and of the next one.
 
-    Beyond a free edge the row takes the place of the next one, so that northern springs are
-    unstrained.
+    At a free edge the next one is the row itself, so that northern springs are unstrained.
     """
     i = row * grid.pitch
     return i, i + grid.pitch if row + ONE < grid.n_y or grid.periodic is not None else i
@@ -247,10 +246,7 @@ def _is_intact(q):
 
 @njit(inline="always")
 def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
-    """Store the spring forces of a row at any strain; return the first x of a broken spring, or 0.
-
-    See `_pulls_by_series`.
-    """
+    """Store the spring forces of a row at any strain; return the x of a broken spring, or 0."""
     n = band.grid.n_x
     i, j = _row_offsets(row, band.grid)
     edge, broken = _last_diagonal(row, band.grid), np.int64(n + ONE)

@@ -182,9 +182,7 @@ def _check_draws(ensemble: Ensemble, material: Material) -> None:
     if scene.is_drawn:
         check_draws(scene.shape, material)
     elif len(seeds) > 1:
-        raise ValueError(
-            f"seeds must be omitted or 1, since no coefficients are drawn, not {len(seeds)}"
-        )
+        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:
@@ -250,10 +248,7 @@ def _keep_largest(largest: dict[Scene, Ensemble], ensemble: Ensemble) -> None:
         if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
             raise ValueError(f"{one.file} and {other.file} have the same name {one}; rename one")
     if known.duration != ensemble.duration:
-        raise ValueError(
-            f"duration must be the same wherever {scene} occurs, not {known.duration} and "
-            f"{ensemble.duration}"
-        )
+        raise ValueError(f"duration must be the same wherever {scene} occurs")
     largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
 
 
