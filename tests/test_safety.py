@@ -130,9 +130,13 @@ PICKLE = npy((3,), "|O")
 @pytest.mark.parametrize(
     ("name", "content", "sentence"),
     [
-        ("bomb.png", png(4097, 1), "bomb.png is larger than the 4096 x 4096 blocks"),
-        ("bomb.png", png(12_000, 12_000), "bomb.png is larger than the 4096 x 4096 blocks"),
-        ("bomb.png", png(100_000, 100_000), "bomb.png is larger than the 4096 x 4096 blocks"),
+        ("bomb.png", png(4097, 1), "bomb.png is too large; a surface may have at most 4096"),
+        ("bomb.png", png(12_000, 12_000), "bomb.png is too large; a surface may have at most 4096"),
+        (
+            "bomb.png",
+            png(100_000, 100_000),
+            "bomb.png is too large; a surface may have at most 4096",
+        ),
         ("bomb.npy", npy((10**9, 10**9, 10**9)), "bomb.npy must be an array of numbers"),
         ("bomb.png", b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 6 6\n", "neither an image"),
     ],
@@ -190,9 +194,9 @@ def test_preludes_and_checkpoints_are_read_that_way(tmp_path):
     with zipfile.ZipFile(trap, "a") as archive:
         archive.comment = BLANK
     write_sealed(trap, trap.read_bytes())
-    with pytest.raises(ValueError, match=r"trap.npz is no prelude"):
+    with pytest.raises(ValueError, match=r"trap.npz is not a prelude"):
         Prelude.read(trap)
-    with pytest.raises(ValueError, match=r"trap.npz is no checkpoint: Object arrays cannot be"):
+    with pytest.raises(ValueError, match=r"trap.npz is not a checkpoint: Object arrays cannot be"):
         Checkpoint(trap, 1.0, {}).restore(None)
 
 

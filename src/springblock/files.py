@@ -1,4 +1,4 @@
-"""Files that are whole or absent, and whether they still are what was written."""
+"""Files that are written whole or not at all, and checked for damage when they are read."""
 
 import contextlib
 import hashlib
@@ -12,24 +12,24 @@ from zipfile import BadZipFile, ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-#: What mends a file of a study that cannot be used.
+#: Advice for a file of a study that cannot be used.
 MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again"
 
 _MARK = b"springblock-sha256:"
-#: Stands once in content to be sealed, where the digest of all of it goes.
+#: Placeholder, in content to be sealed, for the digest of the whole content.
 BLANK = _MARK + 64 * b"0"
 
 
 def check_output(path: Path) -> None:
-    """Refuse to write to what exists and is not a regular file, as a directory, device or link.
+    """Refuse to write to a path that exists and is not a regular file.
 
-    Renaming a file to it would replace it, as /dev/full for all programs of the machine.
+    A file is written by renaming, which would replace a device or a link, such as /dev/full.
     """
     if path.is_symlink() or (path.exists() and not path.is_file()):
         raise ValueError(f"{path} exists and is not a regular file; choose another name")
     folder = next(folder for folder in path.absolute().parents if folder.exists())
     if not folder.is_dir():
-        raise ValueError(f"{path} cannot be written: {folder} is not a folder")
+        raise ValueError(f"{path} cannot be written, because {folder} is not a folder")
 
 
 @contextlib.contextmanager
@@ -39,7 +39,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     Raises
     ------
     ValueError
-        Where there is something at `path` that is not a regular file.
+        If `path` exists and is not a regular file.
     """
     check_output(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -52,32 +52,32 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_sealed(path: Path, content: bytes) -> None:
-    """Write content whole or not at all, with the digest of all of it in place of `BLANK`.
+    """Write content whole or not at all, with its digest in place of `BLANK`.
 
-    Checksums of Parquet's own cover its pages, not the footer that says where these are.
+    The checksums of Parquet cover the pages, but not the footer with their positions.
     """
     with whole_file(path) as partial:
         partial.write_bytes(content.replace(BLANK, _seal(content)))
 
 
 def read_sealed(path: Path) -> bytes:
-    """Read what `write_sealed` wrote.
+    """Read a file that `write_sealed` has written.
 
     Raises
     ------
     ValueError
-        Where a single bit is not as it was written, naming the command that mends it.
+        If a single bit has changed, with the command that repairs it.
     """
     content = path.read_bytes()
     start = content.rfind(_MARK)
     if start < 0:
         raise ValueError(
-            f"{path} is no whole table (Parquet) of springblock's, since it has no checksum, like "
-            f"files of other origin and those cut short; {MENDING}"
+            f"{path} has no checksum; it is truncated, or not a table (Parquet) written by "
+            f"springblock; {MENDING}"
         )
     end = start + len(BLANK)
     if _seal(content[:start] + BLANK + content[end:]) != content[start:end]:
-        raise ValueError(f"{path} is damaged: its content does not fit its checksum; {MENDING}")
+        raise ValueError(f"{path} is damaged: its checksum does not match; {MENDING}")
     return content
 
 
@@ -85,26 +85,26 @@ def _seal(content: bytes) -> bytes:
     return _MARK + hashlib.sha256(content).hexdigest().encode()
 
 
-#: Bytes that a packed file may become: the largest prelude has six states of 4096 x 4096 blocks.
+#: Largest size of an unpacked file, bytes: a prelude has up to six states of 4096 x 4096 blocks.
 _MOST = 2**32
-#: What reading a file raises that is no such file, beside ValueError.
+#: Errors, besides ValueError, of reading a file that is damaged or of another type.
 _TORN = BadZipFile, EOFError, MemoryError, OSError, RuntimeError, TypeError, zlib.error
 
 
 def read_arrays(source: Path | BinaryIO) -> dict[str, NDArray[Any]]:
-    """Read plain arrays by their names; anything else is never loaded.
+    """Read the arrays of an .npz file by name; pickled objects are never loaded.
 
     Raises
     ------
     ValueError
-        Where it is no such file, or would become much larger in memory than it is.
+        If the file is damaged or of another type, or would be too large in memory.
     """
     try:
         with ZipFile(source) as packed:
             parts = packed.infolist()
         size, stored = (sum(p.file_size for p in parts), sum(p.compress_size for p in parts))
         if size > max(_MOST, stored):
-            raise ValueError(f"it would take {size} bytes; {_MOST} are the most that are unpacked")
+            raise ValueError(f"it has {size} bytes unpacked; the limit is {_MOST}")
         if not isinstance(source, Path):
             source.seek(0)
         with np.load(source, allow_pickle=False) as arrays:
@@ -113,5 +113,5 @@ def read_arrays(source: Path | BinaryIO) -> dict[str, NDArray[Any]]:
         raise ValueError(str(error)) from error
     others = [name for name, part in found.items() if not isinstance(part, np.ndarray)]
     if others:
-        raise ValueError(f"{others[0]} in it is no array")
+        raise ValueError(f"its part {others[0]} is not an array")
     return found

@@ -1,4 +1,4 @@
-"""What a result was made with: the version of the code, and a digest of the configuration."""
+"""Provenance of results: digests of code and configuration."""
 
 import ast
 import hashlib
@@ -12,8 +12,8 @@ from typing import Any
 _ROOT = Path(__file__).parent
 _PHYSICS = ("model", "solver", "simulation")
 
-#: Folders of the package that decide what each step of the study makes. Reading, writing and the
-#: command line are not among them: they pass numbers on as they are.
+#: Folders of the package that determine the results of each step of the study. Reading, writing and
+#: the command line are not among them, since they do not change numbers.
 STEPS: dict[str, tuple[str, ...]] = {
     "compile": ("solver",),
     "mask": ("model",),
@@ -26,15 +26,15 @@ STEPS: dict[str, tuple[str, ...]] = {
     "plot": ("model", "analysis", "mechanism", "plotting"),
     "report": ("model", "analysis", "mechanism", "plotting", "report"),
 }
-#: Folders whose docstrings are part of what they make: the statements of the paper.
+#: Folders whose docstrings are part of the results: the statements of the paper.
 _SAYING = {"claims"}
 
 
 @cache
 def digest(step: str) -> str:
-    """Return the digest of the code that a step runs; 16 hexadecimal digits.
+    """Return the digest of the code of a step; 16 hexadecimal digits.
 
-    Comments, docstrings, layout and the wording of errors do not change it.
+    It does not depend on comments, docstrings, layout and the wording of errors.
     """
     return _short("".join(map(_of_folder, STEPS[step])))
 
@@ -50,7 +50,7 @@ def same_code(one: str, other: str) -> bool:
 
 
 def configuration_digest(configuration: Mapping[str, Any]) -> str:
-    """Return the digest of a configuration, of the study or of one batch."""
+    """Return the digest of the configuration of a study or of a batch."""
     return _short(json.dumps(configuration, sort_keys=True))
 
 
@@ -66,9 +66,9 @@ def _of_folder(folder: str) -> str:
 
 
 def _skeleton(node: Any, docstrings: bool) -> Iterator[str]:
-    """Yield what a syntax tree computes with: its nodes without places and errors.
+    """Yield the nodes of a syntax tree without their positions and without `raise` statements.
 
-    And without docstrings, unless these are asked for.
+    Docstrings are included only if `docstrings` is true.
     """
     if isinstance(node, list):
         for part in node:

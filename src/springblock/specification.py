@@ -1,7 +1,7 @@
-"""The model in NumPy, an equation a line, in the order and the symbols of docs/model.md.
+"""The model in NumPy, one equation per line, in the order and the symbols of docs/model.md.
 
-It leaves nothing out and saves nothing: all blocks are followed through all steps, in SI units. The
-compiled solver is held to it step by step (`tests/validation/test_specification.py`):
+All blocks are computed in all steps, in SI units and without optimisation. The compiled solver is
+compared with it step by step (`tests/validation/test_specification.py`):
 
     from springblock import Pattern, draw_friction
     from springblock.specification import follow
@@ -24,10 +24,10 @@ from springblock.model.law import LawFile
 from springblock.model.material import Material
 
 Array = NDArray[np.float64]
-#: State variables of all blocks that slide, by name, (N_y, N_x) each.
+#: State variables of the blocks that slide, by name, (N_y, N_x) each.
 Memory = dict[str, Array]
 
-#: Neighbours of a block, as steps along y and x.
+#: Neighbours of a block, as offsets along y and x.
 _NEIGHBOURS = [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
 #: Nodes and weights of the Runge-Kutta method.
 _STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))
@@ -35,11 +35,11 @@ _STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))
 
 @dataclass(frozen=True)
 class Law:
-    """A law of friction, whose functions say by the names of their arguments what they need."""
+    """A law of friction; its functions receive constants, state and motion by argument name."""
 
     friction: Callable[..., Array]  #: mu of blocks that slide
     update: Callable[..., Any]  #: state after a step, in the order of `initial`
-    initial: dict[str, float]  #: state of a block that lets go
+    initial: dict[str, float]  #: state of a block that detaches
     constants: dict[str, Any]
 
     @classmethod
@@ -54,7 +54,7 @@ class Law:
     def mu(
         self, mu_static: Array, mu_dynamic: Array, memory: Memory, speed: Array, step: float
     ) -> Array:
-        """Friction coefficient of blocks in a state, at a speed in m/s."""
+        """Friction coefficient, (N_y, N_x), for a state and a speed in m/s."""
         at = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "speed": speed, "step": step}
         return _called(self.friction, self.constants | at | memory) + 0.0 * speed
 
@@ -65,7 +65,7 @@ class Law:
         return dict(zip(self.initial, after if len(self.initial) > 1 else (after,), strict=False))
 
     def fresh(self, like: Array) -> Memory:
-        """State of blocks that let go."""
+        """State of blocks that detach."""
         return {name: np.full_like(like, value) for name, value in self.initial.items()}
 
 
@@ -74,7 +74,7 @@ def _called(function: Callable[..., Any], known: dict[str, Any]) -> Any:
 
 
 def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of numbers as one of arrays."""
+    """Apply a function of numbers to each element of arrays."""
     each: Any = np.vectorize(function)
     each.__signature__ = signature(function)
     return cast(Callable[..., Any], each)
@@ -82,7 +82,7 @@ def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True)
 class Surface:
-    """What does not change in a run."""
+    """Surface, material, slider and step of a run."""
 
     contact: NDArray[np.bool_]  #: (N_y, N_x)
     mu_static: Array  #: (N_y, N_x)
@@ -104,7 +104,7 @@ class Surface:
         step: float,
         periodic: bool,
     ) -> "Surface":
-        """Return the surface that `simulate` would pull with these arguments."""
+        """Return the surface for these arguments of `simulate`."""
         mask = np.asarray(contact, bool)
         return cls(
             contact=mask,
@@ -119,7 +119,7 @@ class Surface:
 
     @property
     def load(self) -> Array:
-        """F_n of each block: those in contact share the whole load, N."""
+        """F_n of each block, N: blocks in contact share the whole load, (4)."""
         return np.where(
             self.contact, self.material.block_load * self.contact.size / self.contact.sum(), 0.0
         )
@@ -127,21 +127,21 @@ class Surface:
 
 @dataclass
 class State:
-    """Blocks after so many steps; the leapfrog's velocity is that of half a step before."""
+    """State of the blocks after k steps; in the leapfrog, v is the velocity half a step earlier."""
 
     k: int  #: steps taken
     u: Array  #: displacement, (2, N_y, N_x) m
     v: Array  #: velocity, (2, N_y, N_x) m/s
     memory: Memory  #: state variables of the law, of blocks that slide
     t_det: Array  #: first detachment, (N_y, N_x) s; infinite before
-    switches: int = 0  #: blocks that went from rest to sliding
-    work: float = 0.0  #: the slider's, J
-    heat: float = 0.0  #: of friction, J
-    path: float = 0.0  #: sum of v² h over blocks and steps, for the heat of damping, m²/s
+    switches: int = 0  #: switches from rest to sliding so far
+    work: float = 0.0  #: work of the slider, J
+    heat: float = 0.0  #: frictional heat, J
+    path: float = 0.0  #: sum of v² h over blocks and steps, for the viscous heat, m²/s
 
 
 def coulomb(mu_dynamic: Array) -> Array:
-    """Amontons-Coulomb: mu_d."""
+    """Amontons-Coulomb friction, mu_d."""
     return mu_dynamic
 
 
@@ -153,7 +153,7 @@ def slip_weakening(
     step: float,
     slip_distance: float,
 ) -> Array:
-    """Linear weakening along d_c; at once where a step from rest leads beyond d_c."""
+    """Linear weakening over d_c; at once if a step from rest slips beyond d_c."""
     d_c, drop = slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
     at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= d_c)
     return mu_dynamic + drop * np.where(at_once, 0.0, np.maximum(1.0 - slip / d_c, 0.0))
@@ -162,12 +162,12 @@ def slip_weakening(
 def velocity_weakening(
     mu_static: Array, mu_dynamic: Array, speed: Array, speed_scale: float
 ) -> Array:
-    """Friction falls with the speed, by half of its drop at v_c."""
+    """Friction decreases with speed, at v_c by half of mu_s - mu_d."""
     return mu_dynamic + np.maximum(mu_static - mu_dynamic, 0.0) / (1.0 + speed / speed_scale)
 
 
 def slipped(slip: Array, speed: Array, step: float) -> Array:
-    """Slip since the block let go."""
+    """Slip since the release of a block."""
     return slip + speed * step
 
 
@@ -189,9 +189,9 @@ def follow(
     steps: int = 1000,
     periodic: bool = False,
 ) -> Iterator[State]:
-    """Pull a surface from rest; yield its state after each step.
+    """Pull a surface from rest; yield its state after each of `steps` steps.
 
-    Arguments are those of `simulate`, and the number of `steps`.
+    Other arguments are those of `simulate`.
     """
     surface = Surface.of(contact, mu_static, mu_dynamic, material, direction, step, periodic)
     zero = np.zeros((2, *surface.contact.shape))
@@ -203,7 +203,7 @@ def follow(
 
 
 def spring_force(surface: Surface, u: Array) -> Array:
-    """F_int = k (r - L) of all springs of a block, along them; (2, N_y, N_x) N."""
+    """Sum of F_int over the springs of each block, (2); (2, N_y, N_x) N."""
     (n_y, n_x), k_int = surface.contact.shape, surface.material.k_int
     y, x = np.mgrid[:n_y, :n_x]
     force = np.zeros_like(u)
@@ -221,7 +221,7 @@ def spring_force(surface: Surface, u: Array) -> Array:
 
 
 def motive_force(surface: Surface, u: Array, steps: float) -> Array:
-    """F_mot = F_int + K_s (v t - u) after so many steps; (2, N_y, N_x) N."""
+    """F_mot = F_int + K_s (v t - u) at t = `steps` h, (1) and (3); (2, N_y, N_x) N."""
     slider = surface.slider * surface.step * steps
     return spring_force(surface, u) + surface.material.k_s * (slider - u)
 
@@ -229,82 +229,82 @@ def motive_force(surface: Surface, u: Array, steps: float) -> Array:
 def resistance(
     surface: Surface, tau: float, memory: Memory, speed: Array, share: Array | float
 ) -> Array:
-    """T, the velocity that friction takes of each block, at the mean speed V = speed + share T.
+    """Velocity T that friction removes in one step, at the mean speed V = speed + share T.
 
-    Of several V the largest, which a block comes from as it slows down. T is infinite where no V
-    will do: the block stops. Friction that rises with V has one V alone.
+    Of several solutions V the largest, which a decelerating block reaches first. T is infinite if
+    there is no solution: the block stops. If friction increases with V, the solution is unique.
     """
 
-    def taken(mean: Array) -> Array:
+    def friction_at(mean: Array) -> Array:
         own = surface.mu_static, surface.mu_dynamic, memory, mean, surface.step
         return tau / surface.material.mass * surface.load * surface.law.mu(*own)
 
     share = np.asarray(share)
     if not share.any():
-        return taken(speed)
+        return friction_at(speed)
     still = np.zeros_like(speed)
-    low, high = still, np.maximum(speed, speed + share * taken(still))
-    mean, rises = high, taken(high) > taken(still)
+    low, high = still, np.maximum(speed, speed + share * friction_at(still))
+    mean, rises = high, friction_at(high) > friction_at(still)
     bisected = rises | (share > 0.0)
     for _ in range(2000):
-        right = speed + share * taken(mean)
+        right = speed + share * friction_at(mean)
         low, high = np.where(mean < right, mean, low), np.where(mean < right, high, mean)
         found = np.maximum(np.where(bisected, 0.5 * (low + high), right), 0.0)
         if np.array_equal(found, mean):
             break
         mean = found
-    return np.where(bisected | (mean > 0.0), taken(mean), np.inf)
+    return np.where(bisected | (mean > 0.0), friction_at(mean), np.inf)
 
 
 def leapfrog(surface: Surface, state: State) -> State:
-    """Kick and drift: v at half steps, u at whole ones."""
+    """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
     a = np.exp(-gamma * h)
     tau = (1.0 - a) / gamma if gamma else h
     k, u, v, contact = state.k, state.u, state.v, surface.contact
     force = motive_force(surface, u, k)
     w = a * v + tau / m * force
-    along = np.sum(v * w, axis=0)
-    mean = np.where(along > 0.0, v + w, w)
+    w_dot_v = np.sum(v * w, axis=0)
+    mean = np.where(w_dot_v > 0.0, v + w, w)
     end = _share_of_end(surface, tau, state.memory, np.hypot(*v))
-    at = np.where(along > 0.0, (1.0 - end) * v, 0.0) + end * w
-    taken = resistance(surface, tau, state.memory, np.hypot(*at), -end)
-    f_n, fresh = surface.load, surface.law.fresh(along)
-    held = (along <= 0.0) & (np.hypot(*force) <= surface.mu_static * f_n)
-    slides = (np.hypot(*w) > taken) & ~held
+    at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
+    friction = resistance(surface, tau, state.memory, np.hypot(*at), -end)
+    f_n, fresh = surface.load, surface.law.fresh(w_dot_v)
+    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= surface.mu_static * f_n)
+    slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):
-        new = np.where(slides, w - taken * mean / np.hypot(*mean), 0.0)
+        new = np.where(slides, w - friction * mean / np.hypot(*mean), 0.0)
     memory = _where(slides, surface.law.after(state.memory, np.hypot(*new), h), fresh)
     loss = m / tau * np.sum((w - new) * (v + new), axis=0) * h / 2.0
     t_det = np.where(contact & slides, np.minimum(state.t_det, k * h), state.t_det)
-    switched = contact & slides & (along <= 0.0)
+    switched = contact & slides & (w_dot_v <= 0.0)
 
-    # Releases lie within the step: share theta of it has passed since.
-    let_go = contact & slides & (np.hypot(*v) == 0.0)
-    at_rest = resistance(surface, tau, fresh, 0.0 * along, 0.0) * m / tau
+    # Releases within the step, (9) to (12)
+    released = contact & slides & (np.hypot(*v) == 0.0)
+    at_rest = resistance(surface, tau, fresh, 0.0 * w_dot_v, 0.0) * m / tau
     threshold = np.maximum(surface.mu_static * f_n, at_rest)
     before = u - h * _velocity_before(surface, tau, state.memory, force, new)
     before = np.hypot(*motive_force(surface, before, k - 1))
-    let_go &= before <= threshold
-    theta = np.where(let_go, np.hypot(*force) - threshold, 0.0)
-    theta = np.maximum(theta, 0.0) / np.where(let_go, np.hypot(*force) - before, 1.0)
-    t_det = np.where(let_go & (t_det == k * h), (k - theta) * h, t_det)
+    released &= before <= threshold
+    theta = np.where(released, np.hypot(*force) - threshold, 0.0)
+    theta = np.maximum(theta, 0.0) / np.where(released, np.hypot(*force) - before, 1.0)
+    t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
     k_int, k_s = surface.material.k_int, surface.material.k_s
-    near = h * tau / m * (k_s + 6.0 * k_int) / 4.0
-    theta = theta + near * (0.5 - theta)
-    moved, speed, size = theta**2 / 2.0 - near / 8.0, 0.5 + theta, np.hypot(*new)
-    memory = _where(let_go, surface.law.after(fresh, (moved + speed) * size, h), memory)
-    rubs = m / tau * h * resistance(surface, tau, fresh, 0.5 * size, 0.0) * size
-    credit = 0.125 - near / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * moved**2
-    more = rubs * (moved + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
-    loss = loss + np.where(let_go, more, 0.0)
-    u = u + h * np.where(let_go, moved + speed, 1.0) * new
-    v = np.where(let_go, speed, 1.0) * new
+    epsilon = h * tau / m * (k_s + 6.0 * k_int) / 4.0
+    theta = theta + epsilon * (0.5 - theta)
+    slip, speed, size = theta**2 / 2.0 - epsilon / 8.0, 0.5 + theta, np.hypot(*new)
+    memory = _where(released, surface.law.after(fresh, (slip + speed) * size, h), memory)
+    friction_work = m / tau * h * resistance(surface, tau, fresh, 0.5 * size, 0.0) * size
+    credit = 0.125 - epsilon / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * slip**2
+    heat = friction_work * (slip + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
+    loss = loss + np.where(released, heat, 0.0)
+    u = u + h * np.where(released, slip + speed, 1.0) * new
+    v = np.where(released, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _booked(surface, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
+    return _with_ledger(surface, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
 
 
-def _booked(
+def _with_ledger(
     surface: Surface,
     now: State,
     before: State,
@@ -312,7 +312,7 @@ def _booked(
     loss: Array,
     path: float,
 ) -> State:
-    """Add the ledger of one step to that before it; `loss` is the heat of friction, J."""
+    """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
     pull = surface.material.k_s * (surface.slider * surface.step * now.k - now.u)
     return replace(
         now,
@@ -324,14 +324,14 @@ def _booked(
 
 
 def _where(chosen: NDArray[np.bool_], memory: Memory, other: Memory) -> Memory:
-    """State of the chosen blocks, and another one of the others."""
+    """Combine two states: `memory` where blocks are chosen, `other` elsewhere."""
     return {name: np.where(chosen, memory[name], other[name]) for name in memory}
 
 
 def _share_of_end(surface: Surface, tau: float, memory: Memory, speed: Array) -> Array:
-    """Share of the velocity after a step in the one that friction is taken at.
+    """Weight of the velocity after a step in the one at which friction is evaluated.
 
-    1/2, but more where friction rises so steeply with speed that the velocity would ring.
+    1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
     """
     slow = resistance(surface, tau, memory, speed, 0.0)
     rise = resistance(surface, tau, memory, 2.0 * speed, 0.0) - slow
@@ -342,88 +342,90 @@ def _share_of_end(surface: Surface, tau: float, memory: Memory, speed: Array) ->
 def _velocity_before(
     surface: Surface, tau: float, memory: Memory, force: Array, new: Array
 ) -> Array:
-    """v as far as the velocity after the step tells: of blocks that stop in it, zero."""
+    """Solve (7) for v, given the velocity after the step; zero for blocks that stop in it."""
     m, a = surface.material.mass, np.exp(-surface.material.gamma * surface.step)
     mean = (1.0 + a) * new - tau / m * force
     ahead = np.sign(np.sum(mean * new, axis=0))
     speed = ahead * np.hypot(*mean) / (2.0 * a)
-    taken = resistance(surface, tau, memory, speed, 1.0 / (2.0 * a))
+    friction = resistance(surface, tau, memory, speed, 1.0 / (2.0 * a))
     with np.errstate(invalid="ignore"):
-        w = new + taken * ahead * mean / np.hypot(*mean)
+        w = new + friction * ahead * mean / np.hypot(*mean)
     return np.where(new.any(axis=0), (w - tau / m * force) / a, 0.0)
 
 
 def runge_kutta(surface: Surface, state: State) -> State:
-    """Four stages, with friction against one direction e in all of them."""
+    """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
     k, u, v, contact, f_n = state.k, state.u, state.v, surface.contact, surface.load
     force = motive_force(surface, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
     at_rest = resistance(surface, h, state.memory, h / m * size / 2.0, -0.5)
-    taken = np.where(rests, at_rest, resistance(surface, h, state.memory, np.hypot(*v), 0.0))
-    let_go = rests & (size > surface.mu_static * f_n) & (h / m * size > taken)
-    e = _direction(surface, force, v, taken, let_go)
-    stays = rests & ~let_go
+    friction = np.where(rests, at_rest, resistance(surface, h, state.memory, np.hypot(*v), 0.0))
+    released = rests & (size > surface.mu_static * f_n) & (h / m * size > friction)
+    e = _direction(surface, force, v, friction, released)
+    stuck = rests & ~released
 
-    taken = np.where(stays, 0.0, taken)
-    a = np.where(let_go, h / m * force - taken * e, 0.0)
-    slip = np.where(let_go, h * np.hypot(*a) / 8.0, state.memory["slip"])
-    v = np.where(let_go, a / 2.0, v)  # as if it had been sliding for half a step
-    first, stage_u, stage_v = taken, u, v
-    way, gain, path, rubs = h * a / 8.0, 0.0 * v, 0.0, 0.0 * size
+    friction = np.where(stuck, 0.0, friction)
+    a = np.where(released, h / m * force - friction * e, 0.0)
+    slip = np.where(released, h * np.hypot(*a) / 8.0, state.memory["slip"])
+    v = np.where(released, a / 2.0, v)  # (10) with theta = 1/2
+    at_release, stage_u, stage_v = friction, u, v
+    du, dv, path, friction_work = h * a / 8.0, 0.0 * v, 0.0, 0.0 * size
     for (node, weight), reach in zip(_STAGES, (0.5, 0.5, 1.0, 0.0), strict=True):
-        so_far = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
-        along = np.sum(stage_v * e, axis=0)
-        taken = resistance(surface, h, so_far, np.abs(along), 0.0)
+        memory = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
+        v_e = np.sum(stage_v * e, axis=0)
+        friction = resistance(surface, h, memory, np.abs(v_e), 0.0)
         force = motive_force(surface, stage_u, k + node)
-        change = np.where(stays, 0.0, h / m * force - gamma * h * stage_v - taken * e)
-        way, gain = way + weight * h * stage_v, gain + weight * change
-        rubs = rubs + weight * h * taken * along
+        change = np.where(stuck, 0.0, h / m * force - gamma * h * stage_v - friction * e)
+        du, dv = du + weight * h * stage_v, dv + weight * change
+        friction_work = friction_work + weight * h * friction * v_e
         path += weight * h * float(np.sum(stage_v**2))
         stage_u, stage_v = u + reach * h * stage_v, v + reach * change
 
-    # Releases lie before the step: by share theta of one, not by half of it.
-    v = np.where(let_go, 0.0, v)
+    # Releases before the step, (9), (12) and (13)
+    v = np.where(released, 0.0, v)
     threshold = np.maximum(surface.mu_static, surface.mu_dynamic) * f_n
-    before = np.where(np.hypot(*v) > 0.0, u - h * (v - gain / 2.0), u)
+    before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
     before = np.hypot(*motive_force(surface, before, k - 1))
     now = np.hypot(*motive_force(surface, u, k))
-    theta = np.maximum(now - threshold, 0.0) / np.where(let_go, now - before, 1.0)
+    theta = np.maximum(now - threshold, 0.0) / np.where(released, now - before, 1.0)
     theta = np.where(before <= threshold, theta, 0.5)
-    t_det = np.where(let_go, np.minimum(state.t_det, (k - theta) * h), state.t_det)
-    near = h**2 / m * (surface.material.k_s + 6.0 * surface.material.k_int) / 8.0
-    theta = theta + near * (0.5 - theta)
-    more = np.where(let_go, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
-    way = way + more * h * a
-    rubs = rubs + (more + 0.125) * h * first * np.hypot(*a)
-    v = np.where(let_go, theta * a, v)
+    t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
+    epsilon = h**2 / m * (surface.material.k_s + 6.0 * surface.material.k_int) / 8.0
+    theta = theta + epsilon * (0.5 - theta)
+    extra = np.where(released, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
+    du = du + extra * h * a
+    friction_work = friction_work + (extra + 0.125) * h * at_release * np.hypot(*a)
+    v = np.where(released, theta * a, v)
 
-    new, u = v + gain, u + way
+    new, u = v + dv, u + du
     turned = contact & (np.sum(new * e, axis=0) <= 0.0)
     lost = np.where(turned, np.sum(new**2, axis=0) / 2.0, 0.0)
-    further = np.sum(way * e, axis=0)
-    slip = np.where(turned, 0.0, np.where(let_go, 0.0, slip) + further)
+    du_e = np.sum(du * e, axis=0)
+    slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + du_e)
     new = np.where(turned, 0.0, new)
-    loss = m * (rubs / h + lost)
-    return _booked(surface, State(k + 1, u, new, {"slip": slip}, t_det), state, let_go, loss, path)
+    loss = m * (friction_work / h + lost)
+    return _with_ledger(
+        surface, State(k + 1, u, new, {"slip": slip}, t_det), state, released, loss, path
+    )
 
 
 def _direction(
-    surface: Surface, force: Array, v: Array, taken: Array, let_go: NDArray[np.bool_]
+    surface: Surface, force: Array, v: Array, friction: Array, released: NDArray[np.bool_]
 ) -> Array:
-    """Unit vectors e: of the velocity in the step's middle, or of the force that lets a block go.
+    """Unit vectors e: of the velocity in the middle of the step, or of the force at a release.
 
-    Where friction weakens, a slow block is turned at once: the middle is then the implicit one.
+    Under weakening laws the velocity in the middle of the step is the implicit one.
     """
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
-        back = taken if surface.law.friction is coulomb else 0.0
+        back = friction if surface.law.friction is coulomb else 0.0
         middle = v + (h / m * force - back * ahead) / (2.0 * (1.0 + gamma * h) ** 2)
         on = np.sum(middle * ahead, axis=0) > 0.0
         sliding = np.where(on, middle / np.hypot(*middle), ahead)
-        e = np.where(let_go, force / np.hypot(*force), sliding)
-    return np.where(surface.contact & (let_go | (np.hypot(*v) > 0.0)), e, 0.0)
+        e = np.where(released, force / np.hypot(*force), sliding)
+    return np.where(surface.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
 
 
 INTEGRATORS = {"leapfrog": leapfrog, "rk4": runge_kutta}

@@ -1,4 +1,4 @@
-"""Two studies: whether they differ by more than chance."""
+"""Significance of the differences between two studies."""
 
 import numpy as np
 import pyarrow as pa
@@ -23,7 +23,7 @@ def realisations(rng, shift=0.0, k=10):
     return pa.Table.from_pylist(rows)
 
 
-def test_studies_of_one_truth_are_seldom_significant(rng):
+def test_studies_with_equal_true_values_seldom_differ_significantly(rng):
     """In 5 of 100 pairs at most, and four standard errors of that number."""
     pairs = [discrepancies(realisations(rng), realisations(rng)) for _ in range(100)]
     assert {len(found) for found in pairs} == {10}

@@ -59,11 +59,11 @@ def test_a_known_length_is_found(decaying):
 
 
 @pytest.mark.parametrize(("size", "last"), [(6, 2), (12, 4), (20, 6), (60, 6)])
-def test_lengths_of_all_sides_that_are_long_enough_rest_on_one_range(rng, size, last):
+def test_all_sides_of_twenty_blocks_or_more_have_the_same_range(rng, size, last):
     assert Correlation(times(rng, 12, 2, size, 3.0)).length().last == last
 
 
-def test_what_all_blocks_of_a_realisation_share_is_no_exponential(rng):
+def test_a_shift_of_all_blocks_of_a_realisation_does_not_decay(rng):
     shift = SPREAD * rng.standard_normal((400, 1, 1, 1))
     flat = Correlation(times(rng, 400, 4, 20, 1.0) + shift).length()
     assert flat.residual.low[0] > 0.0  # c(r) levels off where the fit goes on falling
@@ -88,7 +88,7 @@ def test_a_resample_is_the_correlation_of_the_realisations_drawn(decaying):
     np.testing.assert_allclose(resample, Correlation(drawn).mean, rtol=1e-10)
 
 
-def test_intervals_hold_the_true_value_about_as_often_as_they_say(rng, monkeypatch):
+def test_intervals_have_about_their_nominal_coverage(rng, monkeypatch):
     monkeypatch.setattr("springblock.analysis.statistics._RESAMPLES", 500)  # quicker
     hits, lengths, trials = 0, 0, 50
     for _ in range(trials):
@@ -159,7 +159,7 @@ def test_sides_cut_by_grooves_are_refused():
     pattern = Pattern.pillars(24, 8, 4).grooved(2, 1, along="x")
     run = SimpleNamespace(t_det=np.ones((24, 24)))
     assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
-    with pytest.raises(ValueError, match="no whole sides along y"):
+    with pytest.raises(ValueError, match="along y are not all in contact"):
         side_times([run], pattern, "y")
 
 
@@ -175,20 +175,20 @@ def test_edges_of_grooves_are_the_rows_beside_them():
     run.t_det[3, 14] = np.nan
     with pytest.raises(ValueError, match="beside a groove never detached"):
         groove_times([run], pattern)
-    with pytest.raises(ValueError, match="no grooves along x"):
+    with pytest.raises(ValueError, match="no uncut grooves along x"):
         groove_times([run], Pattern.pillars(24, 8, 4))
 
 
-def test_what_cannot_be_correlated_is_refused(decaying):
+def test_too_few_or_equal_realisations_are_refused(decaying):
     run = SimpleNamespace(t_det=np.full((24, 24), np.nan))
     with pytest.raises(ValueError, match="never detached"):
         side_times([run], Pattern.pillars(24, 6, 6), "x")
-    with pytest.raises(ValueError, match="3 realisations or more, not 2"):
+    with pytest.raises(ValueError, match="at least 3 realisations, not 2"):
         Correlation(decaying[:2])
-    with pytest.raises(ValueError, match="nothing can correlate"):
+    with pytest.raises(ValueError, match="is not defined"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
 
 
-def test_the_bias_of_the_length_is_no_noise_of_the_fit(rng):
-    """The jackknife multiplies differences by k: they must not come from steps of the estimate."""
+def test_the_bias_of_the_length_is_not_due_to_the_grid_of_the_fit(rng):
+    """The jackknife multiplies differences by k, so that steps of the estimate would dominate."""
     assert abs(Correlation(times(rng, 200, 1, 41, 3.0)).length().bias) < 0.05

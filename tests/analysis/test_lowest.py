@@ -1,11 +1,11 @@
-"""The lowest of several means, and those that cannot be told from it."""
+"""The lowest of several means, and those that do not differ from it significantly."""
 
 import numpy as np
 
 from springblock.analysis.lowest import lowest
 
 
-def test_the_lowest_mean_has_those_beside_it_that_cannot_be_told_from_it():
+def test_the_lowest_mean_is_listed_with_those_that_do_not_differ_significantly():
     """Two of 20 runs differ by less than they scatter, the third by far more."""
     noise = np.random.default_rng(0).standard_normal((3, 20))
     noise -= noise.mean(axis=1, keepdims=True)

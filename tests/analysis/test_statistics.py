@@ -1,4 +1,4 @@
-"""Statistics of ensembles against samples and curves whose answer is known."""
+"""Statistics of ensembles against samples and curves with known results."""
 
 from types import SimpleNamespace
 
@@ -30,7 +30,7 @@ from springblock.simulation.run import friction
 
 
 def run(samples=21, normal_force=2.0, **more):
-    """A run of four blocks that let go one after another, a sample apart from the first on."""
+    """A run of four blocks that detach one after another, one per sample."""
     detachments = np.zeros(samples, int)
     detachments[1:5] = 1
     return SimpleNamespace(
@@ -122,7 +122,7 @@ def test_a_whole_curve_ends_with_the_longest_run():
     assert not curve.detachments[1, 12:].any()
 
 
-def test_a_mean_goes_on_over_the_runs_that_are_left(rng):
+def test_a_mean_is_taken_over_the_runs_that_have_not_ended(rng):
     """As long as half of them are."""
     values = rng.normal(size=(4, 5))
     values[0, 2:] = values[1, 3:] = values[2, 4:] = np.nan
@@ -202,7 +202,7 @@ X = np.arange(100.0)
         (1.0 + hill(X, 40, 0.3) + hill(X, 60, 0.2), np.inf, []),
     ],
 )
-def test_load_peaks_are_where_the_force_has_them(curve, scatter, peaks):
+def test_load_peaks_are_found_at_the_maxima_of_the_force(curve, scatter, peaks):
     assert load_peaks(curve, scatter).tolist() == peaks
 
 
@@ -231,7 +231,7 @@ def test_the_bootstrap_takes_any_statistic_of_weights(rng):
     assert np.isnan(bootstrap_interval(lambda w: w @ [2.0, 3.0], 2).low)
 
 
-def test_where_no_single_realisation_matters_limits_are_percentiles():
+def test_limits_are_percentiles_if_no_single_realisation_matters():
     """The median of equal numbers, but for a few: leaving out one changes nothing."""
     values = np.repeat([1.0, 5.0], [14, 6])
 

@@ -116,4 +116,4 @@ def test_nothing_but_a_regular_file_is_replaced(springblock, tmp_path, kind):
 def test_a_file_is_no_folder_to_write_to(springblock, tmp_path):
     (tmp_path / "file").touch()
     refusal = springblock("dictionary", "--output", tmp_path / "file/deep/table", refused=True)
-    assert f"cannot be written: {tmp_path / 'file'} is not a folder" in refusal
+    assert f"cannot be written, because {tmp_path / 'file'} is not a folder" in refusal

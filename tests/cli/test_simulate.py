@@ -100,7 +100,7 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
         (["--duration", 2e3], "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         (["--snapshot", 1e300], "for a loading time of 1e+300 s"),
         (["--integrator", "euler"], "'--integrator': 'euler' is not one of 'leapfrog', 'rk4'"),
-        (["--material", "gama=3"], "'gama' is no constant; there are youngs_modulus"),
+        (["--material", "gama=3"], "unknown constant 'gama'; choose from youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
         (["--direction", "up"], "'--direction': direction must be 'x', 'y' or an angle"),
         (["--prelude", "absent.npz"], "'--prelude': File 'absent.npz' does not exist"),
@@ -116,7 +116,7 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
     ("words", "sentence"),
     [
         (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers that NumPy"),
-        (["--n-blocks", 7], "n_blocks and n_rows are those of the mask, 6 and 6, not 7 and 7"),
+        (["--n-blocks", 7], "n_blocks and n_rows must be those of the mask, 6 and 6, not 7 and 7"),
         (["--vary", "mu_static=2"], "mu_static cannot be varied where --mu-static-"),
     ],
 )
@@ -193,7 +193,7 @@ def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted):
     words, folder = interrupted
     other = ("--step", 1e-8, "--material", "gamma=4e3", "--snapshot", 1e-4)
     named = "gamma, step, snapshot_times"
-    sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run of other {named}; remove it"
+    sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run with other {named}; remove it"
     assert springblock(*words, *other, refused=True).startswith(sentence)
     assert folder.exists()
 

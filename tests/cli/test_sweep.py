@@ -39,7 +39,7 @@ def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock
     ("others", "sentence"),
     [
         (("--seeds", 2, "--material", "gamma=0"), "holds runs of other constants or code"),
-        (("--vary", "speed=1,2"), "'speed' is no constant"),
+        (("--vary", "speed=1,2"), "unknown constant 'speed'"),
         (("--vary", "step=a"), "step must be a number, not 'a'"),
         (("--direction", "x,z"), "direction"),
         (("--seeds", 0), "0 is not in the range"),

@@ -27,20 +27,20 @@ from springblock.study.audit import faults
 #: What is done to which file, and words of the sentence about it.
 FAULTS = {
     "truncated batch": (BATCH, truncated, "has no checksum"),
-    "flipped bit in a batch": (BATCH, flipped, "does not fit its checksum"),
-    "batch that is no Parquet": (BATCH, text, "no whole table"),
+    "flipped bit in a batch": (BATCH, flipped, "its checksum does not match"),
+    "batch that is no Parquet": (BATCH, text, "has no checksum"),
     "batch without a checksum": (BATCH, unsealed, "has no checksum"),
-    "batch of older code": (BATCH, older_code, "was made by other code"),
+    "batch of older code": (BATCH, older_code, "was made by different code"),
     "batch of another material": (BATCH, with_constant("gamma", 4e3), "gamma is 4000.0 in"),
     "batch of another step": (BATCH, with_constant("step", 1e-8), "step is 1e-08 in"),
     "batch of another scene": (BATCH, replaced(OTHER), "holds n_blocks = 12, level = 1"),
-    "truncated prelude": (PRELUDE, truncated, "is no prelude, or damaged"),
-    "flipped bit in a prelude": (PRELUDE, flipped, "is no prelude, or damaged"),
-    "table in place of a prelude": (PRELUDE, replaced(TABLE), "is no prelude"),
-    "prelude of older code": (PRELUDE, older_code, "was made by other code"),
-    "flipped bit in a table": (TABLE, old(flipped), "does not fit its checksum"),
+    "truncated prelude": (PRELUDE, truncated, "is not a prelude, or damaged"),
+    "flipped bit in a prelude": (PRELUDE, flipped, "is not a prelude, or damaged"),
+    "table in place of a prelude": (PRELUDE, replaced(TABLE), "is not a prelude"),
+    "prelude of older code": (PRELUDE, older_code, "was made by different code"),
+    "flipped bit in a table": (TABLE, old(flipped), "its checksum does not match"),
     "prelude in place of a table": (TABLE, replaced(PRELUDE), "has no checksum"),
-    "flipped bit in a correlation": (CORRELATION, flipped, "does not fit its checksum"),
+    "flipped bit in a correlation": (CORRELATION, flipped, "its checksum does not match"),
 }
 #: Commands that read such a file, together with others of its study.
 READERS = {
@@ -143,6 +143,6 @@ def test_a_mask_that_is_not_what_its_name_says_is_refused(springblock, tmp_path)
     content[140] ^= 1
     mask.write_bytes(content)
     said = springblock("simulate", "--mask", mask, "--output", tmp_path / "a", refused=True)
-    assert "not the mask of its name" in said
+    assert "not that of its name" in said
     (found,) = faults(tmp_path)
     assert found.file == mask

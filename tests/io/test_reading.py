@@ -1,4 +1,4 @@
-"""Runs are read back as they were."""
+"""Stored runs are read as they were written."""
 
 import subprocess
 import sys
@@ -36,7 +36,7 @@ def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_pa
     assert (read_back[0].snapshots[1] != read_back[1].snapshots[1]).any()
 
 
-def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(springblock, tmp_path):
+def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):
     springblock(*BATCH, "--output", tmp_path / "a.parquet")
     run, _ = read(tmp_path / "a.parquet")
     assert len(run.snapshots) == len(run.snapshot_times) == 0
@@ -45,7 +45,7 @@ def test_a_run_says_in_one_line_which_it_is_and_may_have_no_snapshots(springbloc
     assert "\n" not in repr(run)
 
 
-def test_what_is_no_file_of_runs_is_refused(tmp_path):
+def test_other_files_are_refused(tmp_path):
     write(pa.table({"level": [1]}), tmp_path / "a.parquet", {})
     with pytest.raises(ValueError, match=r"a.parquet lacks the column 'n_p'"):
         read(tmp_path / "a.parquet")

@@ -1,4 +1,4 @@
-"""Parquet files: whole or not at all, and true to what was put in."""
+"""Parquet files are written whole or not at all, and hold the given values."""
 
 import numpy as np
 import pyarrow as pa
@@ -23,12 +23,12 @@ def test_an_interrupted_file_leaves_nothing_behind(tmp_path):
 def test_an_interrupted_file_does_not_harm_the_one_before(tmp_path):
     file = tmp_path / "a.parquet"
     file.write_text("before")
-    with pytest.raises(ValueError, match="nothing to write"):
+    with pytest.raises(ValueError, match="nothing was written"):
         write(rows_to_table([], BATCH), file, {})
     assert file.read_text() == "before"
 
 
-def test_columns_are_those_that_arrow_itself_would_make():
+def test_columns_equal_those_that_arrow_makes():
     kinds = {"text": pa.string(), "flag": pa.bool_(), "count": pa.int8(), "length": pa.float64()}
     kinds |= {f"{name}s": pa.list_(kind) for name, kind in kinds.items() if name != "text"}
     rows = [

@@ -1,4 +1,4 @@
-"""The random surface: a draw that belongs to its seed, and to nothing else."""
+"""Random friction coefficients: their distributions, correlations and seeds."""
 
 from dataclasses import replace
 from math import gamma
@@ -19,7 +19,7 @@ def correlation(a, b):
     return np.corrcoef(a.ravel(), b.ravel())[0, 1]
 
 
-def test_a_seed_stands_for_the_same_surface_everywhere():
+def test_a_seed_gives_the_same_surface_everywhere():
     """Values of seed 0 and N = 2, printed once."""
     mu_static, mu_dynamic = draw_friction(2, 0)
     assert mu_static.tolist() == [
@@ -38,7 +38,7 @@ def test_neither_coefficient_depends_on_the_statistics_of_the_other():
 
 
 def test_blocks_coefficients_and_seeds_are_independent():
-    """Correlations vanish within four standard errors, 4/√n."""
+    """Correlations are zero within four standard errors, 4/√n."""
     mu_static, mu_dynamic = draw_friction(N, 0)
     others = draw_friction(N, 1)
     pairs = [
@@ -52,7 +52,7 @@ def test_blocks_coefficients_and_seeds_are_independent():
     assert max(abs(correlation(*pair)) for pair in pairs) < 4 / np.sqrt(BLOCKS)
 
 
-def test_friction_never_pushes():
+def test_coefficients_are_never_negative():
     """A standard deviation of half the mean sends 2.3 % of the draws below zero, and to it."""
     mu_static, _ = draw_friction(N, 0, replace(PAPER, mu_static_std=0.5))
     share = 0.02275  # of a normal distribution, beyond two standard deviations
@@ -89,7 +89,7 @@ def test_draws_have_the_papers_mean_and_scatter_correlated_or_not(length, period
 
 @pytest.mark.parametrize("kind", ["normal", "lognormal", "weibull", "uniform"])
 @pytest.mark.parametrize("length", [0.0, 3e-5])
-def test_a_distribution_is_what_it_is_called_correlated_or_not(kind, length):
+def test_a_distribution_has_its_quartiles_correlated_or_not(kind, length):
     """Quartiles of 40 surfaces against those of scipy; the mean and scatter are the material's.
 
     Bounds of four standard errors: √(1/4)/√n of the share below a quartile is an upper limit, with
@@ -119,7 +119,7 @@ def test_a_distribution_has_the_mean_and_scatter_that_are_asked_for(kind, scatte
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-def test_correlation_falls_as_a_gaussian_and_goes_around_periodic_edges_alone(periodic):
+def test_the_autocorrelation_is_gaussian_and_crosses_periodic_edges_only(periodic):
     """exp(-r²/ℓ²), within four standard errors of 200 surfaces of about (30/ℓ)²/π areas each."""
     material = replace(PAPER, correlation_length=4e-5)
     draws = np.array([draw_friction(30, seed, material, periodic)[0] for seed in range(200)])
@@ -151,19 +151,22 @@ def test_a_rectangle_has_a_draw_for_each_block():
     [
         (
             {"distribution": "uniform", "mu_static_std": 0.6},
-            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without going below zero; "
-            "mu_static_std may be up to 0.5774",
+            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without negative values; "
+            "mu_static_std must be at most 0.5774",
         ),
         (
             {"distribution": "weibull", "mu_dynamic": 0.0},
-            "no weibull .*; its mean must be positive",
+            "no weibull .*; mu_dynamic must be positive",
         ),
-        ({"distribution": "weibull", "mu_static_std": 20.0}, "must scatter by 1e-5 to 15 times"),
-        ({"distribution": "lognormal", "mu_static": 0.0}, "its mean must be positive"),
-        ({"correlation_length": 9e-5}, "9e-05 m must not exceed the surface, 8e-05 m"),
+        ({"distribution": "weibull", "mu_static_std": 20.0}, "must be 1e-5 to 15 times the mean"),
+        ({"distribution": "lognormal", "mu_static": 0.0}, "mu_static must be positive"),
+        (
+            {"correlation_length": 9e-5},
+            "must be at most the side of the surface, 8e-05 m, not 9e-05 m",
+        ),
     ],
 )
-def test_what_cannot_be_drawn_is_refused_before_it_is(constants, sentence):
+def test_impossible_distributions_are_refused_without_drawing(constants, sentence):
     material = replace(PAPER, **constants)
     for refused in (lambda: draw_friction(8, 0, material), lambda: check_draws((8, 8), material)):
         with pytest.raises(ValueError, match=sentence):
@@ -171,7 +174,7 @@ def test_what_cannot_be_drawn_is_refused_before_it_is(constants, sentence):
 
 
 @pytest.mark.parametrize("kind", ["normal", "lognormal", "weibull", "uniform"])
-def test_the_share_that_holds_is_the_share_of_draws(kind):
+def test_the_probability_of_a_threshold_is_the_share_of_draws(kind):
     """Within four standard errors; where nothing holds its logarithm is minus infinity."""
     material = replace(PAPER, mu_static_std=0.2, distribution=kind)
     draws, _ = draw_friction(N, 0, material)

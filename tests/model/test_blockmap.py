@@ -1,4 +1,4 @@
-"""Surfaces of one's own: what files may hold, and what is read from them."""
+"""Masks and coefficients from files: valid and invalid contents."""
 
 import sys
 from pathlib import Path
@@ -42,12 +42,12 @@ def test_black_and_white_is_read_however_it_is_stored(saved, mode):
 
 
 @pytest.mark.parametrize("kind", [bool, int, np.uint8, float])
-def test_what_is_not_zero_is_in_contact(saved, kind):
+def test_nonzero_values_are_in_contact(saved, kind):
     mask = BlockMap.mask(saved(3 * CORNER.astype(int).astype(kind)))
     np.testing.assert_array_equal(mask.values, CORNER)
 
 
-def test_a_name_tells_contents_apart_and_nothing_else(saved):
+def test_a_name_depends_on_the_contents_only(saved):
     """Eight digits of content: neither how a mask is stored nor its own digits change them."""
     first = BlockMap.mask(saved(CORNER, "a corner (1).npy"))
     assert first.name.startswith("a_corner__1_-")
@@ -72,25 +72,25 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
 @pytest.mark.parametrize(
     ("values", "name", "sentence"),
     [
-        (GREY, "a.png", "must be black and white, .* alone"),
-        (PINK, "a.png", "must be black and white, .* alone"),
-        (CLEAR, "a.png", "must be black and white, .* alone"),
-        (GREY.astype(np.uint16) * 257, "a.png", "must be black and white, of 8 bits or 1 a pixel"),
-        (~CORNER & CORNER, "a.png", "must have a block in contact"),
-        (~CORNER & CORNER, "a.npy", "must have a block in contact"),
-        (np.eye(2) * np.nan, "a.npy", r"must hold zeros and one other value, .* not \[nan\]"),
+        (GREY, "a.png", "must be black and white, .* only"),
+        (PINK, "a.png", "must be black and white, .* only"),
+        (CLEAR, "a.png", "must be black and white, .* only"),
+        (GREY.astype(np.uint16) * 257, "a.png", "must be black and white, with 1 or 8 bits"),
+        (~CORNER & CORNER, "a.png", "at least one block must be in contact"),
+        (~CORNER & CORNER, "a.npy", "at least one block must be in contact"),
+        (np.eye(2) * np.nan, "a.npy", r"must hold zeros and one other value, not \[nan\]"),
         (
             np.arange(9).reshape(3, 3),
             "a.npy",
-            r"zeros and one other value, .* not \[0, 1, 2, 3, 4, 5, \.\.\.",
+            r"zeros and one other value, not \[0, 1, 2, 3, 4, 5, \.\.\.",
         ),
-        (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, .* not .'', 'a'"),
-        (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers that NumPy has saved"),
+        (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, not .'', 'a'"),
+        (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers saved by NumPy"),
         (np.ones(3, bool), "a.npy", r"must have the shape \(N_y, N_x\), not \(3,\)"),
         (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
     ],
 )
-def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentence):
+def test_invalid_masks_are_refused_in_one_sentence(saved, values, name, sentence):
     file = saved(values, name)
     with pytest.raises(ValueError, match=sentence) as refusal:
         BlockMap.mask(file)
@@ -100,10 +100,10 @@ def test_what_is_no_mask_is_refused_in_one_sentence(saved, values, name, sentenc
 
 @pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
 def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
-    """A pickle could run anything; this one would leave a file."""
+    """A pickle can execute any command; this one would create a file."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trap.npy").write_bytes(b"cos\nsystem\n(S'touch trapped'\ntR.")
-    with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers that NumPy"):
+    with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers saved by NumPy"):
         read(tmp_path / "trap.npy")
     assert [file.name for file in tmp_path.iterdir()] == ["trap.npy"]
 
@@ -111,7 +111,7 @@ def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        (b"no image", "is neither an image nor an array"),
+        (b"no image", "is neither an image nor a NumPy array"),
         (b"P5 64 64 255 torn", "cannot be read"),
         (None, "does not exist"),
     ],
@@ -133,7 +133,7 @@ def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
         (np.ones((2, 2, 2)), r"must have the shape \(N_y, N_x\), not \(2, 2, 2\)"),
     ],
 )
-def test_what_are_no_coefficients_is_refused(saved, values, sentence):
+def test_invalid_coefficients_are_refused(saved, values, sentence):
     with pytest.raises(ValueError, match=f"corner.npy {sentence}"):
         BlockMap.coefficients(saved(values))
 

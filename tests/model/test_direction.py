@@ -1,4 +1,4 @@
-"""Sliding directions: the one way to write each, its unit vector, and what is none."""
+"""Sliding directions: canonical names, unit vectors and invalid values."""
 
 import math
 
@@ -44,7 +44,7 @@ def test_any_other_angle_has_one_name_and_one_unit_vector(name, others):
 
 
 @pytest.mark.parametrize("direction", ["up", "diag", "", None, True, "nan", "inf", -math.inf])
-def test_what_is_no_direction_is_refused_by_name(direction):
+def test_invalid_directions_are_refused_by_name(direction):
     with pytest.raises((TypeError, ValueError), match="direction must be 'x', 'y' or a") as refusal:
         normalised(direction)
     assert str(refusal.value).endswith(f"not {direction!r}")

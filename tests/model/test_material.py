@@ -1,4 +1,4 @@
-"""The paper's constants, and what follows from them (section 2)."""
+"""The paper's constants and derived quantities (section 2)."""
 
 import math
 from dataclasses import fields, replace
@@ -50,7 +50,7 @@ def test_items_name_every_constant():
 
 
 @pytest.mark.parametrize("name", NUMBERS)
-def test_what_is_no_number_and_impossible_numbers_are_refused_by_name(name):
+def test_invalid_constants_are_refused_by_name(name):
     for value in ("1", None, True, 1j):
         with pytest.raises(TypeError, match=rf"Material\.{name} must be a number"):
             replace(PAPER, **{name: value})
@@ -78,7 +78,9 @@ def test_only_damping_and_friction_may_vanish(name):
     ],
 )
 def test_constants_that_overflow_together_are_refused(constants, derived):
-    with pytest.raises(ValueError, match=f"Material.({derived}) beyond floating point"):
+    with pytest.raises(
+        ValueError, match=f"Material.({derived}) outside the range of floating point"
+    ):
         Material(**constants)
 
 
@@ -98,6 +100,6 @@ def test_constants_that_overflow_together_are_refused(constants, derived):
         ),
     ],
 )
-def test_words_are_known_and_a_law_comes_with_its_own_constant_alone(constants, sentence):
+def test_a_law_has_its_own_constant_only(constants, sentence):
     with pytest.raises(ValueError, match=rf"^Material\.{sentence}"):
         Material(**constants)

@@ -34,7 +34,7 @@ def test_a_rectangle_is_cut_as_a_square_is():
     ("n", "n_p", "n_s"),
     [(120, 2, 2), (120, 6, 6), (120, 20, 20), (120, 60, 60), (12, 4, 2), (20, 3, 2), (14, 4, 3)],
 )
-def test_pillars_and_gaps_take_turns(n, n_p, n_s):
+def test_pillars_and_gaps_alternate(n, n_p, n_s):
     """Half a gap remains at every edge, of an odd one its larger half at the far edge.
 
     The paper's pillars, with n_s = n_p, bear on a quarter of the surface.
@@ -116,7 +116,7 @@ def test_contact_is_read_only():
         (lambda: Pattern.pillars(12, 2, -2), "n_s must be at least 1"),
         (lambda: Pattern.flat(12).grooved(0, 2), "n_p2 must be at least 1"),
         (lambda: Pattern.flat(12).grooved(2, 0), "n_s2 must be at least 1"),
-        (lambda: Pattern.flat(12).grooved(4, 2, along="z"), "along 'x' or 'y', not 'z'"),
+        (lambda: Pattern.flat(12).grooved(4, 2, along="z"), "along must be 'x' or 'y', not 'z'"),
     ],
 )
 def test_a_level_that_does_not_fit_is_refused(build, message):
@@ -134,5 +134,5 @@ def test_lengths_count_whole_blocks(length):
         Pattern.flat(12).grooved(4, length)
 
 
-def test_whole_numbers_of_numpy_will_do():
+def test_whole_numbers_of_numpy_are_accepted():
     assert Pattern.pillars(np.int64(12), np.int32(4), np.uint8(2)) == Pattern.pillars(12, 4, 2)

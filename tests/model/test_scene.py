@@ -1,4 +1,4 @@
-"""Scenes: which lengths belong together, and what follows from them."""
+"""Scenes: valid combinations of lengths, and the surfaces that they describe."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -93,7 +93,7 @@ def test_constants_of_its_own_belong_to_a_scene():
         ),
     ],
 )
-def test_folders_options_and_rows_name_all_that_tells_a_scene_apart(scene, folder, options):
+def test_folders_options_and_rows_identify_a_scene(scene, folder, options):
     assert scene.folder == folder
     assert scene.arguments.endswith(options)
     assert Scene.from_row(scene.row) == scene
@@ -103,19 +103,19 @@ def test_tables_name_scenes_by_their_own_columns():
     assert set(COLUMNS) == set(SCENE.names)
 
 
-def test_a_mask_takes_the_place_of_the_pattern():
+def test_a_mask_replaces_the_pattern():
     assert (OWN.shape, OWN.level, OWN.sides, OWN.lengths) == ((2, 3), -1, (), {})
     assert OWN.contact is CORNER.values
     assert Scene(3, n_rows=2, edges="periodic") != OWN
-    with pytest.raises(ValueError, match="mask corner-1a2b3c4d is no pattern of pillars"):
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d is not a pattern of pillars"):
         _ = OWN.pattern
 
 
-def test_a_table_knows_a_mask_by_its_name():
+def test_a_table_contains_only_the_name_of_a_mask():
     known = Scene.from_row(OWN.row)
     assert known == OWN
     assert (known.shape, known.mask.values) == ((2, 3), None)
-    with pytest.raises(ValueError, match="mask corner-1a2b3c4d nothing is known here but its name"):
+    with pytest.raises(ValueError, match="mask corner-1a2b3c4d are not available, only its name"):
         _ = known.contact
     assert OWN.row["n_rows"] == 2
     assert Scene(9).row["n_rows"] == 9
@@ -129,7 +129,7 @@ def test_the_paper_has_squares_with_edges_whose_coefficients_are_drawn():
     assert not any(scene.is_papers for scene in others)
 
 
-def test_coefficients_are_read_from_their_file_and_matter_in_contact_alone():
+def test_coefficients_are_read_from_their_file_and_matter_in_contact_only():
     assert STRONG.files == {"mu_static_field": Path("strong.npy")}
     mask = replace(CORNER, values=np.array([[True, False]]))
     Scene(mask=mask, mu_static_field=field([[1.0, np.nan]]))
@@ -143,10 +143,13 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ({"mask": CORNER}, "n_blocks and n_rows are those of the mask, 3 and 2, not 120 and 120"),
+        (
+            {"mask": CORNER},
+            "n_blocks and n_rows must be those of the mask, 3 and 2, not 120 and 120",
+        ),
         (
             {"mask": replace(CORNER, values=None), **STRIPS},
-            "a mask cannot be given together with n_p, n_s, n_p2, n_s2",
+            "mask cannot be combined with n_p, n_s, n_p2, n_s2",
         ),
         ({"edges": "closed"}, "edges must be free or periodic, not 'closed'"),
         (
@@ -156,12 +159,12 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         ),
         (
             ONES | {"varied": {"mu_static_std": 0.3}},
-            "mu_static_std cannot be varied where strong-00000000 says mu_static",
+            "mu_static_std cannot be varied if mu_static is read from strong-00000000",
         ),
         (
             ONES
             | {"mu_dynamic_field": ONES["mu_static_field"], "varied": {"distribution": "weibull"}},
-            "distribution cannot be varied where all coefficients are from files",
+            "distribution cannot be varied if all coefficients are from files",
         ),
         ({"n_p": 20}, "n_p = 20 needs n_s"),
         ({"n_s": 10}, "n_s = 10 needs n_p"),
@@ -170,11 +173,11 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         (STRIPS | {"n_s3": 2}, "n_s3 = 2 needs n_p3"),
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
         (STRIPS | {"n_p3": 8, "n_s3": 2, "along_3": "z"}, "along_3 must be 'x' or 'y', not 'z'"),
-        ({"varied": {"a-b": 1}}, "'a-b' is no constant; there are youngs_modulus, .*, step"),
+        ({"varied": {"a-b": 1}}, "unknown constant 'a-b'; choose from youngs_modulus, .*, step"),
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )
-def test_what_does_not_make_a_scene_is_refused(given, sentence):
+def test_invalid_scenes_are_refused(given, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}$"):
         Scene(120, **given)
 

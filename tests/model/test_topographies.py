@@ -39,7 +39,7 @@ def test_its_highest_blocks_are_in_contact(tmp_path):
         np.testing.assert_array_equal(np.flatnonzero(contact), range(12 - count, 12))
 
 
-def test_so_are_those_that_reach_a_height_in_metres(tmp_path):
+def test_blocks_above_a_height_are_in_contact(tmp_path):
     contact = Cut(written(tmp_path, HEIGHTS), 1e-5, height=6.5e-9).mask()
     np.testing.assert_array_equal(contact, HEIGHTS >= 7)
 
@@ -65,7 +65,7 @@ def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
     springblock("mask", file, "--height", 6e-9, "--spacing", 2e-5, "--output", mask)
     np.testing.assert_array_equal(np.load(mask), [[False, True]])
     refusal = springblock("mask", file, "--output", tmp_path / "none.npy", refused=True)
-    assert "rough.txt is cut at either a bearing_area or a height" in refusal
+    assert "rough.txt: give either bearing_area or height" in refusal
     assert not (tmp_path / "none.npy").exists()
 
 
@@ -80,23 +80,31 @@ def test_jobs_read_what_was_cut(tmp_path):
 @pytest.mark.parametrize(
     ("header", "how", "sentence"),
     [
-        ("", {"height": 1e-9}, "must say its size and its unit"),
-        ("# Width: 40 µm\n# Height: 30 µm\n", {"height": 1e-9}, "must say its size and its"),
-        (None, {"height": 1.0}, "must reach the height it is cut at, 1.0 m; .* at 1.1e-08 m"),
+        ("", {"height": 1e-9}, "must contain the size of the surface and its unit"),
+        (
+            "# Width: 40 µm\n# Height: 30 µm\n",
+            {"height": 1e-9},
+            "must contain the size of the surface and its",
+        ),
+        (None, {"height": 1.0}, "height = 1.0 m is above the highest block, 1.1e-08 m"),
         (
             None,
             {"height": 1e-9, "spacing": 1.0},
-            r"must hold 1 to \d+ blocks of 1.0 m a side; it is 4e-05",
+            r"is 4e-05 x .* m; each side must hold 1 to \d+ blocks of spacing = 1.0 m",
         ),
-        (None, {"height": 1e-9, "spacing": 1e-12}, r"must hold 1 to 4096 blocks of 1e-12 m a side"),
+        (
+            None,
+            {"height": 1e-9, "spacing": 1e-12},
+            r"must hold 1 to 4096 blocks of spacing = 1e-12 m",
+        ),
         (None, {"height": 1e-9, "spacing": 0.0}, "spacing must be positive, not 0.0"),
-        (None, {}, "is cut at either a bearing_area or a height"),
-        (None, {"height": 1e-9, "bearing_area": 0.5}, "is cut at either"),
-        (None, {"bearing_area": 0.0}, "bearing_area must be above 0 and up to 1, not 0.0"),
-        (None, {"bearing_area": 30}, "bearing_area must be above 0 and up to 1, not 30"),
+        (None, {}, "give either bearing_area or height"),
+        (None, {"height": 1e-9, "bearing_area": 0.5}, "give either bearing_area or height"),
+        (None, {"bearing_area": 0.0}, "bearing_area must be in .0, 1., not 0.0"),
+        (None, {"bearing_area": 30}, "bearing_area must be in .0, 1., not 30"),
     ],
 )
-def test_what_cannot_be_cut_is_refused(tmp_path, header, how, sentence):
+def test_invalid_cuts_are_refused(tmp_path, header, how, sentence):
     file = written(tmp_path, HEIGHTS, **({} if header is None else {"header": header}))
     with pytest.raises(ValueError, match=sentence) as refusal:
         Cut(file, **{"spacing": 1e-5, **how}).mask()
@@ -107,7 +115,7 @@ def test_heights_in_volts_are_refused(tmp_path, monkeypatch):
     """As an atomic force microscope may leave them."""
     volts = SurfaceTopography.Topography(HEIGHTS.T, (4e-5, 3e-5), unit="V")
     monkeypatch.setattr(SurfaceTopography, "open_topography", opened(volts))
-    with pytest.raises(ValueError, match=r"rough.txt must have a unit of length, not 'V'"):
+    with pytest.raises(ValueError, match=r"rough.txt: its unit must be a length, not 'V'"):
         Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
 
 
@@ -123,7 +131,7 @@ def test_blocks_without_a_height_are_not_in_contact(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "content", ["", "no heights at all", "1 2 3\n4 5\n", "1 " * 10**4, "# " * 10**5]
 )
-def test_what_is_no_topography_is_refused(tmp_path, content):
+def test_other_files_are_refused(tmp_path, content):
     (tmp_path / "rough.txt").write_text(content)
     with pytest.raises(ValueError, match=r"^\S+rough.txt") as refusal:
         Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()

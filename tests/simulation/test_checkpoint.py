@@ -1,4 +1,4 @@
-"""A run that was stopped goes on from its checkpoint as if nothing had happened."""
+"""A stopped run continues from its checkpoint to the same bits."""
 
 from itertools import product
 
@@ -67,7 +67,7 @@ def answer(run):
     ],
     ids=lambda each: str(getattr(each, "law", each)),
 )
-def test_a_run_that_goes_on_is_the_run_that_was_not_stopped(stopped, saved, integrator, material):
+def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator, material):
     how = {"integrator": integrator, "snapshot_times": (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)}
     how["material"] = material
     whole = pull(**how)
@@ -79,14 +79,14 @@ def test_a_run_that_goes_on_is_the_run_that_was_not_stopped(stopped, saved, inte
     assert not file.exists()
 
 
-def test_a_run_may_go_on_without_its_prelude_and_on_more_cores(stopped):
+def test_a_run_may_continue_without_its_prelude_and_on_more_cores(stopped):
     prelude = compute_prelude(PILLARS.contact)
     file = stopped(prelude=prelude, duration=3e-4)
     again = pull(checkpoint=file, duration=3e-4, cores=2)
     assert answer(again) == answer(pull(duration=3e-4))
 
 
-def test_a_run_that_ends_by_its_own_judgement_does_so_where_it_would_have(stopped):
+def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):
     file = stopped(duration=None)
     assert answer(pull(duration=None, checkpoint=file)) == answer(pull(duration=None))
 
@@ -106,26 +106,28 @@ def test_a_run_that_ends_by_its_own_judgement_does_so_where_it_would_have(stoppe
 def test_the_checkpoint_of_another_run_is_refused_and_kept(stopped, change, named):
     file = stopped()
     content = file.read_bytes()
-    with pytest.raises(ValueError, match=rf"run.npz belongs to a run of other {named}; remove it"):
+    with pytest.raises(
+        ValueError, match=rf"run.npz belongs to a run with other {named}; remove it"
+    ):
         pull(checkpoint=file, **change)
     assert file.read_bytes() == content
 
 
-def test_so_is_that_of_other_code(stopped, monkeypatch):
+def test_the_checkpoint_of_other_code_is_refused(stopped, monkeypatch):
     file = stopped()
     monkeypatch.setattr("springblock.simulation.checkpoint.digest", lambda *modules: "0123")
-    with pytest.raises(ValueError, match="belongs to a run of other code; remove it"):
+    with pytest.raises(ValueError, match="belongs to a run with other code; remove it"):
         pull(checkpoint=file)
 
 
-def test_what_is_no_checkpoint_is_refused(stopped, tmp_path):
+def test_other_files_are_refused(stopped, tmp_path):
     file = stopped()
     whole = file.read_bytes()
     compute_prelude(PILLARS.contact).save(tmp_path / "prelude.npz")
     prelude = (tmp_path / "prelude.npz").read_bytes()
     for content in (b"", b"text", whole[:1000], whole[: len(whole) // 2], prelude):
         file.write_bytes(content)
-        with pytest.raises(ValueError, match=r"run.npz is no checkpoint: "):
+        with pytest.raises(ValueError, match=r"run.npz is not a checkpoint: "):
             pull(checkpoint=file)
 
 

@@ -1,4 +1,4 @@
-"""The energy ledger: nothing is lost, nothing comes from nowhere."""
+"""The energy ledger: conservation of energy, term by term."""
 
 from dataclasses import astuple
 
@@ -16,7 +16,7 @@ INTEGRATORS = ["leapfrog", "rk4"]
 
 
 def nailed(n):
-    """One contact block in a corner, which never lets go: all other motion is smooth."""
+    """One contact block in a corner, which never detaches, so that all motion is smooth."""
     contact = np.zeros((n, n), bool)
     contact[0, 0] = True
     return contact, np.full((n, n), 1e9), np.zeros((n, n))
@@ -90,7 +90,7 @@ def test_without_friction_the_ledger_closes_to_second_order(integrator, gamma):
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_once_a_surface_is_at_rest_the_ledger_closes_to_second_order(integrator):
+def test_after_sliding_the_ledger_closes_to_second_order(integrator):
     """All blocks have stopped: a quarter of the step leaves a sixteenth of the residual or less.
 
     From 5e-9 s on: coarser steps have terms of higher order with the other sign, and the residual
@@ -105,10 +105,10 @@ def test_once_a_surface_is_at_rest_the_ledger_closes_to_second_order(integrator)
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_in_the_midst_of_sliding_the_ledger_closes_to_second_order_too(integrator):
+def test_during_sliding_the_ledger_closes_to_second_order(integrator):
     """Half a period of the slip lasts 4e-7 s; it is interrupted after about half of that.
 
-    Of the friction's heat, the last half step counts as well: without it, the order is one.
+    The frictional heat includes the last half step, without which the order would be one.
     """
     coarse, fine = (
         simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.336e-4)
@@ -139,7 +139,7 @@ def test_friction_turns_force_times_path_into_heat(integrator):
 
 
 def test_damping_turns_a_slow_drift_into_heat():
-    """Far overdamped, gamma >> omega, a block follows the slider with v (1 - exp(-t/tau)).
+    """An overdamped block, gamma >> omega, follows the slider with v (1 - exp(-t/tau)).
 
     tau = gamma/omega², and gamma m ∫v² dt = gamma m v² (t - 3/2 tau), to order (omega/gamma)².
     """

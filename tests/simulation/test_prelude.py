@@ -1,4 +1,4 @@
-"""The loading before the first detachment: shared by all seeds, and exact to the bit."""
+"""Preludes are valid for all seeds, and results are the same to the bit."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def answer(run):
 
 
 def skipped(prelude, *scene):
-    """Sample intervals that a run does not have to do."""
+    """Sample intervals that a run skips."""
     state, constants = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
     return prelude.start(state, constants, latest=np.inf)[0]
 
@@ -39,7 +39,7 @@ def test_a_run_from_the_prelude_is_the_run_from_zero(prelude, seed):
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 @pytest.mark.parametrize("direction", ["y", 30.0])
 @pytest.mark.parametrize("surface", ["flat", "pillars", "grooves", "random"])
-def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction, integrator):
+def test_it_is_for_every_surface_direction_and_integrator(surface, direction, integrator):
     contact = {
         "flat": Pattern.flat(8).contact,
         "pillars": PILLARS.contact,
@@ -56,7 +56,7 @@ def test_so_it_is_for_every_surface_direction_and_integrator(surface, direction,
 
 
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
-def test_so_it_is_for_a_surface_of_several_bands(integrator):
+def test_it_is_for_a_surface_of_several_bands(integrator):
     surface = Pattern.pillars(48, 10, 14)
     assert Grid.of(surface.contact.shape).band_rows < surface.n_blocks
     how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
@@ -65,14 +65,14 @@ def test_so_it_is_for_a_surface_of_several_bands(integrator):
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 
 
-def test_a_weak_block_makes_the_run_start_earlier_not_differently(prelude):
+def test_a_weak_block_makes_a_run_start_from_an_earlier_state(prelude):
     contact, mu_static, mu_dynamic = drawn(PILLARS, seed=1)
     mu_static[2, 2], mu_dynamic[2, 2] = 0.1, 0.05
     scene = contact, mu_static, mu_dynamic
     assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
 
 
-def test_no_more_is_skipped_than_the_first_snapshot_allows(prelude):
+def test_a_run_starts_before_its_first_snapshot(prelude):
     scene, times = drawn(PILLARS, seed=1), [4e-6, 1e-4]
     skipping = simulate(*scene, duration=1.2e-4, snapshot_times=times, prelude=prelude)
     plain = simulate(*scene, duration=1.2e-4, snapshot_times=times)
@@ -80,7 +80,7 @@ def test_no_more_is_skipped_than_the_first_snapshot_allows(prelude):
 
 
 @pytest.mark.parametrize("n_blocks", [12, 24, 48])
-def test_a_prelude_keeps_six_states_of_any_surface_and_of_them_what_moves(n_blocks, tmp_path):
+def test_a_prelude_stores_six_states_of_the_moving_blocks(n_blocks, tmp_path):
     contact = Pattern.pillars(n_blocks, 4, 2).contact
     fast = Material(slider_velocity=5e-3)  # soon over
     prelude = compute_prelude(contact, fast, sample_interval=2e-8)
@@ -94,7 +94,7 @@ def test_a_prelude_keeps_six_states_of_any_surface_and_of_them_what_moves(n_bloc
     assert (tmp_path / "prelude.npz").stat().st_size < 8 * numbers + few
 
 
-def test_each_state_serves_as_many_seeds_as_it_is_kept_for(prelude):
+def test_each_state_is_valid_for_its_share_of_seeds(prelude):
     seeds = 400
     start = [skipped(prelude, *drawn(PILLARS, seed)) for seed in range(seeds)]
     for samples, share in zip(prelude.samples, HOLDING, strict=True):
@@ -102,7 +102,7 @@ def test_each_state_serves_as_many_seeds_as_it_is_kept_for(prelude):
         assert np.mean(np.array(start) >= samples) > share - 4.0 * scatter
 
 
-def test_a_prelude_survives_its_file(prelude, tmp_path):
+def test_a_prelude_is_read_as_it_was_written(prelude, tmp_path):
     prelude.save(tmp_path / "prelude.npz")
     stored = Prelude.read(tmp_path / "prelude.npz")
     assert vars(stored).keys() == vars(prelude).keys()
@@ -136,15 +136,15 @@ def test_a_prelude_of_another_scene_is_refused(prelude, change):
         (Pattern.pillars(12, 4, 2), Material(pressure=5e7, slider_velocity=0.5)),
     ],
 )
-def test_a_prelude_ends_where_blocks_are_few_or_springs_fail_first(pattern, material):
+def test_a_prelude_ends_with_few_blocks_or_a_broken_spring(pattern, material):
     prelude = compute_prelude(pattern.contact, material)
     assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1
 
 
 @pytest.mark.parametrize("kind", ["lognormal", "weibull", "uniform"])
 @pytest.mark.parametrize("length", [0.0, 2e-5])
-def test_states_are_kept_for_the_distribution_that_is_drawn(kind, length):
-    """Alike blocks are more likely to hold together: a state then serves more than its share."""
+def test_stored_states_depend_on_the_distribution_of_thresholds(kind, length):
+    """With correlated thresholds a state is valid for more seeds than its share."""
     material = Material(mu_static_std=0.25, distribution=kind, correlation_length=length)
     how = {"material": material, "sample_interval": 4e-8}  # often looked at
     seeds, prelude = 300, compute_prelude(PILLARS.contact, **how)
@@ -158,7 +158,7 @@ def test_states_are_kept_for_the_distribution_that_is_drawn(kind, length):
     assert answer(plain) == answer(skipping)
 
 
-def test_known_thresholds_leave_one_state_the_last_that_holds():
+def test_known_thresholds_leave_only_the_last_valid_state():
     known = drawn(PILLARS, seed=3)
     prelude = compute_prelude(PILLARS.contact, mu_static=known[1])
     assert len(prelude.samples) == 1

@@ -1,4 +1,4 @@
-"""The public call: what it takes, what it refuses, what it answers."""
+"""`simulate`: its arguments, its errors and its results."""
 
 import math
 from dataclasses import replace
@@ -20,7 +20,7 @@ STABLE = {"leapfrog": 2.0 / PAPER.omega_max, "rk4": math.sqrt(8.0) / PAPER.omega
 
 @pytest.fixture(scope="module")
 def run():
-    """A patterned scene that ends by its own judgement."""
+    """A run without duration on a patterned surface."""
     return simulate(*drawn(PILLARS, seed=1))
 
 
@@ -58,7 +58,7 @@ def test_detachments_count_each_contact_block_once_at_its_time(run):
     assert (run.switches >= run.detachments).all()
 
 
-def test_means_and_extremes_are_those_of_the_fields(run):
+def test_means_and_extremes_follow_from_the_fields(run):
     assert run.t_avg == pytest.approx(run.t_det[PILLARS.contact].mean(), rel=1e-14, abs=0)
     assert run.t_first == run.t_det[PILLARS.contact].min()
     assert run.static_friction == run.force.max() / run.normal_force
@@ -96,13 +96,13 @@ def test_a_snapshot_is_the_end_of_a_shorter_run():
         assert same(long, short, samples=len(short.time))
 
 
-def test_what_lies_off_the_contact_is_not_read():
+def test_coefficients_outside_the_contact_are_ignored():
     contact, *mu = drawn(PILLARS, seed=1)
     blank = [np.where(contact, m, np.nan) for m in mu]
     assert same(simulate(contact, *mu, duration=1.8e-4), simulate(contact, *blank, duration=1.8e-4))
 
 
-def test_coefficients_and_masks_of_any_kind_of_number_are_taken():
+def test_coefficients_and_masks_may_have_any_numeric_type():
     contact, mu_static, _ = drawn(PILLARS, seed=1)
     mu_dynamic = np.full((N, N), 0.6)
     fields = simulate(contact, mu_static, mu_dynamic, duration=1.5e-4)
@@ -127,8 +127,8 @@ def test_a_run_ends_after_the_last_detachment_and_the_first_minimum(run):
     assert same(run, before, samples=len(before.time))
 
 
-def test_a_force_that_merely_ripples_ends_with_its_first_ripple():
-    """mu_d = mu_s: the blocks let go without a drop, and swing by K_s v/omega about mu_d F_n."""
+def test_a_run_with_small_oscillations_ends_after_the_first():
+    """mu_d = mu_s: without a stress drop, blocks oscillate by K_s v/omega about mu_d F_n."""
     run = simulate(*uniform(2, 0.6, 0.6))
     ripple = PAPER.k_s * PAPER.slider_velocity / PAPER.omega_min / PAPER.block_load
     assert run.static_friction == pytest.approx(0.6 + ripple, abs=ripple)
@@ -137,8 +137,8 @@ def test_a_force_that_merely_ripples_ends_with_its_first_ripple():
     assert 0.0 < run.time[-1] - run.t_first < period + (PAUSE + 1) * 2e-7
 
 
-def test_a_force_that_never_drops_is_followed_half_as_long_again():
-    """Overdamped, gamma > 2 omega: the force creeps up to mu_d F_n + gamma m v for good."""
+def test_a_run_whose_force_never_drops_lasts_half_as_long_again():
+    """Overdamped, gamma > 2 omega: the force tends to mu_d F_n + gamma m v from below."""
     thick = Material(gamma=1e8)
     run = simulate(*uniform(2, 0.6, 0.6), material=thick)
     assert first_minimum(run.force) is None
@@ -197,9 +197,12 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
     ("change", "message"),
     [
         ({"contact": array(True, bool, (2,))}, r"contact must have the shape \(N_y, N_x\)"),
-        ({"contact": array(True, bool, (2, 5000))}, r"the shape \(2, 5000\); .* goes up to 4096"),
+        (
+            {"contact": array(True, bool, (2, 5000))},
+            r"the shape \(2, 5000\); .* may have at most 4096",
+        ),
         ({"contact": array(True, bool, (0, 2))}, "contact is False everywhere"),
-        ({"periodic": True}, r"shape \(2, 2\); with periodic edges each side must hold at least 3"),
+        ({"periodic": True}, r"shape \(2, 2\); with periodic edges each side must have at least 3"),
         ({"contact": array(False, bool)}, "contact is False everywhere"),
         ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape \(2, 2\)"),
         ({"mu_dynamic": array(0.6, shape=(1,))}, r"mu_dynamic must have the shape \(2, 2\)"),
@@ -218,12 +221,12 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
         ({"duration": -1.0}, "duration must be finite and positive"),
         ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
-        ({"snapshot_times": [4e-7, 2e-7]}, "snapshot_times must rise"),
-        ({"snapshot_times": [2e-7, 2e-7]}, "snapshot_times must rise"),
+        ({"snapshot_times": [4e-7, 2e-7]}, "snapshot_times must be in ascending order"),
+        ({"snapshot_times": [2e-7, 2e-7]}, "snapshot_times must be in ascending order"),
         ({"snapshot_times": [4e-6]}, "snapshot_times must lie within the duration"),
     ],
 )
-def test_arguments_that_make_no_sense_are_refused_by_name(change, message):
+def test_invalid_arguments_are_refused_by_name(change, message):
     with pytest.raises(ValueError, match=message):
         pull(**change)
 
@@ -248,7 +251,7 @@ def test_a_step_is_stable_up_to_the_limit_of_the_highest_mode(integrator):
 
 @pytest.mark.parametrize("integrator", STABLE)
 def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
-    """Under a thousand times the load, a block slides by several spacings when it lets go."""
+    """Under a thousand times the load, a block slips by several spacings when it detaches."""
     heavy = Material(pressure=5e7, slider_velocity=0.5)
     scene = flat(4, seed=1)
     with pytest.raises(SimulationError, match=r"at t = .* block \(y, x\) = \(\d, \d\)") as failure:
@@ -258,7 +261,7 @@ def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
     assert first < time < 1.1 * first
 
 
-def test_snapshots_do_not_change_when_a_run_ends(run):
+def test_snapshots_do_not_change_the_end_of_a_run(run):
     end = run.time[-1]
     times = [round(end / 2e-7 - k) * 2e-7 for k in (13, 7, 3)]
     watched = simulate(*drawn(PILLARS, seed=1), snapshot_times=times)
@@ -266,7 +269,7 @@ def test_snapshots_do_not_change_when_a_run_ends(run):
     assert len(watched.snapshots) == 3
 
 
-def test_a_run_goes_on_until_its_last_snapshot(run):
+def test_a_run_lasts_until_its_last_snapshot(run):
     scene = drawn(PILLARS, seed=1)
     late = round(run.time[-1] / 2e-7 + 3 * PAUSE + 1) * 2e-7
     watched = simulate(*scene, snapshot_times=[1e-4, late])
@@ -277,13 +280,13 @@ def test_a_run_goes_on_until_its_last_snapshot(run):
     assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
 
 
-def test_a_run_says_what_it_is_in_one_line(run):
+def test_a_run_is_summarised_in_one_line(run):
     said = f"static friction {run.static_friction:.4f}, t_max {1e6 * run.t_max:.1f} µs"
     assert repr(run) == f"<12 x 12 blocks: {said}, t_avg {1e6 * run.t_avg:.1f} µs>"
     assert repr(pull()).endswith("t_max 2.0 µs, nothing has detached>")
 
 
-def test_progress_counts_samples_on_stderr_where_asked_to(capsys):
+def test_progress_is_shown_on_stderr_only_on_request(capsys):
     plain, counted = pull(), pull(progress=True)
     said = capsys.readouterr()
     assert "10/10" in said.err

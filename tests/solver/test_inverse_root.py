@@ -12,7 +12,7 @@ SMALLEST, LARGEST = np.finfo(float).smallest_normal, np.finfo(float).max
 
 @kernel
 def fill(found, x):
-    """As the integrators compute it: in a loop that the compiler makes vectors of."""
+    """Compute it as the integrators do, in a vectorised loop."""
     for i in range(len(x)):
         found[i] = inverse_root(x[i])
 
@@ -32,29 +32,29 @@ def units_off(x):
 
 
 def test_two_octaves_are_exact_to_rounding():
-    """All others have the same digits: the guess takes the exponent as it is.
+    """All other octaves have the same digits, since the first estimate is exact in the exponent.
 
     The last step rounds three times, each by half a unit at most; its own error is far below.
     """
     assert units_off(np.geomspace(1.0, 4.0, 5000)).max() <= 1.5
 
 
-def test_every_normal_number_will_do():
+def test_the_error_bound_holds_for_all_normal_numbers():
     x = np.concatenate([np.geomspace(SMALLEST, LARGEST / 2.0, 2049), [SMALLEST, LARGEST]])
     assert units_off(x).max() <= 1.5
 
 
 @pytest.mark.parametrize("x", [0.0, 5e-324, 1e-310, 2e-308])
-def test_below_normal_numbers_it_stays_finite_and_friction_takes_no_more_than_its_part(x):
+def test_subnormal_numbers_give_a_finite_value_below_the_root(x):
     found = inverse_roots(np.array([x]))[0]
     assert 1e153 < found < 1e155
     assert found * np.sqrt(x) <= 1.0 + 1e-12
 
 
-def test_infinity_is_taken_for_the_largest_number():
-    """A block that fast has no direction to lose; friction takes next to nothing from it."""
+def test_infinity_counts_as_the_largest_number():
+    """For so fast a block the direction does not matter, and friction removes almost nothing."""
     assert 0.0 < inverse_roots(np.array([np.inf]))[0] < 1e-153
 
 
-def test_what_is_no_number_stays_none():
+def test_nan_stays_nan():
     assert np.isnan(inverse_roots(np.array([np.nan]))[0])

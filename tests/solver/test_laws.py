@@ -7,7 +7,7 @@ from numba import njit
 from springblock import Material
 from springblock.model.material import LAWS
 from springblock.solver import laws
-from springblock.solver.friction import slow_down
+from springblock.solver.friction import apply_friction
 from springblock.solver.laws import SlipWeakening, VelocityWeakening, law_of
 
 STATIC, DYNAMIC = 1.0, 0.6
@@ -16,17 +16,17 @@ SCALES = [1e-3, 0.1, 0.2, 1.0, 100.0]
 
 
 @njit
-def resistance(law, way, speed, share, static=STATIC, dynamic=DYNAMIC):
-    return laws.resistance(law, way, speed, share, static, dynamic)
+def resistance(law, s, speed, share, static=STATIC, dynamic=DYNAMIC):
+    return laws.resistance(law, s, speed, share, static, dynamic)
 
 
 @njit(error_model="numpy")  # as in the integrators: dividing by zero is no error there
 def after(law, w, v, f, static=STATIC, dynamic=DYNAMIC):
-    """Velocity that friction leaves of the trial velocity w, after v and under F_mot = f.
+    """Velocity after a step with friction, from trial velocity w, previous v, and F_mot = f.
 
-    The ways of two blocks are kept in between. Coulomb's law is None.
+    The law holds the slips of two blocks; Coulomb's law is None.
     """
-    return slow_down(law, 1, w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)[:2]
+    return apply_friction(law, 1, w[0], w[1], v[0], v[1], f[0], f[1], static, dynamic)[:2]
 
 
 def released(law, force, static=STATIC):
@@ -35,8 +35,8 @@ def released(law, force, static=STATIC):
     return after(law, f, (0.0, 0.0), f, static)
 
 
-def slip(d_c, *ways):
-    return SlipWeakening(np.array(ways or (0.0, 0.0)), 1.0 / d_c)
+def slip(d_c, *slips):
+    return SlipWeakening(np.array(slips or (0.0, 0.0)), 1.0 / d_c)
 
 
 def test_there_is_a_law_for_each_name():
@@ -50,19 +50,19 @@ def test_there_is_a_law_for_each_name():
 
 
 @pytest.mark.parametrize("law", [None, slip(0.5, 0.1, 0.2), VelocityWeakening(0.2)])
-def test_python_and_compiled_callers_get_the_same(law):
-    """Each law is chosen by its type, in its own way."""
-    for way, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
-        plain = laws.resistance(law, way, speed, share, STATIC, DYNAMIC)
-        assert plain == pytest.approx(resistance(law, way, speed, share), rel=1e-15)
+def test_python_and_compiled_callers_agree(law):
+    """Python and numba dispatch on the type of the law in different ways."""
+    for s, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
+        plain = laws.resistance(law, s, speed, share, STATIC, DYNAMIC)
+        assert plain == pytest.approx(resistance(law, s, speed, share), rel=1e-15)
     assert laws.state_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
-    laws.keep(law, 1, 0.5, 0.2, True)
+    laws.store_state(law, 1, 0.5, 0.2, True)
     assert laws.state_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 
-def test_friction_falls_linearly_along_the_way():
+def test_friction_falls_linearly_with_slip():
     law = slip(0.5)
-    found = [resistance(law, way, 0.0, 0.0) for way in (0.0, 0.125, 0.25, 0.5, 9.0)]
+    found = [resistance(law, s, 0.0, 0.0) for s in (0.0, 0.125, 0.25, 0.5, 9.0)]
     assert found == pytest.approx([1.0, 0.9, 0.8, 0.6, 0.6], rel=1e-15)
 
 
@@ -79,7 +79,7 @@ def test_nothing_weakens_where_mu_s_is_below_mu_d(law):
 
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("share", [-0.5, 0.5])
-def test_friction_is_that_at_the_mean_speed_which_it_takes_part_in(scale, share):
+def test_friction_is_that_at_the_mean_speed_which_depends_on_it(scale, share):
     """V = speed + share T(V), to rounding."""
     law = VelocityWeakening(scale)
     for speed in (0.55, 0.7, 3.0):
@@ -88,13 +88,13 @@ def test_friction_is_that_at_the_mean_speed_which_it_takes_part_in(scale, share)
         assert taken == pytest.approx(DYNAMIC + DROP / (1.0 + mean / scale), rel=1e-13)
 
 
-def test_of_two_speeds_the_larger_is_taken():
-    """T falls faster than 2 V rises: V = 0 would do as well, for a force at the threshold."""
+def test_of_two_solutions_the_larger_speed_holds():
+    """T falls faster than 2 V rises: for a force at the threshold, V = 0 is a solution, too."""
     taken = resistance(VelocityWeakening(0.05), 0.0, 0.5 * STATIC, -0.5)
     assert 0.5 * (STATIC - taken) == pytest.approx(DROP / 2.0 - 0.05, rel=1e-13)
 
 
-def test_a_block_stops_where_no_speed_will_do():
+def test_a_block_stops_if_there_is_no_solution():
     assert resistance(VelocityWeakening(0.05), 0.0, 0.4, -0.5) == np.inf
     assert after(VelocityWeakening(0.05), (0.5, 0.0), (0.3, 0.0), (0.2, 0.0)) == (0.0, 0.0)
 
@@ -106,17 +106,17 @@ def test_every_law_holds_a_block_up_to_its_static_threshold(law, force):
 
 
 @pytest.mark.parametrize("law", [slip(0.5), VelocityWeakening(0.3)])
-def test_beyond_it_a_block_leaves_gently(law):
+def test_just_beyond_the_threshold_a_block_starts_slowly(law):
     assert 1e-8 <= np.hypot(*released(law, 1.0 + 1e-8)) * (1.0 + 1e-6) <= 4e-8
 
 
 @pytest.mark.parametrize("law", [slip(1e-2), VelocityWeakening(1e-100)])
-def test_where_friction_weakens_within_a_step_it_leaves_with_the_whole_drop(law):
+def test_a_block_that_weakens_within_a_step_has_the_whole_stress_drop(law):
     """As under Coulomb's law, to the bit."""
     assert released(law, 1.0 + 1e-8) == released(None, 1.0 + 1e-8)
 
 
-def test_the_way_is_kept_until_the_block_stops_and_heals():
+def test_slip_accumulates_until_the_block_stops_and_heals():
     law = slip(0.5, 0.0, 0.1)
     speed = np.hypot(*after(law, (1.2, 1.6), (0.6, 0.8), (0.0, 0.0)))
     assert speed == pytest.approx(2.0 - 0.92, rel=1e-14)
@@ -127,23 +127,23 @@ def test_the_way_is_kept_until_the_block_stops_and_heals():
 
 
 @pytest.mark.parametrize("force", [1.0 + 1e-12, 1.5, 40.0])
-def test_beyond_the_threshold_coulombs_dynamic_friction_takes_its_part(force):
+def test_beyond_the_threshold_coulombs_dynamic_friction_acts(force):
     speed = force - DYNAMIC
     assert released(None, force) == pytest.approx((0.8 * speed, -0.6 * speed), rel=1e-14, abs=0)
 
 
 @pytest.mark.parametrize("force", [0.05, 0.3, 0.59])
-def test_a_block_with_mu_s_below_mu_d_stays_until_mu_d(force):
-    """Let go at mu_s, it would come to rest in the same instant: no flicker."""
+def test_a_block_with_mu_s_below_mu_d_detaches_at_mu_d(force):
+    """If it detached at mu_s, it would come to rest in the same instant, again and again."""
     assert released(None, force, static=0.05) == (0.0, 0.0)
 
 
-def test_a_block_with_mu_s_below_mu_d_leaves_gently():
+def test_a_block_with_mu_s_below_mu_d_starts_slowly():
     speed = np.hypot(*released(None, 0.6 + 1e-9, static=0.05))
     assert speed == pytest.approx(1e-9, rel=1e-6, abs=0)  # a difference of numbers near 0.6
 
 
-def test_without_friction_nothing_is_taken():
+def test_without_friction_the_velocity_is_unchanged():
     assert after(None, (1e-9, 2e-9), (-1.0, 0.0), (3.0, 0.0), 0.0, 0.0) == (1e-9, 2e-9)
 
 
@@ -161,26 +161,26 @@ def test_a_faster_block_loses_one_step_of_friction(before):
     assert kept == pytest.approx((0.6 * speed, -0.8 * speed), rel=1e-14, abs=0)
 
 
-def test_a_block_that_turns_back_sticks():
+def test_a_block_that_reverses_sticks():
     """At the instant of rest within the step, F_mot is within the static threshold."""
     assert after(None, (-0.7, 0.1), (0.2, 0.0), (-0.9, 0.1)) == (0.0, 0.0)
 
 
-def test_a_block_that_is_torn_back_slides_on():
-    """F_mot exceeds the static threshold at the instant of rest: there is nothing to hold it."""
+def test_a_block_that_reverses_under_a_large_force_slides_on():
+    """F_mot exceeds the static threshold at the instant of rest."""
     kept = after(None, (-0.8, 0.0), (0.2, 0.0), (-1.01, 0.0))
     assert kept == pytest.approx((-0.2, 0.0), rel=1e-14, abs=0)
 
 
-def test_a_block_that_turns_aside_slides_on():
+def test_a_block_that_changes_direction_slides_on():
     assert np.hypot(*after(None, (0.1, 1.2), (0.2, 0.0), (0.1, 0.9))) > 0.0
 
 
 def test_friction_opposes_motion_and_never_exceeds_its_law(rng):
     """For any motion and force: a sliding block loses mu_d F_n h/m, against its velocity.
 
-    It stops only where that would be too much, or where it turns back. Of a block that turns aside
-    friction opposes the mean velocity, neither half a step early nor half a step late.
+    It stops only if it has less than that to lose, or if it reverses. Friction opposes the mean
+    velocity of the step, so that it lags or leads neither by half a step.
     """
     motions = rng.normal(scale=[[1.0], [1.0], [2.0]], size=(1000, 3, 2))
     w, v, _ = motions.transpose(1, 0, 2)

@@ -1,4 +1,4 @@
-"""What the leapfrog leaves out changes no bit."""
+"""Skipping rows at rest and friction outside the contact changes no bit."""
 
 from dataclasses import replace
 
@@ -59,10 +59,10 @@ WEAKENING = {
 @pytest.mark.parametrize("band", [1, 2, 5, None])
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("surface", SURFACES)
-def test_rows_at_rest_are_left_alone_to_the_bit(surface, periodic, band):
-    """A run that keeps the peak of |F_mot| looks at every block in every step.
+def test_skipping_rows_at_rest_changes_no_bit(surface, periodic, band):
+    """The reference records the peak of |F_mot|, for which it computes all blocks in all steps.
 
-    Nor does it matter how many rows a band has; None is the solver's choice, here all of them.
+    Results do not depend on the rows per band, either; None is the default, here all rows.
     """
     all_rows, constants = start(SURFACES[surface], 0, keep_peak=True, periodic=periodic)
     awake_rows, _ = start(SURFACES[surface], 0, periodic=periodic)
@@ -76,8 +76,8 @@ def test_rows_at_rest_are_left_alone_to_the_bit(surface, periodic, band):
 
 @pytest.mark.parametrize("law", WEAKENING)
 @pytest.mark.parametrize("surface", SURFACES)
-def test_so_it_is_where_friction_weakens(surface, law):
-    """As if all rows slid at every step, with the same law."""
+def test_skipping_rows_at_rest_changes_no_bit_under_weakening_friction(surface, law):
+    """In the reference each call takes one step and begins with all rows awake."""
     awake, quick = (start(SURFACES[surface], 0, material=WEAKENING[law]) for _ in range(2))
     restless, constants = awake
     for k in range(4000):  # each call begins with all rows awake
@@ -89,7 +89,7 @@ def test_so_it_is_where_friction_weakens(surface, law):
 
 
 @pytest.mark.parametrize("band", [1, 2, 5])
-def test_peaks_are_kept_of_every_band(band):
+def test_peaks_are_recorded_in_every_band(band):
     whole, constants = start(SURFACES["pillars"], 0, keep_peak=True)
     banded, _ = start(SURFACES["pillars"], 0, keep_peak=True)
     follow(whole, constants, 400)
@@ -98,8 +98,8 @@ def test_peaks_are_kept_of_every_band(band):
     assert_same_to_the_bit(whole, banded, ("peak",))
 
 
-def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
-    """Its blocks are at rest and free of force: the slider alone can make them let go."""
+def test_a_row_at_rest_is_skipped_until_a_block_may_detach():
+    """Its blocks are at rest and free of force; only the slider loads them."""
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
     rows, blocks = leapfrog.make_rows(state.in_contact, False), state.blocks
@@ -119,7 +119,7 @@ def test_a_row_at_rest_costs_nothing_until_it_may_let_go():
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("moving", range(5))
 def test_a_moving_row_wakes_its_neighbours(moving, periodic):
-    """Across periodic edges, too: the row beyond the last one is the first."""
+    """Across periodic edges, the row beyond the last one is the first."""
     rows = leapfrog.make_rows(np.ones(5, bool), periodic)
     rows.sliding[:] = False
     rows.sliding[moving + 1] = 5
@@ -131,10 +131,10 @@ def test_a_moving_row_wakes_its_neighbours(moving, periodic):
 
 
 @pytest.mark.parametrize("surface", ["pillars", "grooves", "random"])
-def test_a_row_without_contact_skips_friction_to_the_bit(surface):
-    """As if it held contact: a block without threshold is not slowed.
+def test_skipping_friction_in_rows_without_contact_changes_no_bit(surface):
+    """In the reference all rows are treated as in contact; blocks outside it have no friction.
 
-    Sums over its blocks may be taken in another order, and differ by their rounding.
+    Sums over rows may be taken in another order and differ by rounding.
     """
     short, constants = start(SURFACES[surface], 2)
     assert not short.in_contact.all()

@@ -1,4 +1,4 @@
-"""Several cores: the same bits as one."""
+"""Several cores give the same bits as one."""
 
 from dataclasses import replace
 
@@ -33,7 +33,7 @@ def start(name, band_rows, **options):
 @pytest.mark.parametrize("band_rows", [1, 2, 7])
 @pytest.mark.parametrize("cores", [1, 2, 3, 40])
 def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
-    """However many bands a share holds: one, two, more."""
+    """With one, two or more bands per share."""
     alone, together = (start(name, band_rows, periodic=periodic) for _ in range(2))
     samples, others = (Samples.empty(STEPS // EVERY) for _ in range(2))
     assert leapfrog.advance(*alone, 0, STEPS, EVERY, samples) == (STEPS, -1, -1)
@@ -56,7 +56,7 @@ def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
         {"law": "velocity_weakening", "speed_scale": 0.1},
     ],
 )
-def test_so_it_is_where_friction_weakens(law, cores):
+def test_every_bit_is_as_on_one_core_under_weakening_friction(law, cores):
     how = {"material": replace(FAST, **law), "duration": 6e-6, "periodic": True}
     surface = SURFACES["pillared"], *draw_friction(30, seed=0)
     one, other = (simulate(*surface, **how, cores=k) for k in (1, cores))
@@ -65,7 +65,7 @@ def test_so_it_is_where_friction_weakens(law, cores):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
 
 
-def test_what_a_prelude_keeps_is_the_same():
+def test_peaks_of_a_prelude_are_as_on_one_core():
     peaks = []
     for cores in (1, 3):
         state, constants = start("pillared", 2, keep_peak=True)
@@ -87,7 +87,7 @@ def test_a_broken_spring_is_found_wherever_it_is(row, cores):
     assert max(abs(y - row), abs(x - 5)) <= 1  # it tears at its neighbours, too
 
 
-def test_a_realisation_and_its_prelude_take_several_cores():
+def test_a_realisation_from_a_prelude_is_as_on_one_core():
     pattern = Pattern.pillars(60, 20, 10)
     surface = pattern.contact, *draw_friction(60, seed=1)
     alone, together = (

@@ -1,4 +1,4 @@
-"""The same answer on any processor: vectors and fused operations change the last bits alone."""
+"""Different processors: vectors and fused operations change only the last bits."""
 
 import os
 import platform
@@ -28,7 +28,7 @@ np.savez(sys.argv[1], force=run.force, t_det=run.t_det, t_max=run.t_max)
 
 
 def test_any_processor_finds_the_same_run_up_to_its_peak(tmp_path):
-    """Also one without AVX and without fused multiply-adds."""
+    """Compared with a processor without AVX and fused multiply-adds."""
     file = tmp_path / "run.npz"
     environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
     subprocess.run([sys.executable, "-c", ELSEWHERE, str(file)], env=environment, check=True)

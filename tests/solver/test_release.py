@@ -1,20 +1,20 @@
-"""Releases within a step: where a block has been, and when it has let go."""
+"""Release times within a step, and the forces from which they are computed."""
 
 import numpy as np
 import pytest
 
 from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
-from springblock.solver.release import force_in, room, share_of_step
+from springblock.solver.release import force_in_patch, make_releases, release_share
 from springblock.solver.springs import Springs
 
-#: A block that hangs on the slider alone, by a spring of stiffness one.
+#: A block that is coupled only to the slider, by a spring of stiffness one.
 ALONE = Springs.of(0.0, 1.0)
 SLIDE = (0.1, 0.0)
 
 
 def surroundings(u_now, u_before):
-    """Room for one block in the middle of others that have not moved."""
-    released = room(1)
+    """Work arrays with one displaced block among others that have not moved."""
+    released = make_releases(1)
     released.now[:], released.before[:] = 0.0, 0.0
     released.now[0, 2, 2], released.before[0, 1, 1] = u_now, u_before
     return released
@@ -23,25 +23,25 @@ def surroundings(u_now, u_before):
 @pytest.mark.parametrize(("y", "x"), [(2, 2), (1, 3)])
 def test_the_force_in_a_patch_is_that_of_the_bands(y, x, rng):
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
-    found = force_in(u, y, x, *SPRINGS)
+    found = force_in_patch(u, y, x, *SPRINGS)
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u)[:, y, x], rtol=1e-12)
 
 
-def test_beyond_the_edges_nothing_pulls(rng):
-    """The middle of a patch at a corner of the surface, whose other blocks are not there."""
+def test_beyond_the_edges_there_are_no_springs(rng):
+    """The central block of the patch is at a corner of the surface."""
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 5, 5))
     corner = u.copy()
     corner[:, :2], corner[:, :, :2] = np.nan, np.nan
-    found = force_in(corner, 2, 2, *SPRINGS)
+    found = force_in_patch(corner, 2, 2, *SPRINGS)
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u[:, 2:, 2:])[:, 0, 0], rtol=1e-12)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
-def test_the_share_is_where_an_even_rise_meets_the_threshold(share):
+def test_the_share_is_where_a_linear_rise_reaches_the_threshold(share):
     """The slider is at 1 now and was at 0.9; the block has not moved."""
-    found = share_of_step(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
+    found = release_share(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
     assert found == pytest.approx(share, abs=1e-14)
 
 
-def test_a_block_that_felt_more_before_was_moving_then():
-    assert np.isnan(share_of_step(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
+def test_a_block_beyond_its_threshold_one_step_earlier_was_sliding():
+    assert np.isnan(release_share(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))

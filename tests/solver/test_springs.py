@@ -1,4 +1,4 @@
-"""The springs of the lattice against exact arithmetic and the laws that any spring obeys."""
+"""Springs of the lattice against exact arithmetic, and their symmetries."""
 
 import mpmath
 import numpy as np
@@ -69,8 +69,8 @@ def test_the_closed_form_is_exact_to_rounding_at_any_strain(q):
 def test_forces_are_exact_to_the_rounding_of_differences(amplitude, rng):
     """Displacements of size a round by a·eps in each difference; eight springs meet in a block.
 
-    The series adds its own error to each of them. No digit depends on the strain: 1 - L/r would
-    leave but four of them at a strain of 1e-12.
+    The series adds its error to each of them. The error does not depend on the strain: 1 - L/r
+    would have only four correct digits at a strain of 1e-12.
     """
     u = amplitude * rng.uniform(-1.0, 1.0, (2, N, N))
     each = 4 * EPS * amplitude + SERIES_ERROR * min(amplitude, SERIES_RANGE)
@@ -92,10 +92,10 @@ def test_series_and_closed_form_meet_at_the_border(side, beside):
     ("spring", "swung", "pivot"),
     [("north", (0, 1), (1, 0)), ("north-east", (1, 1), (1, 0)), ("north-west", (0, 1), (0, 0))],
 )
-def test_one_spring_out_of_range_calls_for_the_closed_form(spring, swung, pivot):
-    """Of four blocks one swings about another: one spring from the first row changes its length.
+def test_one_spring_out_of_range_needs_the_closed_form(spring, swung, pivot):
+    """One of four blocks rotates about another, which changes one spring from the first row.
 
-    One from the second row does too, the only one there: the eastern one.
+    It also changes the eastern spring, the only one, from the second row.
     """
     arm = complex(*swung) - complex(*pivot)
     moved = arm * (np.exp(0.3j) - 1.0)
@@ -143,8 +143,8 @@ def test_forces_of_a_mirror_image_are_the_mirror_image(rng):
 
 
 @pytest.mark.parametrize("move", [(-0.51, 0.0), (1.01, 0.0), (np.nan, 0.0), (0.0, np.inf)])
-def test_a_spring_that_no_longer_holds_is_found(move):
-    """Blocks 2 to 4 of every row move away from block 1: its east spring is the first to go."""
+def test_a_broken_spring_is_found(move):
+    """Blocks 2 to 4 of every row move away from block 1: its eastern spring breaks first."""
     u = np.zeros((2, N, N))
     u[0, :, 2:], u[1, :, 2:] = move
     with breaks(0, 1):

@@ -1,4 +1,4 @@
-"""One file to deposit: what is in it, what it says of itself, and that nobody contradicts it."""
+"""Archives of studies: contents, metadata, and their validity."""
 
 import hashlib
 import subprocess
@@ -92,7 +92,7 @@ def test_an_unpacked_archive_can_be_packed_again(clone, tmp_path):
     ("missing", "sentence"),
     [(".git", "neither a clone of the study nor"), ("results/tables", "run the study first")],
 )
-def test_what_is_no_finished_study_is_refused(clone, monkeypatch, missing, sentence):
+def test_an_unfinished_study_is_refused(clone, monkeypatch, missing, sentence):
     (clone / missing).rename(clone.parent / "elsewhere")
     monkeypatch.chdir(clone)
     outcome = CliRunner().invoke(main, ["archive", "results", "--output", "study.zip"])

@@ -1,4 +1,4 @@
-"""The configuration: what it expands to, and that its documentation keeps up with it."""
+"""The configuration: its expansion, its errors and its documentation."""
 
 import copy
 import shutil
@@ -87,7 +87,7 @@ def test_a_scene_of_two_groups_is_one_ensemble_with_the_larger_number_of_seeds()
     assert ensembles(PAPER | {"scenes": {"a": whole, "b": decimal}})["b"][0].scene.direction == "15"
 
 
-def test_numbers_that_come_as_text_are_numbers():
+def test_numbers_given_as_text_are_converted():
     """YAML takes 1e-8 for text, and Snakemake all within an option."""
     text = {"step": "1e-8", "results": "2024", "scenes": {"flat": {"seeds": "3", "add": "null"}}}
     read = {"step": 1e-8, "results": "2024", "scenes": {"flat": {"seeds": 3, "add": None}}}
@@ -99,11 +99,11 @@ def test_numbers_that_come_as_text_are_numbers():
 
 @pytest.mark.parametrize("added", [3, 2**63, ["scenes"], "true"])
 def test_only_keys_can_be_added(added):
-    with pytest.raises(ValueError, match=r"^add is .*; it may hold keys of the configuration"):
+    with pytest.raises(ValueError, match=r"^add must hold keys of the configuration, not "):
         completed(PAPER | {"add": added})
 
 
-def test_lists_can_be_continued_without_being_said_again():
+def test_lists_can_be_extended():
     further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
     whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
     check(whole, SCHEMA)
@@ -156,30 +156,30 @@ def test_masks_are_an_axis_of_a_grid(surfaces):
     ("grid", "sentence"),
     [
         ({"mask": "absent.npy"}, "absent.npy does not exist"),
-        ({"mask": "broken.png"}, "broken.png is neither an image nor an array"),
+        ({"mask": "broken.png"}, "broken.png is neither an image nor a NumPy array"),
         (
             {"mask": ["corner.npy", "again/corner.npy"]},
             r"describe the same surface corner-\w{8}",
         ),
         ({"mask": []}, "scenes.own.mask is not valid"),
-        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be given together with a topogr"),
-        ({"bearing_area": 0.5}, "scenes.own: bearing_area needs a topography"),
+        ({"mask": "corner.npy", "height": 1e-6}, "mask cannot be combined with topogr"),
+        ({"bearing_area": 0.5}, "scenes.own: bearing_area needs topography"),
         ({"topography": "absent.opd", "height": 1e-6}, "absent.opd does not exist"),
         ({"topography": "strip.npy", "bearing_area": 1.5}, "bearing_area is not valid: 1.5"),
         ({"mask": "corner.npy", "mu_static": "weak.npy"}, r"weak-\w{8} must be finite and not neg"),
         ({"mask": "corner.npy", "seeds": None}, "scenes.own: 'seeds' is a required property"),
         (
             {"mask": "corner.npy", "mu_static": "strong.npy", "mu_dynamic": "strong.npy"},
-            "seeds is 4, but nothing is drawn: leave it out, or say 1",
+            "seeds must be 1, since no coefficients are drawn, not 4",
         ),
         ({"material": {"distribution": ["gauss"]}}, "distribution.0 is not valid: 'gauss'"),
-        ({"material": {"correlation_length": [1.0]}}, "own: correlation_length = 1.0 m must not"),
-        ({"n_blocks": [5000]}, "scenes.own: N is 5000; the solver goes up to 4096"),
-        ({"edges": "periodic", "n_rows": [2]}, "periodic edges each side must hold at least 3"),
+        ({"material": {"correlation_length": [1.0]}}, "own: correlation_length must be at most"),
+        ({"n_blocks": [5000]}, "scenes.own: N must be at most 4096, not 5000"),
+        ({"edges": "periodic", "n_rows": [2]}, "periodic edges each side must have at least 3"),
         ({"edges": "closed"}, "scenes.own.edges is not valid: 'closed'"),
     ],
 )
-def test_so_it_is_of_a_surface_of_ones_own(surfaces, grid, sentence):
+def test_errors_in_surfaces_from_files_name_the_key(surfaces, grid, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         check(surfaces(**grid), SCHEMA)
     assert "\n" not in str(refusal.value)
@@ -199,20 +199,22 @@ def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
 def test_the_papers_groups_hold_its_own_surfaces(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     for group in ("flat", "grooves"):
-        with pytest.raises(ValueError, match=f"scenes.{group}: its surfaces must be the paper's"):
+        with pytest.raises(
+            ValueError, match=f"scenes.{group}: surfaces in this group must be square"
+        ):
             check(changed(f"scenes.{group}", to=own), SCHEMA)
 
 
 def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
-    """As if their digests met, which they do once in four thousand million."""
+    """As if their digests were equal, which has a probability of one in four thousand million."""
     one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
     both = PAPER | {"scenes": {"one": one, "other": other}}
     monkeypatch.setattr("springblock.model.blockmap._name", lambda file, values: "same-00000000")
-    with pytest.raises(ValueError, match=r"diagonal.npy are both called same-00000000"):
+    with pytest.raises(ValueError, match=r"diagonal.npy have the same name same-00000000"):
         ensembles(both)
 
 
-def test_one_realisation_is_all_where_nothing_scatters():
+def test_one_realisation_suffices_without_scatter():
     """A correlation needs three, and the paper's figures need correlations."""
     scatter = {"mu_static_std": [0.0], "mu_dynamic_std": [0.0]}
     grid = {"n_p": [6], "n_s": [6], "material": scatter, "direction": ["x"], "seeds": 1}
@@ -222,7 +224,9 @@ def test_one_realisation_is_all_where_nothing_scatters():
         ("own", {"seeds": 2}),
         ("pillars", {}),
     ):
-        with pytest.raises(ValueError, match="pillars of 6 blocks need 3 seeds or more"):
+        with pytest.raises(
+            ValueError, match="seeds must be at least 3, for correlations on pillars of 6"
+        ):
             check(changed(f"scenes.{group}", to=grid | changes), SCHEMA)
 
 
@@ -238,30 +242,34 @@ def test_any_change_changes_the_digest():
         ("integrator", "euler", "integrator is not valid: 'euler'.*leapfrog"),
         ("step", "fast", "step is not valid: 'fast'"),
         ("step", 9.6e-8, "leapfrog needs less than 9.56.*e-08 s"),
-        ("material.mu_statik", 1.0, "material: 'mu_statik' is no constant; there are .*mu_static"),
+        (
+            "material.mu_statik",
+            1.0,
+            "material: unknown constant 'mu_statik'; choose from .*mu_static",
+        ),
         ("scenes.flat.direction", ["z"], "scenes.flat.direction.0 is not valid"),
         ("scenes.flat.direction", [float("nan")], "flat: direction must be .* finite"),
         ("scenes.flat.duration", 1e-8, "scenes.flat: duration must be at least one"),
         ("scenes.pillars.n_p", [7] * 7, "scenes.pillars.n_p is not valid"),
-        ("scenes.pillars.seeds", [20, 60], "pillars: seeds lists 2 numbers for 7 values"),
+        ("scenes.pillars.seeds", [20, 60], "pillars: seeds must have one number per n_p, 7, not 2"),
         ("scenes.pillars.n_p", list(range(7, 14)), r"pillars: the period n_p \+ n_s = 7 \+ 7"),
         ("scenes.grooves.0.n_s2", [58], "scenes.grooves: a groove of 58 .* of 58"),
-        ("scenes.third_level.0.np", [9], "third_level.0 has the unknown key 'np'"),
+        ("scenes.third_level.0.np", [9], "third_level.0: unknown key 'np'"),
         ("scenes.third_level.1.along_3", "z", "third_level.1.along_3 is not valid: 'z'"),
         ("scenes.angles", [], "scenes.angles is not valid"),
-        ("scenes.flat.material", {"speed": [1.0]}, "scenes.flat: 'speed' is no constant"),
+        ("scenes.flat.material", {"speed": [1.0]}, "scenes.flat: unknown constant 'speed'"),
         ("scenes.flat.material", {"gamma": [-1.0]}, "flat: Material.gamma must be finite"),
         ("scenes.flat.material", {"law": ["slip_weakening"]}, "slip_distance must be positive"),
         ("scenes.flat.step", [1e-6], "flat: step = 1e-06 s is unstable"),
         ("scenes.flat.n_s", [5], "scenes.flat: n_s = 5 needs n_p"),
-        ("scenes.size_flat.n_blocks", [120], "n_blocks = 120.* is given two durations"),
+        ("scenes.size_flat.n_blocks", [120], "duration must be the same wherever n_blocks = 120"),
         ("scenes.grooves", PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
         ("scenes.pillars", None, "scenes.pillars is not valid: None"),
         ("figures.sweeps.angle.groups", ["speeds"], "groups: unknown group 'speeds'; choose from"),
         ("figures.sweeps.angle.over", "speed", "over: unknown axis 'speed'; choose one .*n_p"),
         ("step", 1e-30, "scenes.flat: step = 1e-30 s is too short for a loading time"),
         ("material.pressure", 1e300, "scenes.flat: .* too short for a loading time of 2.667e"),
-        ("material.spacing", 1e-300, "material: these constants take Material.k_s beyond"),
+        ("material.spacing", 1e-300, "material: these constants give Material.k_s outside"),
         ("realisations_per_job", 10.0, "realisations_per_job is not valid: 10.0 is not of type"),
         ("n_blocks", 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
         ("first_seed", 2**62, "first_seed is not valid: 4611686018427387904 is greater than"),
@@ -269,7 +277,7 @@ def test_any_change_changes_the_digest():
         ("scenes.pillars.seeds", [10**9] * 7, "seeds.6 is not valid: 1000000000 is greater"),
         ("figures.figure_7.n_p", 3, "figure_7.n_p is not valid: 3.*at least 6"),
         ("scenes.flat", {"seeds": 3}, "scenes.flat: 'direction' is a required property"),
-        ("stepp", 1e-8, "the configuration has the unknown key 'stepp'"),
+        ("stepp", 1e-8, "the configuration: unknown key 'stepp'"),
         ("sample_interval", 2.5e-8, "sample_interval must be a multiple of step"),
         ("material.density", -1.0, "material.density is not valid: -1.0"),
         ("material.law", "stribeck", "^material: .*law must be one of .*FILE.py, not 'stribeck'"),

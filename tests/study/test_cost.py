@@ -1,4 +1,4 @@
-"""What jobs ask a queue for: enough for the largest surface, and little for a small one."""
+"""Requests to a queue: enough for the largest surface, and little for a small one."""
 
 import pytest
 
@@ -26,7 +26,7 @@ def test_a_run_ends_about_when_its_surface_is_loaded(scene):
     assert 0.2 < run.time[-1] / Setup().loading_time(scene.contact, Material().mu_static) < 1.4
 
 
-def test_more_is_asked_for_with_more_to_do():
+def test_requests_grow_with_the_work():
     """N, realisations, a smaller step and four force evaluations a step."""
     large = Scene(240, 20, 20)
     asked = minutes(large, Setup(), None, 10)
@@ -38,7 +38,7 @@ def test_more_is_asked_for_with_more_to_do():
     assert twice == pytest.approx(2.0 * once)
 
 
-def test_a_small_surface_asks_for_a_minute_and_the_largest_for_its_hours():
+def test_requests_range_from_a_minute_to_hours():
     assert minutes(Scene(12, 3, 3), Setup(), None, 10) == 1
     largest = Scene(4000, 20, 20)
     hours = 10 * cpu_seconds(largest, Setup(), None) / 3600.0

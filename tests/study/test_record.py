@@ -1,4 +1,4 @@
-"""The record of a results folder, and what it refuses where Snakemake's memory is lost."""
+"""The record of a results folder, which replaces lost metadata of Snakemake."""
 
 import shutil
 from pathlib import Path
@@ -31,7 +31,7 @@ def test_results_of_another_configuration_or_code_are_refused_without_memory(mon
         record.refuse_unknown(RESULTS, BEFORE)
 
 
-def test_whatever_a_folder_was_made_under_counts():
+def test_all_configurations_of_a_folder_count():
     record.begin(RESULTS, OTHER, touched=False)
     shutil.rmtree(".snakemake")
     with pytest.raises(ValueError, match="another configuration"):
@@ -39,7 +39,7 @@ def test_whatever_a_folder_was_made_under_counts():
 
 
 def test_batches_of_another_size_are_refused():
-    with pytest.raises(ValueError, match=r"^realisations_per_job: results was made with 2, and"):
+    with pytest.raises(ValueError, match=r"^realisations_per_job must remain 2, "):
         record.refuse_unknown(RESULTS, BEFORE | {"realisations_per_job": 3})
 
 

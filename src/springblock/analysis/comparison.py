@@ -1,4 +1,4 @@
-"""Where two tables of realisations or correlations differ: row by row, or in their means."""
+"""Differences between two tables of realisations or correlations, by row or in their means."""
 
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -9,46 +9,46 @@ import pyarrow as pa
 from springblock.io.rows import Row
 from springblock.model.scene import COLUMNS
 
-_KEYS = [*COLUMNS, "seed", "side", "r"]  #: what tells rows apart, where a table has it
+_KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns that identify a row
 _OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
-Key = tuple[tuple[str, object], ...]  #: names and values that tell rows apart
-_LEVEL = 0.95  #: of all intervals of a table together
+Key = tuple[tuple[str, object], ...]  #: names and values that identify a row
+_LEVEL = 0.95  #: joint confidence level of all comparisons of a table
 
 
 class Difference(NamedTuple):
-    """How a column of two tables differs, over the rows that both have."""
+    """Difference of a column in the rows that two tables have in common."""
 
     column: str
-    rows: int  #: in which it differs, NaN being equal to NaN
-    largest: float  #: modulus of the difference; NaN where it is not a number
-    relative: float  #: largest modulus over the modulus of the first; NaN as well
+    rows: int  #: number of rows in which it differs; NaN equals NaN
+    largest: float  #: largest absolute difference; NaN if the values are not numbers
+    relative: float  #: largest difference relative to the first value; likewise
 
 
 class Comparison(NamedTuple):
-    """How two tables differ."""
+    """Differences of two tables."""
 
-    both: int  #: rows that both have
-    first: int  #: rows that only the first has
+    both: int  #: number of rows in both tables
+    first: int  #: number of rows in the first table only
     second: int
-    differences: list[Difference]  #: of columns that are not the same to the bit
+    differences: list[Difference]  #: columns that are not equal to the bit
 
     @property
     def same(self) -> bool:
-        """Whether both hold the same, to the bit."""
+        """Whether both tables are equal to the bit."""
         return not (self.first or self.second or self.differences)
 
 
 def compare(first: pa.Table, second: pa.Table) -> Comparison:
-    """Compare rows of the same scene, seed, side and distance; without such columns, by place.
+    """Compare rows of the same scene, seed, side and distance; without such columns, by position.
 
     Raises
     ------
     ValueError
-        Where the columns are not the same.
+        If the columns are not the same.
     """
     if first.column_names != second.column_names:
         odd = sorted({*first.column_names} ^ {*second.column_names})
-        raise ValueError(f"they hold other columns: {', '.join(odd) or 'in another order'}")
+        raise ValueError(f"the tables differ in their columns: {', '.join(odd) or 'the order'}")
     places, others = _places(first), _places(second)
     common = [key for key in places if key in others]
     ours = first.take(pa.array([places[key] for key in common], pa.int64()))
@@ -63,7 +63,7 @@ def compare(first: pa.Table, second: pa.Table) -> Comparison:
 
 
 def _places(table: pa.Table) -> dict[tuple[object, ...], int]:
-    """Row of each key."""
+    """Row number of each key."""
     keys = [name for name in _KEYS if name in table.column_names]
     if not keys:
         return {(i,): i for i in range(table.num_rows)}
@@ -94,23 +94,23 @@ def _values(value: pa.Scalar) -> object:
 
 
 class Discrepancy(NamedTuple):
-    """A value that two studies have found, and how often chance alone would set it so far apart."""
+    """A value in two studies, and the probability that chance alone makes them differ as much."""
 
     name: str
     first: float
     second: float
-    p_value: float  #: probability that two studies of one truth differ as much, or more
+    p_value: float  #: probability of a difference at least as large, if the true values agree
 
     def __str__(self) -> str:
         return f"{self.name}: {self.first:.5g} and {self.second:.5g}, p = {self.p_value:.1e}"
 
 
 def discrepancies(first: pa.Table, second: pa.Table) -> list[Discrepancy]:
-    """Values of the same scene in two tables whose difference has an interval.
+    """Return the values of each scene in two tables, with the p-value of their difference.
 
-    Means of realisations are compared by Welch's test (1947, doi:10.1093/biomet/34.1-2.28),
-    values that have limits of 95 % by these, as if they were normal. Studies of the same seeds
-    scatter less than the tests allow for.
+    Means of realisations are compared by Welch's test (1947, doi:10.1093/biomet/34.1-2.28), values
+    with 95 % limits by these, as if they were normally distributed. Studies of the same seeds
+    differ less than the tests assume.
     """
     columns = {*first.column_names} & {*second.column_names}
     if {"seed", *_OBSERVABLES} <= columns:
@@ -120,7 +120,7 @@ def discrepancies(first: pa.Table, second: pa.Table) -> list[Discrepancy]:
 
 
 def significant(found: list[Discrepancy]) -> list[Discrepancy]:
-    """Those that differ by more than 95 % intervals of all of them together allow (Bonferroni)."""
+    """Return the significant differences, at a joint level of 95 % (Bonferroni)."""
     return [each for each in found if each.p_value < (1.0 - _LEVEL) / len(found)]
 
 
@@ -139,7 +139,7 @@ def _means(first: pa.Table, second: pa.Table) -> Iterator[Discrepancy]:
 
 
 def _by_key(table: pa.Table, keys: Iterable[str]) -> dict[Key, list[Row]]:
-    """Rows that hold the same values of these columns."""
+    """Group rows by the values of these columns."""
     found: dict[Key, list[Row]] = {}
     for row in table.to_pylist():
         found.setdefault(tuple((name, row[name]) for name in keys), []).append(row)

@@ -1,4 +1,4 @@
-"""Ensembles in tables of realisations: their means, and what changes between two tables."""
+"""Ensembles in tables of realisations: their means, and changes between two tables."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
@@ -10,21 +10,21 @@ from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, SETUP
 from springblock.model.material import expanded
 
-#: What a realisation is summed up by, in the order of the tables.
+#: Observables of a realisation, in the order of the tables.
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
 _SETUP = (*SCENE.names, *SETUP.names)
-#: Runs of one seed have the same coefficients where all of these are the same.
+#: Columns that determine, with the seed, the friction coefficients of a run.
 _THRESHOLDS = {"n_blocks", "n_rows", "edges", "distribution", "correlation_length"}
 _THRESHOLDS |= {name for name in _SETUP if name.startswith("mu_")}
 
-Names = Mapping[str, object]  #: what an ensemble is computed with, by name
+Names = Mapping[str, object]  #: scene and constants of an ensemble, by name
 
 
 class Ensemble(NamedTuple):
-    """Realisations of one scene, computed alike."""
+    """Realisations of one scene with the same constants."""
 
     names: Names
-    rows: list[Row]  #: by rising seed
+    rows: list[Row]  #: in ascending order of seeds
 
     @property
     def seeds(self) -> list[int]:
@@ -37,12 +37,12 @@ class Ensemble(NamedTuple):
 
 
 class Change(NamedTuple):
-    """What changes from one ensemble to another that is computed alike but for what tables say."""
+    """Change from an ensemble to that of the same names in another table."""
 
     names: Names
     first: Ensemble
     second: Ensemble
-    paired: bool  #: whether differences are taken seed by seed
+    paired: bool  #: whether differences are taken between runs of the same seed
 
     def of(self, observable: str) -> Interval:
         """Second minus first, with the 95 % interval of the mean difference."""
@@ -58,14 +58,14 @@ def _known(values: np.ndarray) -> np.ndarray:
 
 
 def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
-    """Gather rows of the table `realisations` that share all that they are computed with.
+    """Group rows of the table `realisations` by scene and constants, or by the names `by` only.
 
-    Or the names `by` alone. Realisations that several files hold count once.
+    Repeated realisations count once.
 
     Raises
     ------
     ValueError
-        Where rows have no such name.
+        If there is no such name.
     """
     found: dict[tuple[object, ...], Ensemble] = {}
     seen = set()
@@ -86,31 +86,31 @@ def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
 
 
 def _order(value: object) -> tuple[float, str]:
-    """Return a key that sorts numbers by size and texts after them."""
+    """Return a key that sorts numbers by size, and text after them."""
     return (float(value), "") if isinstance(value, int | float) else (np.inf, str(value))
 
 
 def _names(row: Row) -> dict[str, object]:
-    """What a run is computed with; constants of its own stand among all others."""
+    """Return scene and constants of a run by name, including varied constants."""
     known = expanded({name: row[name] for name in _SETUP})
     return {name: value for name, value in known.items() if name not in ("varied", "level")}
 
 
 def telling(members: Iterable[Names]) -> list[str]:
-    """Names whose values tell ensembles apart."""
+    """Return the names whose values differ between ensembles."""
     every = list(members)
     names = dict.fromkeys(name for each in every for name in each)
     return [name for name in names if len({str(each.get(name)) for each in every}) > 1]
 
 
 def mean(ensemble: Ensemble, observable: str) -> Interval:
-    """Mean over realisations with its 95 % interval; NaN limits of a single one."""
+    """Mean over realisations with its 95 % interval; its limits are NaN for a single one."""
     with np.errstate(invalid="ignore"):
         return mean_interval(_known(ensemble.values(observable)))
 
 
 def constants(members: Sequence[Ensemble]) -> dict[str, object]:
-    """Names that have one value in all ensembles, with the value."""
+    """Return the names that have the same value in all ensembles, with that value."""
     apart = set(telling(each.names for each in members))
     return {name: value for name, value in members[0].names.items() if name not in apart}
 
@@ -118,7 +118,7 @@ def constants(members: Sequence[Ensemble]) -> dict[str, object]:
 def changes(
     first: Sequence[Ensemble], second: Sequence[Ensemble]
 ) -> tuple[dict[str, tuple[object, object]], list[Change]]:
-    """Return the constants in which two tables differ, and the changes of what they share."""
+    """Return the constants in which two tables differ, and the changes of their ensembles."""
     one, other = constants(first), constants(second)
     differ = {
         name: (one[name], other[name]) for name in one if name in other and one[name] != other[name]

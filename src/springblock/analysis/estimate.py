@@ -1,11 +1,11 @@
-"""A statistic with its 95 % interval, and that interval at other levels."""
+"""Statistics with their confidence intervals, at 95 % and at other levels."""
 
 import math
 from dataclasses import dataclass
 
 from springblock.analysis.statistics import Interval, proportion_interval, students_t
 
-_MISS = 0.05  #: chance that one of several intervals misses its true value
+_MISS = 0.05  #: probability that any of several intervals misses its true value
 
 
 @dataclass(frozen=True)
@@ -15,20 +15,20 @@ class Estimate:
     value: float
     ci_low: float
     ci_high: float
-    n: int = 0  #: realisations of the smallest sample; 0 where chance plays no part
-    bounds: tuple[float, float] = (-math.inf, math.inf)  #: of what the statistic can be
+    n: int = 0  #: realisations of the smallest sample; 0 for a quantity without scatter
+    bounds: tuple[float, float] = (-math.inf, math.inf)  #: range of possible values
 
     @classmethod
     def of(cls, interval: Interval, n: int) -> "Estimate":
-        """Return the estimate that an interval of n realisations makes."""
+        """Return the estimate of an interval from n realisations."""
         mean, low, high = interval
         return cls(float(mean), float(low), float(high), n)
 
     def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
-        """Limits of an interval that is one of several which must all be right (Bonferroni).
+        """Limits for `together` simultaneous intervals (Bonferroni), at a joint level of 95 %.
 
-        Both arms grow as those of Student's t do, from 95 % to 1 - 0.05/together. With another
-        `n` they are those to expect of so many realisations with the same scatter.
+        Both sides of the interval are scaled like those of Student's t, from 95 % to
+        1 - 0.05/together. With another `n`, limits expected for n realisations of equal scatter.
         """
         if not self.n:
             return self.ci_low, self.ci_high
@@ -41,10 +41,10 @@ class Estimate:
 
 
 class Proportion(Estimate):
-    """A proportion of realisations, whose limits are exact at any level."""
+    """A proportion of realisations, with exact limits at any level."""
 
     def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
-        """Limits as those of any estimate, but never beyond 0 and 1."""
+        """Limits as in `Estimate.limits`, within 0 and 1."""
         n = n or self.n
         found = proportion_interval(round(self.value * n), n, 1.0 - _MISS / together)
         return float(found.low), float(found.high)

@@ -1,4 +1,4 @@
-"""Where the mean of a sample is lowest, and where it may be."""
+"""Position of the lowest mean among samples, with its uncertainty."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
@@ -8,22 +8,22 @@ from springblock.simulation.run import Array
 
 
 class Lowest(NamedTuple):
-    """The place of the lowest mean, and all places whose means cannot be told from it."""
+    """Position of the lowest mean, and all positions whose means do not differ significantly."""
 
     place: float
     alike: list[float]
 
     def __str__(self) -> str:
-        """Write the place, and the others in brackets."""
+        """Return the position, with the others in brackets."""
         others = ", ".join(f"{place:g}" for place in self.alike if place != self.place)
         return f"{self.place:g} (or {others})" if others else f"{self.place:g}"
 
 
 def lowest(samples: Mapping[Any, Array]) -> Lowest:
-    """Where the means of samples, by their places, are lowest.
+    """Return the position of the lowest mean of samples, given by position.
 
-    Nothing is interpolated between places. A mean is told from the lowest where the 95 % interval
-    of their difference, each by itself, leaves out zero.
+    There is no interpolation. A mean differs from the lowest if the 95 % interval of their
+    difference, without correction for multiple comparisons, excludes zero.
     """
     best = min(samples, key=lambda place: float(samples[place].mean()))
     apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
@@ -32,5 +32,5 @@ def lowest(samples: Mapping[Any, Array]) -> Lowest:
 
 
 def are_apart(minima: Iterable[Lowest]) -> bool:
-    """Whether no place is among those of all minima."""
+    """Return whether no position is common to all minima."""
     return not set.intersection(*(set(each.alike) for each in minima))

@@ -1,10 +1,10 @@
-"""What an ensemble shows: means with their intervals, pillars, load peaks.
+"""Statistics of ensembles: means with their intervals, detachment on pillars, load peaks.
 
-Intervals are 95 % intervals over realisations. Those of means are Student's; other statistics have
-bias-corrected and accelerated bootstrap intervals (BCa; Efron & Tibshirani 1993,
-doi:10.1201/9780429246593, chapter 14). Of 10 or 20 realisations both cover the truth more nearly
-as often as they say than bootstrap percentiles. The observables are those of Costagliola, Bosia &
-Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
+Intervals are 95 % intervals over realisations: Student's t for means, bias-corrected and
+accelerated bootstrap intervals for other statistics (BCa; Efron & Tibshirani 1993,
+doi:10.1201/9780429246593, chapter 14). With 10 or 20 realisations, the coverage of both is closer
+to 95 % than that of bootstrap percentiles. The observables are those of Costagliola, Bosia & Pugno
+2022, doi:10.1016/j.ijsolstr.2022.111525.
 """
 
 import warnings
@@ -21,10 +21,10 @@ from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
-_SUBSETS = 30  #: over which the width of an interval is averaged
-#: Force at a load peak over the largest, at least: after the peak it falls to two thirds or less.
+_SUBSETS = 30  #: number of subsets over which the width of an interval is averaged
+#: Least force of a load peak over the largest force; in sliding it is two thirds or less.
 _LOAD_PEAK = 0.9
-_PROMINENT = 0.01  #: prominence of a load peak over the largest force, at least
+_PROMINENT = 0.01  #: least prominence of a load peak over the largest force
 
 
 class Interval(NamedTuple):
@@ -36,8 +36,8 @@ class Interval(NamedTuple):
 
 
 def students_t(freedom: ArrayLike, level: float = _LEVEL) -> Array:
-    """Half an interval of this level in standard errors, by degrees of freedom."""
-    from scipy.special import stdtrit  # slow to load, and most jobs do without
+    """Half the width of an interval of this level in standard errors, by degrees of freedom."""
+    from scipy.special import stdtrit  # slow to import, and most jobs do not need it
 
     return stdtrit(freedom, 0.5 + level / 2.0)
 
@@ -45,8 +45,7 @@ def students_t(freedom: ArrayLike, level: float = _LEVEL) -> Array:
 def mean_interval(values: ArrayLike) -> Interval:
     """Mean over k realisations, (k, ...), with its 95 % interval of Student's t, (...).
 
-    A single realisation says nothing about its spread: its limits are NaN, as Student's t is
-    without a degree of freedom.
+    The limits are NaN for a single realisation, which leaves no degree of freedom.
     """
     values = np.asarray(values, dtype=float)
     mean = values.mean(axis=0)
@@ -57,8 +56,8 @@ def mean_interval(values: ArrayLike) -> Interval:
 def difference_interval(first: ArrayLike, second: ArrayLike) -> Interval:
     """Mean of the first sample minus that of the second, (k,) and (l,), with its 95 % interval.
 
-    The samples are independent and may differ in their variances (Welch 1947,
-    doi:10.1093/biomet/34.1-2.28). NaN limits where one of them is a single realisation.
+    The samples are independent and may have different variances (Welch 1947,
+    doi:10.1093/biomet/34.1-2.28). The limits are NaN if either is a single realisation.
     """
     samples = [np.asarray(sample, dtype=float) for sample in (first, second)]
     mean = samples[0].mean() - samples[1].mean()
@@ -80,9 +79,9 @@ def samples_interval(
 ) -> Interval:
     """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
 
-    `statistic` takes samples, (..., k), and their `axis`, and returns values, (...). Every sample,
-    of two realisations or more, is resampled by itself, in batches that decide what is drawn.
-    Limits are percentiles where no realisation alone changes anything.
+    `statistic` takes samples, (..., k), and their `axis`, and returns values, (...). Each sample,
+    of at least two realisations, is resampled separately; the resamples depend on `batch`. Limits
+    are percentiles if the statistic does not change when any one realisation is omitted.
     """
     samples = tuple(np.asarray(part) for part in samples)
     options = {"random_state": np.random.default_rng(0), "n_resamples": resamples, "batch": batch}
@@ -92,8 +91,8 @@ def samples_interval(
 def _bca(
     value: Array, samples: Sequence[Any], statistic: Callable[..., Array], **options: Any
 ) -> Interval:
-    """A value with its BCa limits, or percentiles where these do not exist."""
-    from scipy.stats import DegenerateDataWarning, bootstrap  # slow to load
+    """Return a value with its BCa limits, or with percentiles if these do not exist."""
+    from scipy.stats import DegenerateDataWarning, bootstrap  # slow to import
 
     options |= {"method": "BCa", "vectorized": True, "confidence_level": _LEVEL}
     with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
@@ -107,7 +106,7 @@ def _bca(
 
 def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
     """Proportion of k realisations, with the exact interval of Clopper and Pearson 1934."""
-    from scipy.stats import binomtest  # slow to load, and most jobs do without
+    from scipy.stats import binomtest  # slow to import, and most jobs do not need it
 
     low, high = binomtest(hits, k).proportion_ci(level)
     return Interval(np.array(hits / k), np.array(low), np.array(high))
@@ -116,7 +115,7 @@ def proportion_interval(hits: int, k: int, level: float = _LEVEL) -> Interval:
 def bootstrap_weights(k: int) -> Array:
     """Weights of k realisations in bootstrap resamples, (resamples, k); each row sums to 1.
 
-    Resamples of one realisation alone are left out: they have no variance.
+    Resamples that consist of a single realisation are omitted: they have no variance.
     """
     drawn = np.random.default_rng(0).multinomial(k, np.full(k, 1.0 / k), size=_RESAMPLES)
     return drawn[drawn.max(axis=1) < k] / k
@@ -125,10 +124,10 @@ def bootstrap_weights(k: int) -> Array:
 def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     """Any statistic of k realisations with its 95 % BCa interval, (...).
 
-    `statistic` turns sets of weights of the realisations, (b, k), each of sum 1, into values,
-    (b, ...). Realisations are drawn as wholes, so what belongs to one of them stays together.
-    Limits are percentiles where leaving out any one realisation changes nothing, and NaN below
-    three realisations.
+    `statistic` maps sets of weights of the realisations, (b, k), each of sum 1, to values,
+    (b, ...). Whole realisations are resampled, which preserves correlations within them. Limits are
+    percentiles if the statistic does not change when any one realisation is omitted, and NaN for
+    fewer than three realisations.
     """
 
     def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
@@ -145,14 +144,14 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
 
 
 def weights_of(drawn: NDArray[np.intp], k: int) -> Array:
-    """Weights, (b, k), of the realisations in each of b draws of their numbers, (b, n)."""
+    """Weights, (b, k), of the realisations in each of b resamples, given by index, (b, n)."""
     return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
 
 
 def half_widths(values: Array, sizes: Iterable[int]) -> dict[int, float]:
-    """Half the width of the interval of a mean over fewer of the k realisations, (k,), by number.
+    """Half the width of the interval of the mean, (k,), for samples of fewer realisations, by size.
 
-    Means over random subsets; numbers beyond k are left out.
+    Averages over random subsets; sizes above k are omitted.
     """
     rng = np.random.default_rng(0)
     widths: dict[int, float] = {}
@@ -174,13 +173,13 @@ def standard_error(values: Array) -> Array:
 
 
 def repeatability(fields: Array) -> Interval:
-    """Fraction of the variance over places that is the same in all k fields, (k, places).
+    """Fraction of the spatial variance that is common to all k fields, (k, places).
 
-    It is the mean covariance of two fields over their mean variance, the means of both taken
-    out: zero, but for scatter, where no place differs from another on average, and one where all
-    fields are alike (the intraclass correlation, Shrout & Fleiss 1979,
-    doi:10.1037/0033-2909.86.2.420). The 95 % interval is Student's, with the jackknife's error:
-    a bootstrap would compare fields with themselves. NaN below three fields.
+    This is the intraclass correlation (Shrout & Fleiss 1979, doi:10.1037/0033-2909.86.2.420): the
+    mean covariance of two fields over their mean variance, after their means are subtracted. It is
+    zero, up to scatter, if all places have the same mean, and one if all fields are equal. The
+    95 % interval is Student's t with the jackknife error; a bootstrap would compare fields with
+    themselves. NaN for fewer than three fields.
     """
     k = len(fields)
     if k < 3:
@@ -200,17 +199,17 @@ def repeatability(fields: Array) -> Interval:
 
 
 def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
-    """Time in s, (n,), and curves, (runs, n), of the samples that all runs have.
+    """Cut curves to the shortest one; return time in s, (n,), and curves, (runs, n).
 
     Raises
     ------
     ValueError
-        Where the runs do not share one sample interval.
+        If the runs differ in their sample interval.
     """
     n = min(len(curve) for curve in curves)
     time = runs[0].time[:n]
     if not all(np.allclose(run.time[:n], time) for run in runs):
-        raise ValueError("the runs of an ensemble must share one sample interval")
+        raise ValueError("the runs of an ensemble must have the same sample interval")
     return time, np.stack([curve[:n] for curve in curves])
 
 
@@ -220,12 +219,13 @@ class Curve:
 
     time: Array  #: (n,) s
     friction: Array  #: (k, n) force over P l² N², NaN after the end of a run
-    detachments: Array  #: (k, n) first detachments since the sample before, % of all of the run
+    detachments: Array  #: (k, n) first detachments since the previous sample, % of all in the run
 
     def binned(self, width: float) -> tuple[Array, Array]:
         """Edges of bins of about `width` s, (bins + 1,), and detachments in each, (k, bins), %.
 
-        A bin holds whole sample intervals, at least one; what does not fill a bin is left out.
+        A bin has a whole number of sample intervals, at least one; an incomplete last bin is
+        omitted.
         """
         interval = self.time[1] - self.time[0]
         size = max(1, round(width / interval))
@@ -237,8 +237,8 @@ class Curve:
 def whole_curve(runs: Sequence[Run]) -> Curve:
     """Force and detachments of an ensemble up to the end of its longest run.
 
-    After its end a run has no force, but it has first detachments: none, since `percent` counts
-    shares of those that the run has seen, which are all there are once everything slides.
+    After the end of a run its force is NaN and its number of first detachments 0: a run ends when
+    all blocks have detached.
     """
     cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
@@ -252,9 +252,9 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
 
 
 def mean_of_rest(values: Array) -> Interval:
-    """Mean and interval over those of k runs, (k, n), that go on; (n,). NaN follows their ends.
+    """Mean and interval, (n,), over those of k runs that have not ended, (k, n) with NaN after it.
 
-    NaN, too, where fewer than half of the runs go on: what is left are the slowest.
+    NaN if fewer than half of the runs are left, since these are the slowest.
     """
     goes_on = np.isfinite(values)
     left = goes_on.sum(axis=0)
@@ -266,17 +266,17 @@ def mean_of_rest(values: Array) -> Interval:
 
 
 def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
-    """Return t_det/t_max by place on a pillar, [y_p, x_p], mean over pillars; (k, n_p, n_p).
+    """Return t_det/t_max by position on a pillar, [y_p, x_p], averaged over pillars; (k, n_p, n_p).
 
-    NaN where a block of some pillar is not in contact or never detached. Section 3.2, figure 5.
+    NaN if a block of any pillar is not in contact or never detached. Section 3.2, figure 5.
 
     Raises
     ------
     ValueError
-        Where the surface is flat.
+        If the surface is flat.
     """
     if not pattern.levels:
-        raise ValueError("a flat surface has no pillar to average over")
+        raise ValueError("the surface is flat; it has no pillars to average over")
     along = np.arange(pattern.levels[0].size)
     y, x = pattern.origins.T[:, :, None, None]
     pillars = y + along[:, None], x + along
@@ -284,10 +284,10 @@ def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
 
 
 def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
-    """Masks, [y_p, x_p], of the blocks that are `depth` blocks from the edge of a pillar.
+    """Masks, [y_p, x_p], of the blocks at a distance of `depth` blocks from the edge of a pillar.
 
-    They are told apart as the "corners" of this ring, and its sides along "x" and along "y"
-    without the corners. In the middle of a pillar only corners are left.
+    These are the "corners" of this ring, and its sides along "x" and along "y" without corners. At
+    the centre of a pillar there are only corners.
     """
     from_edge = np.minimum(np.arange(size), np.arange(size)[::-1])
     y, x = np.meshgrid(from_edge, from_edge, indexing="ij")
@@ -299,36 +299,36 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
 
 
 def cluster_sizes(blocks: NDArray[np.bool_], by_corners: bool = False) -> NDArray[np.intp]:
-    """Sizes of the clusters of a mask, (N, N), in blocks: those side by side belong together.
+    """Sizes, in blocks, of the clusters of a mask, (N, N).
 
-    Those that touch `by_corners` do as well, if asked.
+    Clusters are connected by the sides of blocks or, with `by_corners`, also by their corners.
     """
-    from scipy.ndimage import label  # slow to load, and most jobs do without
+    from scipy.ndimage import label  # slow to import, and most jobs do not need it
 
     places, _ = label(blocks, structure=np.ones((3, 3)) if by_corners else None)
     return np.bincount(places.ravel())[1:]
 
 
 def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
-    """Find the peaks of a force curve, (n,), under load; their indices.
+    """Return the indices of the load peaks of a force curve, (n,). Section 3.3.
 
-    A peak must stand out of its surroundings by two standard errors of the mean, `scatter`, and
-    by `_PROMINENT` of the largest force, which keeps out the small waves of loading; and it must
-    reach `_LOAD_PEAK` of the largest force, which keeps out those of sliding. Section 3.3.
+    The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
+    `_PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
+    least `_LOAD_PEAK` of the largest force, which excludes those of sliding.
     """
-    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
+    from scipy.signal import find_peaks  # slow to import, and few figures need it
 
     needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), _PROMINENT * curve.max())
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 
 def prominence(curve: Array, rank: int = 2) -> float:
-    """Prominence of the second most prominent peak under load, (n,), over the largest force.
+    """Prominence of the second most prominent load peak of a curve, (n,), over the largest force.
 
-    How far the force falls between two load peaks, from the lower of them; 0 with one alone. With
-    another `rank` that of the most prominent, third most prominent, ... peak.
+    This is the drop of the force between two load peaks, from the lower of them; 0 for a single
+    peak. `rank` selects another peak, in descending order of prominence.
     """
-    from scipy.signal import find_peaks  # slow to load, and few figures look for peaks
+    from scipy.signal import find_peaks  # slow to import, and few figures need it
 
     highest = float(curve.max())
     _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)

@@ -1,1 +1,1 @@
-"""Tables as Parquet files: their columns, and writing and reading them."""
+"""Tables in Parquet files: their columns, writing and reading."""

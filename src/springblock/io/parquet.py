@@ -1,4 +1,4 @@
-"""Tables as Parquet files: written whole or not at all, read back, and never mixed."""
+"""Writing and reading of tables as Parquet files; tables of different studies are not mixed."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -16,17 +16,17 @@ from springblock.model.scene import Scene
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
-    """Write a table whole or not at all; `metadata` adds to what its columns say of themselves.
+    """Write a table whole or not at all, with `metadata` on the table as a whole.
 
     Raises
     ------
     ValueError
-        Where the table has no row.
+        If the table has no row.
     """
     if not table.num_rows:
-        raise ValueError(f"there is nothing to write to {path}")
+        raise ValueError(f"{path}: the table has no rows; nothing was written")
     described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})
-    # curves and fields: their numbers hardly repeat, but their leading bytes do
+    # numbers of curves and fields rarely repeat, but their leading bytes do
     split = [
         f"{field.name}.list.element"
         for field in table.schema
@@ -44,13 +44,13 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
 
 
 def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
-    """Build a table of exactly the columns of `schema`; whatever else rows hold is left out."""
+    """Build a table with exactly the columns of `schema`; other entries of rows are ignored."""
     columns = [_array([row[field.name] for row in rows], field.type) for field in schema]
     return pa.Table.from_arrays(columns, schema=schema)
 
 
 def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
-    """`pa.array` without pandas, which that loads to see whether it is given a Series."""
+    """Return `pa.array(values, kind)`, without the import of pandas that it entails."""
     if pa.types.is_list(kind):
         offsets = _array(np.cumsum([0, *map(len, values)]), pa.int32())
         return pa.ListArray.from_arrays(
@@ -68,37 +68,37 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
 
 
 def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
-    """Read one file that `write` wrote; all its columns, or these.
+    """Read a file that `write` has written: all its columns, or those given.
 
     Raises
     ------
     ValueError
-        With one sentence, where it is not as it was written, or lacks a column.
+        If the file is damaged, not a table, or lacks a column.
     """
     content = read_sealed(path)
     try:
         file = pq.ParquetFile(pa.BufferReader(content))
     except pa.ArrowInvalid:
-        raise ValueError(f"{path} is no table (Parquet); {MENDING}") from None
+        raise ValueError(f"{path} is not a table (Parquet); {MENDING}") from None
     present = file.schema_arrow.names
     missing = [name for name in columns or () if name not in present]
     if missing:
         raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
-    return file.read(columns, use_threads=False)  # Arrow's threads may abort a process at its end
+    return file.read(columns, use_threads=False)  # Arrow's threads may abort a process on exit
 
 
 def origin_of(table: pa.Table) -> dict[str, str]:
-    """What made a table: its metadata as text."""
+    """Return the metadata of a table as text."""
     return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
 
 
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
-    """Read the columns of `schema` from several files of one study, one after another.
+    """Read the columns of `schema` from several files of one study, concatenated.
 
     Raises
     ------
     ValueError
-        As `load` does; or where two files were computed with different constants, by different
+        As `load` does; or if two files were computed with different constants or by different
         code, or hold the same realisation.
     """
     paths = list(paths)
@@ -118,7 +118,7 @@ def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> Non
         (one, first), (other, second), *_ = known.items()
         raise ValueError(
             f"{first} and {second} were made by different code, {one} and {other}; "
-            f"of the older one, {MENDING}"
+            f"for the older one, {MENDING}"
         )
 
 
@@ -138,9 +138,9 @@ def _refuse_repetition(paths: Iterable[Path], tables: Iterable[pa.Table]) -> Non
 
 
 def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
-    """Refuse tables that were computed with different constants, given with the file of each.
+    """Refuse tables, given with their files, that were computed with different constants.
 
-    Constants that a scene has of its own are part of the scene, and may differ.
+    Constants that a scene varies may differ.
 
     Raises
     ------
@@ -157,13 +157,13 @@ def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
                 before, first = known.setdefault(name, (value, path))
                 if value != before:
                     raise ValueError(
-                        f"{name} is {before!r} in {first} and {value!r} in {path}: runs of "
-                        "different studies do not belong together"
+                        f"{name} is {before!r} in {first} and {value!r} in {path}; "
+                        "give runs of one study only"
                     )
 
 
 def _constants(table: pa.Table) -> list[dict[str, Any]]:
-    """Each combination of constants in a table of scenes, and which are a scene's own."""
+    """Return each combination of constants in a table, with the names of varied ones."""
     names = ["varied", *SETUP.names]
     if not set(names) <= set(table.column_names):
         return []

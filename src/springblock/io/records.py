@@ -1,4 +1,4 @@
-"""Runs read back from the files that `springblock simulate` writes."""
+"""Stored runs, read from the files of `springblock simulate`."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -18,7 +18,7 @@ from springblock.simulation.run import Run
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Record(Run):
-    """A run as it was stored: its scene, its seed and its constants."""
+    """A stored run, with its scene, seed and constants."""
 
     scene: Scene
     seed: int
@@ -28,7 +28,7 @@ class Record(Run):
 
     @property
     def material(self) -> Material:
-        """The layer that was pulled."""
+        """Material of the run."""
         return Material(**{name: self.constants[name] for name, _ in Material().items()})
 
     @property
@@ -38,17 +38,17 @@ class Record(Run):
 
 
 def read(path: str | Path) -> list[Record]:
-    """Read the runs of one file, in order of their seeds.
+    """Read the runs of one file, in ascending order of seeds.
 
-    Each has the fields of `Realisation` but for energy, steps and the last displacements and
-    velocities, which are not stored, and knows its `scene`, `seed` and `material`.
+    Each has the fields of `Realisation` except energy, steps and the final displacements and
+    velocities, which are not stored, and also `scene`, `seed` and `material`.
 
     Raises
     ------
     FileNotFoundError
-        Where there is no such file.
+        If the file does not exist.
     ValueError
-        Where it is no such file, naming what it lacks, or is not as it was written.
+        If the file is damaged, or lacks a column of such tables.
     """
     records, table = read_records([Path(path)]), load(Path(path))
     if "snapshots" not in table.column_names:
@@ -64,7 +64,7 @@ def _with_snapshots(record: Record, row: pa.Table) -> Record:
 
 
 def read_records(paths: Iterable[Path]) -> list[Record]:
-    """Read stored realisations in order of their seeds."""
+    """Read stored realisations in ascending order of seeds."""
     table = read_tables(paths, BATCH)
     records = [_record(table.slice(i, 1)) for i in range(table.num_rows)]
     return sorted(records, key=lambda record: record.seed)

@@ -1,4 +1,4 @@
-"""Rows of tables as dictionaries: chosen from, and laid out for a page."""
+"""Rows of tables as dictionaries: selection, and layout for a page."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -7,11 +7,11 @@ Row = dict[str, Any]
 
 
 def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
-    """Rows that hold these values."""
+    """Return the rows that have these values."""
     return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
 def markdown_table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
-    """Lay out a table for a page in Markdown."""
+    """Return a table in Markdown."""
     cells = [header, ["---"] * len(header), *lines]
     return "\n".join("| " + " | ".join(line) + " |" for line in cells)

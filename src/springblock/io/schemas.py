@@ -1,79 +1,79 @@
-"""Columns of the tables, with the unit and the meaning of each."""
+"""Columns of the tables, with their units and meanings."""
 
 import pyarrow as pa
 
 
 def column(name: str, kind: pa.DataType, unit: str, meaning: str) -> pa.Field:
-    """Return a column that carries its unit and meaning in its metadata."""
+    """Return a column with unit and meaning in its metadata."""
     return pa.field(name, kind, nullable=False, metadata={"unit": unit, "meaning": meaning})
 
 
 def numbers(unit: str, **meanings: str) -> list[pa.Field]:
-    """Return columns of numbers that have a unit in common."""
+    """Return columns of numbers with the same unit."""
     return [column(name, pa.float64(), unit, meaning) for name, meaning in meanings.items()]
 
 
 def texts(**meanings: str) -> list[pa.Field]:
-    """Return columns of words."""
+    """Return columns of text."""
     return [column(name, pa.string(), "1", meaning) for name, meaning in meanings.items()]
 
 
 N_BLOCKS = column("n_blocks", pa.int32(), "blocks", "side N of the surface")
 
-#: What tells one scene from another, as `Scene` names it.
+#: Columns that identify a scene, by the names of `Scene`.
 SCENE = pa.schema(
     [
-        column("level", pa.int8(), "1", "levels of the pattern; 0 if flat, -1 with a mask instead"),
+        column("level", pa.int8(), "1", "number of levels of the pattern; 0 if flat, -1 for masks"),
         column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove along x; 0 without grooves"),
-        column("n_p3", pa.int32(), "blocks", "size of what cuts leave of a pawl; 0 without"),
-        column("n_s3", pa.int32(), "blocks", "width of a groove between these; 0 without"),
-        column("along_3", pa.string(), "x or y", "axis that these grooves run along; '' without"),
-        column("varied", pa.string(), "name=value", "constants other than the study's own"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove of level 2; 0 without grooves"),
+        column("n_p3", pa.int32(), "blocks", "length of a pawl between grooves of level 3, or 0"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove of level 3; 0 without"),
+        column("along_3", pa.string(), "x or y", "direction of the grooves of level 3, or ''"),
+        column("varied", pa.string(), "name=value", "constants that differ from the study's"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
         column("n_blocks", pa.int32(), "blocks", "side N of the surface, along x"),
-        column("n_rows", pa.int32(), "blocks", "side along y, the same on a square surface"),
-        column("edges", pa.string(), "free or periodic", "edges of the surface, both ways"),
+        column("n_rows", pa.int32(), "blocks", "side of the surface along y"),
+        column("edges", pa.string(), "free or periodic", "edges of the surface"),
         column("mask", pa.string(), "name", "file and digest of the contact mask; '' without"),
-        column("mu_static_field", pa.string(), "name", "the same of mu_static; '' where drawn"),
-        column("mu_dynamic_field", pa.string(), "name", "the same of mu_dynamic; '' where drawn"),
+        column("mu_static_field", pa.string(), "name", "file and digest of mu_static; '' if drawn"),
+        column("mu_dynamic_field", pa.string(), "name", "the same for mu_dynamic; '' if drawn"),
     ]
 )
 
-#: How a realisation was computed: `Setup.constants`.
+#: Constants of a realisation, see `Setup.constants`.
 SETUP = pa.schema(
     [
-        column("youngs_modulus", pa.float64(), "Pa", "E"),
-        column("density", pa.float64(), "kg/m³", "rho"),
-        column("pressure", pa.float64(), "Pa", "P, over the whole nominal area"),
-        column("slider_velocity", pa.float64(), "m/s", "v"),
-        column("spacing", pa.float64(), "m", "l, distance between blocks"),
-        column("thickness", pa.float64(), "m", "l_z, of the layer"),
-        column("gamma", pa.float64(), "1/s", "damping frequency"),
-        column("mu_static", pa.float64(), "1", "mean of the static coefficients"),
-        column("mu_static_std", pa.float64(), "1", "their standard deviation"),
-        column("mu_dynamic", pa.float64(), "1", "mean of the dynamic coefficients"),
-        column("mu_dynamic_std", pa.float64(), "1", "their standard deviation"),
-        column("distribution", pa.string(), "1", "of both coefficients, where they are drawn"),
-        column("correlation_length", pa.float64(), "m", "of both: exp(-r²/ℓ²) of their normals"),
+        column("youngs_modulus", pa.float64(), "Pa", "Young's modulus E"),
+        column("density", pa.float64(), "kg/m³", "density ρ"),
+        column("pressure", pa.float64(), "Pa", "pressure P over the whole nominal area"),
+        column("slider_velocity", pa.float64(), "m/s", "velocity v of the slider"),
+        column("spacing", pa.float64(), "m", "distance l between blocks"),
+        column("thickness", pa.float64(), "m", "thickness l_z of the layer"),
+        column("gamma", pa.float64(), "1/s", "damping frequency γ"),
+        column("mu_static", pa.float64(), "1", "mean of static coefficients"),
+        column("mu_static_std", pa.float64(), "1", "standard deviation of static coefficients"),
+        column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
+        column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
+        column("distribution", pa.string(), "1", "distribution of drawn coefficients"),
+        column("correlation_length", pa.float64(), "m", "ℓ in the autocorrelation exp(-r²/ℓ²)"),
         column(
-            "law", pa.string(), "1", "of friction; of one from a file name, digest and constants"
+            "law", pa.string(), "1", "law of friction; for a file its name, digest and constants"
         ),
-        column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 with other laws"),
-        column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 with others"),
+        column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 for other laws"),
+        column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 for other laws"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between two samples"),
     ]
 )
 
-#: What results may be drawn over: numbers that tell scenes apart, and the direction.
+#: Possible axes of figures: columns that are numbers, and the direction.
 AXES = [field.name for field in (*SCENE, *SETUP) if not pa.types.is_string(field.type)]
 AXES = [name for name in AXES if name != "level"] + ["direction"]
 
-#: One row per realisation; t_* and *_friction in the paper's names.
+#: One row per realisation, with the paper's names of t_* and *_friction.
 SUMMARY = pa.schema(
     [
         *SCENE,
@@ -85,13 +85,13 @@ SUMMARY = pa.schema(
             pa.float64(),
             "1",
             "mean force over P l² N² from the first minimum after the peak to the end of the run; "
-            "settled only where the scene has a duration well past t_max; NaN without a minimum",
+            "settled only if the duration is well beyond t_max; NaN without a minimum",
         ),
         column("t_max", pa.float64(), "s", "time of the force maximum"),
         column("t_avg", pa.float64(), "s", "mean first detachment time of the contact blocks"),
-        column("t_first", pa.float64(), "s", "time of the first detachment of all"),
+        column("t_first", pa.float64(), "s", "time of the first detachment"),
         column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
-        column("steps", pa.int64(), "1", "integration steps"),
+        column("steps", pa.int64(), "1", "number of integration steps"),
     ]
 )
 
@@ -102,9 +102,9 @@ _SIDE = [
         "side",
         pa.string(),
         "x, y or grooves",
-        "axis along which the sides of the pillars run, or edges along the grooves within them",
+        "direction of the sides of pillars; grooves: edges of the grooves within pillars",
     ),
-    column("realisations", pa.int32(), "1", "realisations k that are averaged over"),
+    column("realisations", pa.int32(), "1", "number k of realisations"),
 ]
 
 #: One row per scene, side and distance.
@@ -119,11 +119,11 @@ CORRELATION = pa.schema(
         column("residual", pa.float64(), "1", "c(r) - A exp(-r/l) of the tail; NaN beyond the fit"),
         column("residual_low", pa.float64(), "1", "lower limit of its 95 % interval"),
         column("residual_high", pa.float64(), "1", "upper limit"),
-        column("samples", pa.int32(), "1", "sides averaged over: realisations × pillars × 2"),
+        column("samples", pa.int32(), "1", "number of sides: realisations × pillars × 2"),
     ]
 )
 
-#: One row per scene and side; lengths of 0.1 stand for no correlation.
+#: One row per scene and side; a length of 0.1 means no correlation.
 CORRELATION_LENGTH = pa.schema(
     [
         *_SIDE,
@@ -135,28 +135,28 @@ CORRELATION_LENGTH = pa.schema(
             "r_last",
             pa.int32(),
             "blocks",
-            "end of the fits, which begin at r = 1: 6 for all sides, n_p/3 on shorter ones",
+            "last r of the fits, which begin at r = 1: 6, or n_p/3 on sides of less than 20 blocks",
         ),
         column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
-        column("integral", pa.float64(), "blocks", "length with the same sum of exp(-r/l) as c(r)"),
+        column("integral", pa.float64(), "blocks", "l for which exp(-r/l) has the sum of c(r)"),
         column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
         column("integral_high", pa.float64(), "blocks", "upper limit"),
         column("tail", pa.float64(), "blocks", "l in A exp(-r/l) with A free; NaN if r_last < 3"),
         column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
         column("tail_high", pa.float64(), "blocks", "upper limit"),
-        column("amplitude", pa.float64(), "1", "A of that fit"),
+        column("amplitude", pa.float64(), "1", "A in A exp(-r/l)"),
         column("amplitude_low", pa.float64(), "1", "lower limit of its 95 % interval"),
         column("amplitude_high", pa.float64(), "1", "upper limit"),
         column(
             "design_effect",
             pa.float64(),
             "1",
-            "variance of c(r) over that if the pillars of a realisation were independent",
+            "variance of c(r) over that for independent pillars",
         ),
     ]
 )
 
-#: A batch of realisations also holds what the figures draw.
+#: One row per realisation of a batch, with curves and fields for the figures.
 BATCH = pa.schema(
     [
         *SUMMARY,
@@ -165,19 +165,19 @@ BATCH = pa.schema(
             "detachments",
             pa.list_(pa.int32()),
             "blocks",
-            "blocks that detached for the first time since the sample before",
+            "blocks that detached for the first time since the previous sample",
         ),
         column(
             "switches",
             pa.list_(pa.int32()),
             "blocks",
-            "switches from rest to sliding since the sample before",
+            "switches from rest to sliding since the previous sample",
         ),
         column(
             "t_det",
             pa.list_(pa.float64()),
             "s",
-            "first detachment time of each block, row by row from y = 0; NaN where none",
+            "first detachment time of each block, row by row from y = 0; NaN without one",
         ),
         column("normal_force", pa.float64(), "N", "P l² N²"),
         column(
@@ -189,16 +189,16 @@ BATCH = pa.schema(
     ]
 )
 
-#: What a batch holds beside that where snapshots were asked for.
+#: Further columns of a batch with snapshots.
 SNAPSHOTS = pa.schema(
     [
-        column("snapshot_times", pa.list_(pa.float64()), "s", "when displacements were kept"),
+        column("snapshot_times", pa.list_(pa.float64()), "s", "times of the snapshots"),
         column(
             "snapshots",
             pa.list_(pa.float64()),
             "m",
-            "displacements at these times, one after another: along x row by row from y = 0, then "
-            "along y",
+            "displacements at these times, in turn: the components along x, row by row from y = 0, "
+            "then those along y",
         ),
     ]
 )

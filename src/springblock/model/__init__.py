@@ -1,1 +1,1 @@
-"""The physical model: material, pattern, scene and friction coefficients."""
+"""Physical model: material, pattern, scene and friction coefficients."""

@@ -1,4 +1,4 @@
-"""The random surface: one static and one dynamic friction coefficient per block."""
+"""Random friction coefficients: one static and one dynamic coefficient per block."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Correlated normals are drawn on a surface that is larger by so many correlation lengths, where
-#: exp(-r²/ℓ²) is 1e-7: what crosses its edge does not reach the other one.
+#: Margin, in correlation lengths, that is added to the surface before correlated normals are drawn
+#: on it with periodic edges. There exp(-r²/ℓ²) is 1e-7, so that opposite edges are uncorrelated.
 _MARGIN = 4.0
-#: Exponents of Weibull distributions that scatter by 16 times their mean, and by 1e-6 of it.
+#: Exponents of Weibull distributions whose standard deviation is 16 and 1e-6 times the mean.
 _EXPONENTS = (0.2, 1e6)
 
 
@@ -34,31 +34,31 @@ def draw_friction(
 ) -> tuple[Array, Array]:
     """Draw the microscopic coefficients mu_static and mu_dynamic, (N_y, N_x) each, [y, x].
 
-    For N x N blocks, or for (N_y, N_x). In the paper both are Gaussian (section 2), from two
-    independent streams that depend on the seed and their own name alone. Every block gets its
-    draw, in contact or not: all patterns of one shape see the same asperities.
+    `n_blocks` is N for N x N blocks, or (N_y, N_x). In the paper both coefficients are normal
+    (section 2; (5) of docs/model.md). They come from two independent random streams, which depend
+    only on the seed and the name of the coefficient. All blocks have coefficients, in contact or
+    not: patterns of the same shape share them.
 
-    A negative draw would make friction push and becomes zero. With the paper's standard
-    deviations that needs ten of them; with a standard deviation of half the mean it happens to
-    2.3 % of the blocks and raises the mean by 0.4 %. A draw with mu_static < mu_dynamic is kept
-    as drawn: a block that lets go under less than its dynamic friction comes to rest in the
-    same instant, so that it detaches for good at mu_dynamic (see `springblock.solver.friction`).
+    A negative draw is set to zero. With the paper's standard deviations it would have to be ten of
+    them below the mean; with a standard deviation of half the mean, 2.3 % of the blocks are set to
+    zero, which raises the mean by 0.4 %. A draw with mu_static < mu_dynamic is kept: such a block
+    detaches at mu_dynamic (see `springblock.solver.friction`).
 
-    Other distributions have the same mean and standard deviation. With a correlation length ℓ,
-    the normals z that the draws are made from have the autocorrelation exp(-r²/ℓ²), around the
-    edges if the surface is `periodic`; a draw is F⁻¹(Φ(z)), where F is its distribution and Φ
-    that of z (a Gaussian copula), which leaves F as it is.
+    Other distributions have the same mean and standard deviation. With a correlation length ℓ, the
+    coefficients are F⁻¹(Φ(z)) (a Gaussian copula), where F is their distribution, Φ that of z, and
+    the normals z have the autocorrelation exp(-r²/ℓ²), across the edges if the surface is
+    `periodic`.
 
     Raises
     ------
     TypeError, ValueError
-        Where the seed is not a whole number from zero up, the distribution cannot have this mean
-        and standard deviation, or the correlation length exceeds the surface.
+        If the seed is not a whole number from zero up, the distribution cannot have this mean and
+        standard deviation, or the correlation length exceeds the surface.
     """
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer):
-        raise TypeError(f"a seed must be a whole number, not {seed!r}")
+        raise TypeError(f"seed must be a whole number, not {seed!r}")
     if seed < 0:
-        raise ValueError(f"a seed must be zero or positive, not {seed}")
+        raise ValueError(f"seed must be zero or positive, not {seed}")
     shape = n_blocks if isinstance(n_blocks, tuple) else (n_blocks, n_blocks)
     return (
         _draw("mu_static", seed, shape, material or Material(), periodic),
@@ -89,14 +89,14 @@ def _width(shape: tuple[int, int], material: Material) -> float:
     width = material.correlation_length / material.spacing
     if width > max(shape):
         raise ValueError(
-            f"correlation_length = {material.correlation_length!r} m must not exceed the surface, "
-            f"{max(shape) * material.spacing:.4g} m"
+            f"correlation_length must be at most the side of the surface, "
+            f"{max(shape) * material.spacing:.4g} m, not {material.correlation_length!r} m"
         )
     return width
 
 
 def _correlated(normal: Array, width: float) -> Array:
-    """Smooth independent normals, around the edges, to exp(-r²/width²); their variance stays 1."""
+    """Filter independent normals, with periodic edges, to the autocorrelation exp(-r²/width²)."""
     from scipy.fft import fft2, ifft2
     from scipy.ndimage import fourier_gaussian
 
@@ -106,29 +106,29 @@ def _correlated(normal: Array, width: float) -> Array:
 
 
 def check_draws(shape: tuple[int, int], material: Material) -> None:
-    """Refuse what `draw_friction` would, without drawing."""
+    """Raise the errors of `draw_friction`, without drawing."""
     _width(shape, material)
     for name in ("mu_static", "mu_dynamic"):
         distribution(name, material)
 
 
 def distribution(name: str, material: Material) -> "rv_frozen | None":
-    """Distribution of "mu_static" or "mu_dynamic"; None where it is normal, or one value.
+    """Distribution of "mu_static" or "mu_dynamic"; None if it is normal or a single value.
 
     Raises
     ------
     ValueError
-        Where it cannot have the mean and the standard deviation that the material says.
+        If it cannot have the mean and the standard deviation of the material.
     """
     mean, std = getattr(material, name), getattr(material, f"{name}_std")
     kind = material.distribution
     if kind == "normal" or std == 0.0:
         return None
-    import scipy.stats  # takes half a second, which jobs with normal draws do not spend
+    import scipy.stats  # takes half a second to import, and normal draws do not need it
 
     refusal = f"no {kind} distribution has {name} = {mean!r} and {name}_std = {std!r}"
     if mean == 0.0:
-        raise ValueError(f"{refusal}; its mean must be positive")
+        raise ValueError(f"{refusal}; {name} must be positive")
     if kind == "lognormal":
         width = math.sqrt(math.log1p((std / mean) ** 2))
         return scipy.stats.lognorm(width, scale=mean * math.exp(-0.5 * width**2))
@@ -137,13 +137,13 @@ def distribution(name: str, material: Material) -> "rv_frozen | None":
         return scipy.stats.weibull_min(exponent, scale=mean / math.gamma(1.0 + 1.0 / exponent))
     reach = math.sqrt(3.0) * std
     if reach > mean:
-        limit = f"{name}_std may be up to {mean / math.sqrt(3.0):.4g}"
-        raise ValueError(f"{refusal} without going below zero; {limit}")
+        limit = f"{name}_std must be at most {mean / math.sqrt(3.0):.4g}"
+        raise ValueError(f"{refusal} without negative values; {limit}")
     return scipy.stats.uniform(mean - reach, 2.0 * reach)
 
 
 def _weibull_exponent(scatter: float, refusal: str) -> float:
-    """Exponent of the Weibull distribution with this standard deviation over its mean."""
+    """Exponent of the Weibull distribution with this ratio of standard deviation to mean."""
     from scipy.optimize import brentq
 
     def excess(exponent: float) -> float:
@@ -151,16 +151,16 @@ def _weibull_exponent(scatter: float, refusal: str) -> float:
         return math.expm1(second - 2.0 * first) - scatter**2
 
     if excess(_EXPONENTS[0]) < 0.0 or excess(_EXPONENTS[1]) > 0.0:
-        raise ValueError(f"{refusal}; it must scatter by 1e-5 to 15 times its mean")
+        raise ValueError(f"{refusal}; the standard deviation must be 1e-5 to 15 times the mean")
     return float(brentq(excess, *_EXPONENTS, xtol=1e-13, rtol=1e-14))
 
 
 def log_share_above(needed: Array, material: Material) -> Any:
-    """Logarithm of the probability that mu_static of a block exceeds what is `needed`."""
+    """Logarithm of the probability that mu_static of a block exceeds `needed`."""
     law = distribution("mu_static", material)
     if law is not None:
         return law.logsf(needed)
-    from scipy.special import log_ndtr  # takes a third of a second, for a prelude only
+    from scipy.special import log_ndtr  # takes a third of a second to import, for preludes only
 
     spread = max(material.mu_static_std, 1e-9)
     return log_ndtr((material.mu_static - needed) / spread)

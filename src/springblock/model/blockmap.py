@@ -1,4 +1,4 @@
-"""Surfaces of one's own: contact masks, coefficients and topographies, read from files."""
+"""Contact masks, friction coefficients and topographies from files."""
 
 import hashlib
 import math
@@ -17,23 +17,23 @@ from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[Any]
 
-_TOO_LARGE = f"is larger than the {MAX_BLOCKS} x {MAX_BLOCKS} blocks that the solver goes up to"
-#: With the digest that a study puts into the name of a mask that it cuts.
+_TOO_LARGE = f"is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
+#: Name of a mask cut by a study, which ends with its digest.
 _IS_NAMED = re.compile(r".*-[0-9a-f]{8}")
-_POINTS, _BYTES = 2**26, 2**28  #: of a measurement, 8192 x 8192 and some 260 MB
-#: Of images. Pillow knows more; one of them, PostScript, it has another program run.
+_POINTS, _BYTES = 2**26, 2**28  #: largest topography, 8192 x 8192 points and some 260 MB
+#: Image formats. Pillow reads more, among them PostScript, for which it starts another program.
 _FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
-_MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: of images, by Pillow's names
+_MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: image modes, by Pillow's names
 
 
 @dataclass(frozen=True)
 class Cut:
-    """How a contact mask follows from a measured topography."""
+    """Cut through a measured topography that defines a contact mask."""
 
     topography: Path
     spacing: float  #: m, distance between blocks
-    bearing_area: float | None = None  #: share of the blocks that are in contact, the highest
-    height: float | None = None  #: m, that blocks in contact reach
+    bearing_area: float | None = None  #: share of the blocks in contact, the highest ones
+    height: float | None = None  #: m, least height of the blocks in contact
 
     @property
     def arguments(self) -> str:
@@ -42,22 +42,21 @@ class Cut:
         return " ".join(f"--{key} {value}" for key, value in named.items() if value is not None)
 
     def mask(self) -> Array:
-        """Blocks that are in contact, (N_y, N_x) bool, [y, x].
+        """Blocks in contact, (N_y, N_x) bool, [y, x].
 
-        A block takes the height of the point of measurement that its centre lies on; where there
-        is no value it is not in contact. Heights are as the file has them: level a surface that
-        is tilted beforehand.
+        The height of a block is that of the measured point at its centre; a block without a value
+        is not in contact. Heights are not levelled: level a tilted surface beforehand.
 
         Raises
         ------
         ValueError
-            Where the file cannot be read, has no units, or holds no block; where not one of
-            bearing area and height is given; or where these or the spacing make no sense.
+            If the file cannot be read, has no units, or is smaller than a block; if not exactly one
+            of bearing area and height is given; or if these or the spacing are not valid.
         """
         if (self.bearing_area is None) == (self.height is None):
-            raise ValueError(f"{self.topography} is cut at either a bearing_area or a height")
+            raise ValueError(f"{self.topography}: give either bearing_area or height")
         if self.bearing_area is not None and not 0.0 < self.bearing_area <= 1.0:
-            raise ValueError(f"bearing_area must be above 0 and up to 1, not {self.bearing_area!r}")
+            raise ValueError(f"bearing_area must be in (0, 1], not {self.bearing_area!r}")
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
         heights = _on_blocks(self.topography, self.spacing)
@@ -66,11 +65,11 @@ class Cut:
             highest = np.sort(heights[np.isfinite(heights)])[::-1]
             number = max(1, round(self.bearing_area * heights.size))
             level = highest[min(number, highest.size) - 1]
-        contact = heights >= level  # False where there is none
+        contact = heights >= level  # False for NaN
         if not contact.any():
             raise ValueError(
-                f"{self.topography} must reach the height it is cut at, {level!r} m; "
-                f"its highest block is at {np.nanmax(heights):.4g} m"
+                f"{self.topography}: height = {level!r} m is above the highest block, "
+                f"{np.nanmax(heights):.4g} m"
             )
         return contact
 
@@ -79,52 +78,53 @@ class Cut:
 class BlockMap:
     """One value per block, from a file: a contact mask, or friction coefficients.
 
-    Its name holds a digest of the values: a file that has changed is another map.
+    The name contains a digest of the values, so that a changed file is a different map.
     """
 
     name: str  #: name of the file and eight digits, as islands-1a2b3c4d
-    values: Array | None = field(default=None, compare=False, repr=False)  #: None: its name alone
-    file: Path | None = field(default=None, compare=False, repr=False)  #: that jobs read it from
-    cut: Cut | None = field(default=None, compare=False, repr=False)  #: that makes this file
+    values: Array | None = field(default=None, compare=False, repr=False)  #: None if not known
+    file: Path | None = field(default=None, compare=False, repr=False)  #: file that jobs read
+    cut: Cut | None = field(default=None, compare=False, repr=False)  #: cut that makes this file
 
     def __str__(self) -> str:
         return self.name
 
     @classmethod
     def mask(cls, file: Path) -> "BlockMap":
-        """Read a contact mask, (N_y, N_x) bool, [y, x], from an image or an array of NumPy.
+        """Read a contact mask, (N_y, N_x) bool, [y, x], from an image or a NumPy array.
 
-        White pixels of a black and white image are in contact; its last row is y = 0, so that it
-        is seen upright. Of an array (.npy) all but zeros are in contact; its first row is y = 0.
+        In a black and white image, white pixels are in contact, and the last row is y = 0, as the
+        image is seen. In an array (.npy), non-zero values are in contact, and the first row is
+        y = 0.
 
         Raises
         ------
         ValueError
-            With one sentence on what is wrong with the file.
+            If the file is not a valid mask, with the reason.
         """
         values = _array(file) if file.suffix == ".npy" else _image(file)
         found = np.unique(values)
         is_number = values.dtype.kind in "biuf"
         if not (is_number and np.isfinite(found).all() and np.count_nonzero(found) <= 1):
             raise ValueError(
-                f"{file} must hold zeros and one other value, as a contact mask does, "
+                f"{file}: a contact mask must hold zeros and one other value, "
                 f"not {reprlib.repr(found.tolist())}"
             )
         if not found.any():
-            raise ValueError(f"{file} must have a block in contact: it is zero, or black, all over")
+            raise ValueError(f"{file}: at least one block must be in contact, not zero or black")
         name = _name(file, values != 0)
         if _IS_NAMED.fullmatch(file.stem) and name != file.stem:
-            raise ValueError(f"{file} holds {name}, not the mask of its name; {MENDING}")
+            raise ValueError(f"{file} holds the mask {name}, not that of its name; {MENDING}")
         return cls(name, values != 0, file)
 
     @classmethod
     def coefficients(cls, file: Path) -> "BlockMap":
-        """Read friction coefficients, (N_y, N_x) float, [y, x], from an array of NumPy (.npy).
+        """Read friction coefficients, (N_y, N_x) float, [y, x], from a NumPy array (.npy).
 
         Raises
         ------
         ValueError
-            With one sentence on what is wrong with the file.
+            If the file is not an array of real numbers of this shape.
         """
         values = _array(file)
         if values.dtype.kind not in "iuf":
@@ -134,14 +134,14 @@ class BlockMap:
 
     @classmethod
     def of_topography(cls, cut: Cut, folder: Path) -> "BlockMap":
-        """Cut a topography; jobs will find the mask in `folder`."""
+        """Return the mask of a cut; jobs read it from `folder`."""
         values = cut.mask()
         name = _name(cut.topography, values)
         return cls(name, values, folder / f"{name}.npy", cut)
 
 
 def _name(file: Path, values: Array) -> str:
-    """Name of a file without what paths and tables are built with, and a digest of its values."""
+    """Name of a file in characters that are safe in paths and tables, with a digest of `values`."""
     content = hashlib.sha256(f"{values.dtype.str} {values.shape} ".encode())
     content.update(np.ascontiguousarray(values).tobytes())
     digest = f"-{content.hexdigest()[:8]}"
@@ -149,25 +149,25 @@ def _name(file: Path, values: Array) -> str:
 
 
 def _array(file: Path) -> Array:
-    """Read an array of two dimensions; anything but plain numbers is never loaded."""
+    """Read a two-dimensional array; pickled objects are never loaded."""
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
     try:
-        with np.errstate(over="ignore"):  # of a size that no file has
+        with np.errstate(over="ignore"):  # a damaged header may give an impossible size
             values = np.load(file, mmap_mode="r", allow_pickle=False)
     except (ValueError, OSError, OverflowError, EOFError):
         values = None
     if not isinstance(values, np.ndarray):
-        raise ValueError(f"{file} must be an array of numbers that NumPy has saved as .npy")
+        raise ValueError(f"{file} must be an array of numbers saved by NumPy as .npy")
     if values.ndim != 2 or not values.size:
         raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
-    if max(values.shape) > MAX_BLOCKS:  # nothing but the header has been read
+    if max(values.shape) > MAX_BLOCKS:  # only the header has been read
         raise ValueError(f"{file} {_TOO_LARGE}")
     return np.array(values)
 
 
 def _image(file: Path) -> Array:
-    """Read a black and white image, (N_y, N_x) of 0 and 255, from below."""
+    """Read a black and white image, (N_y, N_x) of 0 and 255, last row first."""
     from PIL import Image, UnidentifiedImageError
 
     if not file.is_file():
@@ -176,12 +176,12 @@ def _image(file: Path) -> Array:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(file, formats=_FORMATS) as image:
-                if max(image.size) > MAX_BLOCKS:  # nothing but the header has been read
+                if max(image.size) > MAX_BLOCKS:  # only the header has been read
                     raise Image.DecompressionBombError
                 mode = image.mode
                 pixels = np.asarray(image.convert("RGBA"))
     except UnidentifiedImageError:
-        raise ValueError(f"{file} is neither an image nor an array of NumPy (.npy)") from None
+        raise ValueError(f"{file} is neither an image nor a NumPy array (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
         raise ValueError(f"{file} {_TOO_LARGE}") from None
     except (OSError, SyntaxError, ValueError) as error:
@@ -190,20 +190,20 @@ def _image(file: Path) -> Array:
     is_grey = mode in _MODES and (pixels[..., :3] == shades[..., None]).all()
     if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
         raise ValueError(
-            f"{file} must be black and white, of 8 bits or 1 a pixel and of the values 0 and 255 "
-            "alone: neither grey, coloured nor transparent"
+            f"{file} must be black and white, with 1 or 8 bits per pixel: only the values 0 and "
+            "255, no grey, colour or transparency"
         )
     return shades[::-1]
 
 
 def _on_blocks(file: Path, spacing: float) -> Array:
-    """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN where there are none."""
+    """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN if not measured."""
     heights, sizes = _measured(file)
     number = [size / spacing * (1.0 + 1e-9) for size in sizes]
     if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
         raise ValueError(
-            f"{file} must hold 1 to {MAX_BLOCKS} blocks of {spacing!r} m a side; "
-            f"it is {sizes[0]:.4g} x {sizes[1]:.4g} m"
+            f"{file} is {sizes[0]:.4g} x {sizes[1]:.4g} m; each side must hold 1 to {MAX_BLOCKS} "
+            f"blocks of spacing = {spacing!r} m"
         )
     x, y = (
         ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
@@ -213,9 +213,9 @@ def _on_blocks(file: Path, spacing: float) -> Array:
 
 
 def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
-    """Heights, [x, y], NaN where there are none, and the size along x and y, all in m.
+    """Heights, [x, y], NaN if not measured, and size along x and y, all in m.
 
-    SurfaceTopography reads the file (https://contactengineering.github.io/SurfaceTopography/).
+    Read by SurfaceTopography (https://contactengineering.github.io/SurfaceTopography/).
     """
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
@@ -227,28 +227,28 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
             f"to read {file} install SurfaceTopography: pip install 'springblock[topography]'"
         ) from None
     if file.stat().st_size > _BYTES:
-        raise ValueError(f"{file} has more than {_BYTES} bytes, the most that are read")
-    no_units = f"{file} must say its size and its unit, which it does not"
+        raise ValueError(f"{file} is too large; a topography may have at most {_BYTES} bytes")
+    no_units = f"{file} must contain the size of the surface and its unit of length"
     try:
         with open_topography(file) as reader:
             points = math.prod(reader.default_channel.nb_grid_pts)
             if points > _POINTS:
-                raise ValueError(f"it has {points} points; {_POINTS} are the most that are read")
+                raise ValueError(f"it has {points} points; {_POINTS} is the largest number")
             read = reader.topography()
     except ReadFileError:
-        raise ValueError(f"{file} is no topography that SurfaceTopography can read") from None
-    except Exception as error:  # readers of some formats raise whatever goes wrong in them
+        raise ValueError(f"{file} is not a topography that SurfaceTopography can read") from None
+    except Exception as error:  # readers of some formats let any error pass
         reason = no_units if "physical_sizes" in str(error) else f"{file} cannot be read: {error!r}"
         raise ValueError(reason) from None
     if read.dim != 2:
-        raise ValueError(f"{file} must be a map of heights, not a line")
+        raise ValueError(f"{file} must be a map of heights, not a profile")
     if read.unit is None or read.physical_sizes is None:
         raise ValueError(no_units)
     try:
         metres = read.to_unit("m")
         heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
     except ValueError:
-        raise ValueError(f"{file} must have a unit of length, not {read.unit!r}") from None
+        raise ValueError(f"{file}: its unit must be a length, not {read.unit!r}") from None
     if not np.isfinite(heights).any():
-        raise ValueError(f"{file} must hold heights; it has no valid point")
+        raise ValueError(f"{file} has no valid point; it must hold heights")
     return heights, metres.physical_sizes

@@ -1,7 +1,7 @@
-"""What a run is computed with unless it is told otherwise; nothing that is slow to import."""
+"""Default integrator and times of a run, in a module that is quick to import."""
 
 INTEGRATOR = "leapfrog"
-#: Integration step, s; results/tables/work_precision.parquet says why.
+#: Integration step, s, chosen from results/tables/work_precision.parquet.
 STEP = 2e-8
-#: Time between two entries of the force curve, s.
+#: Time between two samples of the force, s.
 SAMPLE_INTERVAL = 2e-7

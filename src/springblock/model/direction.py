@@ -6,19 +6,19 @@ import numpy as np
 
 REAL = int | float | np.integer | np.floating
 _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
-#: By angles from -180 to 180 degrees: those that would have two names.
+#: Names of the angles, from -180 to 180 degrees, that could be written in two ways.
 _NAMES = {0.0: "x", 90.0: "y", -180.0: "180"}
 
 
 def normalised(direction: str | float) -> str:
-    """Write a direction the one way it is written: "x", "y" or degrees from x, as "15".
+    """Return the canonical form of a direction: "x", "y" or degrees from x, as "15".
 
-    Whole turns are taken out, exactly, and an angle along x or y has the name of that axis.
+    Whole turns are removed exactly, and an angle of 0 or 90 degrees becomes "x" or "y".
 
     Raises
     ------
     TypeError, ValueError
-        Where it is neither "x" nor "y" nor a finite number, itself or as text.
+        If it is neither "x" nor "y" nor a finite number, possibly as text.
     """
     if isinstance(direction, str) and direction in _AXES:
         return direction
@@ -36,7 +36,7 @@ def normalised(direction: str | float) -> str:
 
 
 def degrees(direction: str) -> float:
-    """Return the angle from x, in degrees, of a direction as `normalised` writes it."""
+    """Return the angle from x, in degrees, of a direction in the form of `normalised`."""
     return {"x": 0.0, "y": 90.0}[direction] if direction in _AXES else float(direction)
 
 

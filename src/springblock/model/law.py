@@ -1,4 +1,4 @@
-"""Laws of friction read from files: see `docs/howto.md`, "A law of one's own"."""
+"""Laws of friction from files: see `docs/howto.md`, "A law of one's own"."""
 
 import hashlib
 import inspect
@@ -10,30 +10,30 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-#: Arguments that `friction` and `update` may name, besides constants and state variables.
+#: Arguments that `friction` and `update` may have besides constants and state variables.
 _OF_FRICTION = ("mu_static", "mu_dynamic", "speed")
 _OF_UPDATE = ("speed", "step")
-#: Speeds in m/s at which a law is tried before any run, besides rest.
+#: Speeds in m/s at which a law is evaluated before a run.
 _TRIED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
 
 
 @dataclass(frozen=True)
 class LawFile:
-    """A law of friction from a Python file, and what was given for its constants.
+    """A law of friction from a Python file, with the values of its constants.
 
-    The file holds `friction`, which returns mu of a block that slides, and may hold `CONSTANTS`,
-    name: (value, unit), and `STATE`, the variables that each block keeps while it slides, name:
-    initial value or the constant that gives it. With a state it also holds `update`, which returns
-    the state after a step. Both functions name what they depend on as their arguments:
-    `mu_static`, `mu_dynamic` (of the block) and `speed` (m/s) in `friction`, `speed` (mean of the
-    step, m/s) and `step` (s) in `update`, and constants and state variables in both.
+    The file defines `friction`, which returns mu of a sliding block. It may define `CONSTANTS`,
+    name: (value, unit), and `STATE`, the state variables of a sliding block, name: initial value or
+    the name of the constant that is the initial value. With a state it also defines `update`, which
+    returns the state after a step. Both functions receive their arguments by name: `mu_static`,
+    `mu_dynamic` (of the block) and `speed` (m/s) in `friction`, `speed` (mean of the step, m/s) and
+    `step` (s) in `update`, and constants and state variables in both.
 
-    The name holds a digest of the file: a file that has changed is another law.
+    The name contains a digest of the file, so that a changed file is a different law.
     """
 
-    name: str  #: of the file and eight digits, as ageing-1a2b3c4d
-    given: tuple[tuple[str, float], ...] = ()  #: values of constants other than in the file
-    file: Path | None = field(default=None, compare=False, repr=False)  #: None: its name alone
+    name: str  #: name of the file and eight digits, as ageing-1a2b3c4d
+    given: tuple[tuple[str, float], ...] = ()  #: constants that differ from the file
+    file: Path | None = field(default=None, compare=False, repr=False)  #: None if not known
     source: str = field(default="", compare=False, repr=False)
     units: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
 
@@ -41,17 +41,17 @@ class LawFile:
         return self.name
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Leave what the file defines behind: another process runs the file itself."""
+        """Pickle without the functions: another process runs the file itself."""
         return LawFile, tuple(getattr(self, field.name) for field in fields(self))
 
     @classmethod
     def read(cls, file: Path, **constants: float) -> "LawFile":
-        """Read a law; `constants` take the place of values in the file.
+        """Read a law; `constants` replace values in the file.
 
         Raises
         ------
         ValueError
-            With one sentence on what is wrong with the file, or if it has no such constant.
+            If the file is not a valid law, with the reason, or has no such constant.
         """
         try:
             source = file.read_text(encoding="utf-8")
@@ -70,7 +70,7 @@ class LawFile:
 
     @classmethod
     def named(cls, text: str) -> "LawFile | None":
-        """Return the law of which a table has kept `described`, without its functions."""
+        """Return the law that a table describes, without its functions; see `described`."""
         described = re.fullmatch(r"([\w.-]+-[0-9a-f]{8})(?: \((.*)\))?", text)
         if not described:
             return None
@@ -81,7 +81,7 @@ class LawFile:
 
     @property
     def described(self) -> str:
-        """Name and constants, as tables and captions have them."""
+        """Name and constants, as in tables and captions."""
         constants = (
             f"{name} = {value!r} {self.units[name]}".strip()
             for name, value in self.constants.items()
@@ -94,20 +94,20 @@ class LawFile:
         Raises
         ------
         ValueError
-            Where it has no such constant, or the value is no finite number.
+            If it has no such constant, or the value is not a finite number.
         """
         given = dict(self.given)
         for name, value in constants.items():
             if name not in self.constants:
-                there_are = ", ".join(self.constants) or "none"
-                raise ValueError(f"{name!r} is no constant of {self.file}; there are {there_are}")
+                known = ", ".join(self.constants) or "none"
+                raise ValueError(f"{self.file}: unknown constant {name!r}; choose from {known}")
             if not _is_number(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)
         return replace(self, given=tuple(sorted(given.items())))
 
     def run(self) -> dict[str, Any]:
-        """Run the file, and return what it defines."""
+        """Run the file and return its definitions, by name."""
         module: dict[str, Any] = {}
         try:
             exec(compile(self.source, str(self.file), "exec"), module)
@@ -137,13 +137,13 @@ class LawFile:
 
     @property
     def constants(self) -> dict[str, float]:
-        """Values of its constants by name."""
+        """Values of its constants, by name."""
         in_file = self._module.get("CONSTANTS", {}) if self.source else {}
         return {name: float(value) for name, (value, _) in in_file.items()} | dict(self.given)
 
     @property
     def initial(self) -> dict[str, float]:
-        """State of a block that lets go, by name."""
+        """State of a block that detaches, by name."""
         constants, state = self.constants, self._module.get("STATE", {})
         return {name: float(constants.get(given, given)) for name, given in state.items()}
 
@@ -152,7 +152,7 @@ class LawFile:
         return list(inspect.signature(self._function(name)).parameters)
 
     def _check(self) -> None:
-        """Refuse, in one sentence, a file that is no law."""
+        """Refuse a file that does not define a law."""
         for table in ("CONSTANTS", "STATE"):
             if not isinstance(self._module.get(table, {}), dict):
                 raise ValueError(f"{self.file}: {table} must be a dictionary")
@@ -170,34 +170,34 @@ class LawFile:
         own = [*self.constants, *self._module.get("STATE", {})]
         for name in own:
             if name in (*_OF_FRICTION, *_OF_UPDATE) or own.count(name) > 1:
-                raise ValueError(f"{self.file}: the name {name!r} is given twice")
+                raise ValueError(f"{self.file}: the name {name!r} has two meanings; rename one")
         for function, more in {"friction": _OF_FRICTION, "update": _OF_UPDATE}.items():
             if function == "update" and not self._module.get("STATE"):
                 continue
             for name in self.arguments(function):
                 if name not in (*own, *more):
                     raise ValueError(
-                        f"{self.file}: {function} has the argument {name!r}; it may have "
+                        f"{self.file}: {function} has the unknown argument {name!r}; choose from "
                         f"{', '.join([*more, *own])}"
                     )
 
     def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
-        """Try the law at several speeds with the mean coefficients.
+        """Evaluate the law at several speeds with the mean coefficients.
 
         Raises
         ------
         ValueError
-            Where it fails, returns no friction coefficient, or another state than it declares.
+            If it fails, or returns an invalid friction coefficient or state.
         """
         known = {**self.constants, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
         if self.file is None:
-            raise ValueError(f"of the law {self} nothing is known here but its name")
+            raise ValueError(f"the file of the law {self} is not available, only its name")
         for speed in _TRIED:
             at = {**known, "speed": speed, "step": step}
             mu = self._tried("friction", {**at, **self.initial})
             if not (_is_number(mu) and mu >= 0.0):
                 raise ValueError(
-                    f"{self.file}: friction must be one number, finite and not negative, "
+                    f"{self.file}: friction must return one number, finite and not negative, "
                     f"not {mu!r} at {speed} m/s{self._with_constants}"
                 )
             state = self._tried("update", {**at, **self.initial}) if self.initial else ()
@@ -224,5 +224,5 @@ class LawFile:
 
 
 def _is_number(value: Any) -> bool:
-    """Whether it is a finite real number; numpy's are, too."""
+    """Return whether a value is a finite real number, of Python or NumPy."""
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)

@@ -1,4 +1,4 @@
-"""The elastic layer, its loading and its surface: every constant of the paper, in SI units."""
+"""Constants of the elastic layer, its loading and its surface, in SI units."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -8,10 +8,9 @@ from typing import Any
 
 from springblock.model.law import LawFile
 
-#: How the coefficients of the blocks may be distributed, see `springblock.model.asperities`.
+#: Distributions of the friction coefficients, see `springblock.model.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
-#: Laws of friction of a block that slides, see `springblock.solver.laws`, and the constant that
-#: each of them needs.
+#: Laws of friction, see `springblock.solver.laws`, with the constant that each of them needs.
 LAWS = {"coulomb": "", "slip_weakening": "slip_distance", "velocity_weakening": "speed_scale"}
 #: Fields that may be zero; all other numbers must be positive.
 _MAY_VANISH = {"gamma", "mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std"}
@@ -19,12 +18,12 @@ _MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
 
 
 def as_law(given: Any) -> str | LawFile:
-    """Read a law: one of `LAWS`, a Python file, or what a table has kept of one.
+    """Read a law: one of `LAWS`, a Python file, or the description of a file in a table.
 
     Raises
     ------
     ValueError
-        Where it is none of these, or on what is wrong with the file.
+        If it is none of these, or the file is not a valid law.
     """
     if isinstance(given, LawFile) or (isinstance(given, str) and given in LAWS):
         return given
@@ -37,7 +36,7 @@ def as_law(given: Any) -> str | LawFile:
 
 
 def expanded(constants: Mapping[str, Any]) -> dict[str, Any]:
-    """Return constants of a table with those of a law from a file each under its own name."""
+    """Return the constants of a table, with those of a law from a file under their own names."""
     law = as_law(constants["law"])
     own = law.constants if isinstance(law, LawFile) else {}
     return {**constants, **own, "law": str(law)}
@@ -53,16 +52,16 @@ def law_units(constants: Mapping[str, Any]) -> dict[str, str]:
 class Material:
     """Constants of the spring-block model (Costagliola et al. 2022, section 2).
 
-    The defaults are the paper's values. The spring constants and the block mass follow from
-    them: the lattice is equivalent to an isotropic sheet with Poisson's ratio 1/3 in plane
-    stress (Absi & Prager 1975, doi:10.1016/0045-7825(75)90013-2).
+    The defaults are the paper's values. Spring constants and block mass follow from them: the
+    lattice is equivalent to an isotropic sheet with Poisson's ratio 1/3 in plane stress (Absi &
+    Prager 1975, doi:10.1016/0045-7825(75)90013-2).
 
     Raises
     ------
     TypeError, ValueError
-        Where a field is not a number, not finite, negative, or zero where it may not be; where
-        what follows from them is beyond floating point; where there is no such distribution or
-        law; or where a law lacks its constant, or has that of another.
+        If a field is not a finite number of the allowed sign, a derived quantity exceeds the range
+        of floating point, the distribution or the law is unknown, or a law lacks its constant or
+        has that of another.
     """
 
     youngs_modulus: float = 1e7  #: E, Pa
@@ -76,9 +75,9 @@ class Material:
     mu_static_std: float = 0.1  #: its standard deviation
     mu_dynamic: float = 0.6  #: mean of the microscopic dynamic coefficient
     mu_dynamic_std: float = 0.05  #: its standard deviation
-    distribution: str = "normal"  #: of both, one of `DISTRIBUTIONS`
-    correlation_length: float = 0.0  #: m, over which they are alike; 0: each block for itself
-    law: str | LawFile = "coulomb"  #: of friction, one of `LAWS` or from a file
+    distribution: str = "normal"  #: of both coefficients, one of `DISTRIBUTIONS`
+    correlation_length: float = 0.0  #: ℓ, m, of both coefficients; 0 if they are independent
+    law: str | LawFile = "coulomb"  #: law of friction, one of `LAWS` or from a file
     slip_distance: float = 0.0  #: d_c, m, of slip weakening; 0 with any other law
     speed_scale: float = 0.0  #: v_c, m/s, of velocity weakening; 0 with any other law
 
@@ -109,7 +108,9 @@ class Material:
             except (OverflowError, ZeroDivisionError):
                 derived = math.nan
             if not (math.isfinite(derived) and derived > 0.0):
-                raise ValueError(f"these constants take Material.{name} beyond floating point")
+                raise ValueError(
+                    f"these constants give Material.{name} outside the range of floating point"
+                )
 
     def _check_law(self) -> None:
         for law, name in LAWS.items():
@@ -122,25 +123,25 @@ class Material:
             twice = self.law.constants.keys() & {field.name for field in fields(self)}
             if twice:
                 raise ValueError(
-                    f"{self.law.file}: {min(twice)!r} is a constant of the material already"
+                    f"{self.law.file}: {min(twice)!r} is a constant of the material; rename it"
                 )
 
     def items(self) -> Iterator[tuple[str, float | str]]:
-        """Yield (name, value) of every constant; all are numbers but words.
+        """Yield (name, value) of every constant.
 
-        Those of a law from a file are part of its text.
+        A law from a file is described by a text that includes its constants.
         """
         for field in fields(self):
             value = getattr(self, field.name)
             yield field.name, value.described if isinstance(value, LawFile) else value
 
     def vary(self, constants: Mapping[str, Any]) -> "Material":
-        """Return a material with other constants, those of its law among them.
+        """Return a material with other constants, including those of its law.
 
         Raises
         ------
         TypeError, ValueError
-            Where there is no such constant, or it has no such value.
+            If there is no such constant, or its value is not valid.
         """
         known = [field.name for field in fields(self)]
         own = {name: value for name, value in constants.items() if name in known}
@@ -150,14 +151,14 @@ class Material:
             return material
         if not isinstance(material.law, LawFile):
             raise ValueError(
-                f"{min(others)!r} is no constant; there are {', '.join(known)}, and those of a law "
-                "from a file"
+                f"unknown constant {min(others)!r}; choose from {', '.join(known)}, or one of a "
+                "law from a file"
             )
         return replace(material, law=material.law.vary(others))
 
     @property
     def k_int(self) -> float:
-        """Stiffness of an axial spring, N/m: K_int = 3/4 E l_z; a diagonal one has half."""
+        """Stiffness of an axial spring, N/m: K_int = 3/4 E l_z; diagonal springs have half."""
         return 0.75 * self.youngs_modulus * self.thickness
 
     @property
@@ -177,14 +178,13 @@ class Material:
 
     @property
     def omega_min(self) -> float:
-        """Lowest angular frequency of the free lattice, rad/s: all blocks on their K_s."""
+        """Lowest angular frequency of the lattice, rad/s: √(K_s/m), all blocks in phase."""
         return math.sqrt(self.k_s / self.mass)
 
     @property
     def omega_max(self) -> float:
         """Highest angular frequency of the lattice, rad/s, at wave vector (π, 0).
 
-        There an axial pair along x and four diagonals are strained in full:
-        m ω² = K_s + 6 K_int.
+        The axial springs along x and the four diagonal ones contribute: m ω² = K_s + 6 K_int.
         """
         return math.sqrt((self.k_s + 6.0 * self.k_int) / self.mass)

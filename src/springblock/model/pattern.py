@@ -1,8 +1,7 @@
 """Contact masks of flat, pillared and hierarchically grooved surfaces.
 
-Every level cuts the surface along x, along y or along both, independently of the other axis, so
-a pattern is the product of two one-dimensional profiles. A profile is a list of segments in
-contact, each given by its first block and its length.
+Each level cuts the surface along x, along y or along both, so that a pattern is the product of two
+one-dimensional profiles. A profile is a list of contact segments, given by first block and length.
 """
 
 from dataclasses import dataclass, replace
@@ -11,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-#: Blocks along a side, for which the solver is laid out.
+#: Largest number of blocks along a side, for which the solver is laid out.
 MAX_BLOCKS = 4096
 
 Segments = list[tuple[int, int]]
@@ -27,10 +26,10 @@ def _count(name: str, value: int) -> int:
 
 @dataclass(frozen=True)
 class Level:
-    """One level of the hierarchy: contact of `size` blocks, then none for `gap` blocks.
+    """One level of the hierarchy: `size` blocks in contact, separated by gaps of `gap` blocks.
 
-    `axes` names the coordinates that are cut: ("x", "y") gives pillars, ("y",) grooves that
-    run along x, ("x",) grooves that run along y.
+    `axes` names the coordinates that are cut: ("x", "y") gives pillars, ("y",) grooves along x,
+    ("x",) grooves along y.
     """
 
     size: int
@@ -39,7 +38,7 @@ class Level:
 
     @property
     def along(self) -> str | None:
-        """Axis that the grooves of this level run along; None for pillars."""
+        """Direction of the grooves of this level, "x" or "y"; None for pillars."""
         return None if len(self.axes) == 2 else {"y": "x", "x": "y"}[self.axes[0]]
 
 
@@ -55,7 +54,7 @@ def _cut_surface(name: str, n: int, level: Level) -> Segments:
 
 
 def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
-    """Cut one segment; contact begins and ends at the segment's own edges."""
+    """Cut one segment; contact begins and ends at the edges of the segment."""
     start, length = segment
     period = level.size + level.gap
     if level.gap >= length:
@@ -73,23 +72,22 @@ def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
 
 @dataclass(frozen=True)
 class Pattern:
-    """A hierarchy of any depth on a surface of N x N blocks, or of N_y rows of N_x blocks.
+    """Contact pattern of any number of levels on N x N blocks, or N_y rows of N_x blocks.
 
-    Build it from `flat` or `pillars` and refine it with `grooved` and `pillared`. The first
-    level keeps a margin of n_s/2 to the edges of the surface (of floor and ceil of n_s/2 where
-    n_s is odd); deeper levels fill their pillar from edge to edge, since the edge of a pillar is
-    where its contact ends.
+    Start from `flat` or `pillars` and add levels with `grooved` and `pillared`. The first level has
+    a margin of n_s/2 to the edges of the surface (floor and ceiling of n_s/2 if n_s is odd); deeper
+    levels fill a pillar from edge to edge.
 
     Raises
     ------
     TypeError, ValueError
-        Where a length is not a positive whole number, a side is too long, the first period does
-        not divide N, or a level does not fit into the one above it.
+        If a length is not a positive whole number, a side is too long, the first period does not
+        divide N, or a level does not fit into the one above it.
     """
 
-    n_blocks: int  #: along x
+    n_blocks: int  #: blocks along x
     levels: tuple[Level, ...] = ()
-    n_rows: int | None = None  #: along y; None for as many
+    n_rows: int | None = None  #: blocks along y; None for a square surface
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "n_blocks", _count("N", self.n_blocks))
@@ -97,17 +95,17 @@ class Pattern:
         object.__setattr__(self, "n_rows", rows)
         for name, blocks in (("N", self.n_blocks), ("n_rows", rows)):
             if blocks > MAX_BLOCKS:
-                raise ValueError(f"{name} is {blocks}; the solver goes up to {MAX_BLOCKS}")
-        self.profile("x"), self.profile("y")  # a level that does not fit is refused here
+                raise ValueError(f"{name} must be at most {MAX_BLOCKS}, not {blocks}")
+        self.profile("x"), self.profile("y")  # refuses levels that do not fit
 
     @classmethod
     def flat(cls, n_blocks: int, n_rows: int | None = None) -> "Pattern":
-        """All blocks in contact."""
+        """Return a flat surface, with all blocks in contact."""
         return cls(n_blocks, n_rows=n_rows)
 
     @classmethod
     def pillars(cls, n_blocks: int, n_p: int, n_s: int, n_rows: int | None = None) -> "Pattern":
-        """Square pillars of n_p blocks, n_s blocks apart."""
+        """Return a surface with square pillars of n_p blocks, n_s blocks apart."""
         return cls(n_blocks, n_rows=n_rows).pillared(n_p, n_s)
 
     def pillared(self, n_p: int, n_s: int) -> "Pattern":
@@ -117,7 +115,7 @@ class Pattern:
     def grooved(self, n_p2: int, n_s2: int, along: str = "x") -> "Pattern":
         """Add a level of pawls of n_p2 blocks between grooves of n_s2 blocks that run `along`."""
         if along not in ("x", "y"):
-            raise ValueError(f"grooves run along 'x' or 'y', not {along!r}")
+            raise ValueError(f"along must be 'x' or 'y', not {along!r}")
         across = ("y",) if along == "x" else ("x",)
         return self._refined(Level(_count("n_p2", n_p2), _count("n_s2", n_s2), across))
 
@@ -127,8 +125,7 @@ class Pattern:
     def profile(self, axis: str, depth: int | None = None) -> Segments:
         """Return the contact segments (first block, length) along `axis`.
 
-        `depth` counts the levels that are looked at, all of them by default; levels that do not
-        cut this axis leave it whole.
+        Only the first `depth` levels are considered, by default all.
         """
         rows, columns = self.shape
         n, name = (columns if axis == "x" else rows), ("N" if rows == columns else f"N_{axis}")

@@ -1,4 +1,4 @@
-"""A scene: one surface, pulled one way. What the study varies besides the seed."""
+"""Scenes: surface, sliding direction and constants that a study varies besides the seed."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,53 +15,50 @@ from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.pattern import Pattern
 
-LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: of a scene, two for each level
+LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: lengths of a scene, two per level
 _PATTERN = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
-#: Those of one value per block that a file says, and the options that take the file.
+#: Fields read from files, with the option of the command line for each.
 MAPS = {"mask": "--mask", "mu_static_field": "--mu-static", "mu_dynamic_field": "--mu-dynamic"}
-#: Columns that tell scenes apart, in the order in which the rows of a table are sorted by them.
+#: Columns that identify a scene, in the order by which the rows of a table are sorted.
 COLUMNS = (*_PATTERN, "n_rows", "edges", *MAPS)
 EDGES = ("free", "periodic")
-#: What else a scene may have of its own, instead of the study's.
+#: Constants that a scene may vary.
 CONSTANTS = (*dict(Material().items()), "integrator", "step")
-TEXTS = ("integrator", "distribution", "law")  #: those of them that are no numbers
-_SIDE = 6  #: blocks of the shortest side along which a correlation is measured
+TEXTS = ("integrator", "distribution", "law")  #: constants that are not numbers
+_SIDE = 6  #: least number of blocks of a side along which a correlation is measured
 
 Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the order of `CONSTANTS`
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Pattern and sliding direction; lengths of 0 stand for no such level.
+    """Surface, sliding direction and varied constants; a length of 0 means no such level.
 
-    Without pillars the grooves of level 2 cross the whole surface. They run along x, those of
-    level 3 along y unless `along_3` says otherwise; a sliding direction y swaps their parts.
-
-    A mask takes the place of the pattern, and of N. Coefficients from files take the place of
-    those that are drawn.
+    Grooves of level 2 run along x, and without pillars across the whole surface; grooves of level 3
+    run along `along_3`, by default y. A mask replaces pattern and N, and coefficients from files
+    replace those that are drawn.
 
     Raises
     ------
     TypeError, ValueError
-        Where a length is given without its partner or without the level above it, the direction
-        is none, a constant that is varied has no such name or value, or what is read from files
-        does not fit.
+        If a length lacks its partner or the level above it, the direction or a varied constant is
+        not valid, or fields from files do not fit.
     """
 
-    n_blocks: int = 0  #: N, along x; 0 for as many as the mask has
+    n_blocks: int = 0  #: N, along x; 0 to take it from the mask
     n_p: int = 0
     n_s: int = 0
     n_p2: int = 0
     n_s2: int = 0
     n_p3: int = 0
     n_s3: int = 0
-    direction: str = "x"  #: "x", "y" or an angle from x in degrees, which is kept as text
-    along_3: str = ""  #: axis that the grooves of level 3 run along; "" without them
-    varied: Varied = ()  #: constants of its own, instead of the study's
-    n_rows: int = 0  #: N_y; 0 for as many as n_blocks
-    edges: str = "free"  #: or "periodic", both ways
+    direction: str = "x"  #: "x", "y" or an angle from x in degrees, as text
+    along_3: str = ""  #: direction of the grooves of level 3; "" without them
+    varied: Varied = ()  #: constants that replace those of the study
+    n_rows: int = 0  #: N_y; 0 for a square surface
+    edges: str = "free"  #: "free" or "periodic", along x and y
     mask: BlockMap | None = None  #: blocks in contact
-    mu_static_field: BlockMap | None = None  #: coefficients that are not drawn
+    mu_static_field: BlockMap | None = None  #: coefficients from a file, instead of drawn ones
     mu_dynamic_field: BlockMap | None = None
 
     def __post_init__(self) -> None:
@@ -70,7 +67,7 @@ class Scene:
         self._check_levels()
         self._check_maps()
         if not self.mask:
-            Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses what is no number of blocks
+            Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses invalid numbers of blocks
         if self.n_rows == self.n_blocks:
             object.__setattr__(self, "n_rows", 0)
         if self.edges not in EDGES:
@@ -91,12 +88,12 @@ class Scene:
 
     def _check_maps(self) -> None:
         if self.mask and self.names:
-            raise ValueError(f"a mask cannot be given together with {', '.join(self.names)}")
+            raise ValueError(f"mask cannot be combined with {', '.join(self.names)}")
         if self.mask and self.mask.values is not None:
             rows, columns = self.mask.values.shape
             if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
                 raise ValueError(
-                    f"n_blocks and n_rows are those of the mask, {columns} and {rows}, "
+                    f"n_blocks and n_rows must be those of the mask, {columns} and {rows}, "
                     f"not {self.n_blocks} and {self.n_rows or self.n_blocks}"
                 )
             object.__setattr__(self, "n_blocks", columns)
@@ -105,14 +102,14 @@ class Scene:
             self._check_field(name, getattr(self, f"{name}_field"))
         idle = {"distribution", "correlation_length"} & dict(self.varied).keys()
         if idle and not self.is_drawn:
-            raise ValueError(f"{min(idle)} cannot be varied where all coefficients are from files")
+            raise ValueError(f"{min(idle)} cannot be varied if all coefficients are from files")
 
     def _check_field(self, name: str, field: BlockMap | None) -> None:
         if field is None:
             return
         for constant in (name, f"{name}_std"):
             if constant in dict(self.varied):
-                raise ValueError(f"{constant} cannot be varied where {field} says {name}")
+                raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
         if field.values is None:
             return
         if field.values.shape != self.shape:
@@ -122,11 +119,11 @@ class Scene:
             )
         within = field.values[self.contact]
         if not (np.isfinite(within) & (within >= 0.0)).all():
-            raise ValueError(f"{field} must be finite and not negative wherever there is contact")
+            raise ValueError(f"{field} must be finite and not negative on all blocks in contact")
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> "Scene":
-        """Return the scene that a row of a table belongs to; of its maps a table has the names."""
+        """Return the scene of a row of a table, in which fields from files are only names."""
         named = {key: row[key] for key in COLUMNS if key not in ("level", "varied", *MAPS)}
         named |= {key: BlockMap(row[key]) for key in MAPS if row[key]}
         pairs = [pair.split("=") for pair in row["varied"].split(", ") if pair]
@@ -134,7 +131,7 @@ class Scene:
 
     @property
     def row(self) -> dict[str, Any]:
-        """Its columns in a row of a table."""
+        """Its columns for a row of a table."""
         varied = ", ".join(f"{name}={value}" for name, value in self.varied)
         maps = {key: str(getattr(self, key) or "") for key in MAPS}
         own = {"varied": varied, "n_rows": self.shape[0], **maps}
@@ -142,12 +139,12 @@ class Scene:
 
     @property
     def lengths(self) -> dict[str, int]:
-        """The lengths of its levels by their names."""
+        """Lengths of its levels, by name."""
         return {key: getattr(self, key) for key in LENGTHS if getattr(self, key)}
 
     @property
     def level(self) -> int:
-        """Number of levels of the pattern: 0 for a flat surface, -1 for a mask of one's own."""
+        """Number of levels of the pattern: 0 for a flat surface, -1 for a mask."""
         return -1 if self.mask else len(self.lengths) // 2
 
     @property
@@ -157,36 +154,36 @@ class Scene:
 
     @property
     def is_periodic(self) -> bool:
-        """Whether the surface goes on as it begins, both ways."""
+        """Whether the edges are periodic."""
         return self.edges == "periodic"
 
     @property
     def is_papers(self) -> bool:
-        """Whether the paper might have this surface: square, with edges, and nothing from files."""
+        """Whether the surface is of the paper's kind: square, with free edges, without files."""
         return not (self.n_rows or self.is_periodic or any(getattr(self, key) for key in MAPS))
 
     @property
     def is_drawn(self) -> bool:
-        """Whether a coefficient is drawn; where none is, all seeds are the same run."""
+        """Whether any coefficient is drawn; otherwise all seeds give the same run."""
         return not (self.mu_static_field and self.mu_dynamic_field)
 
     @property
     def contact(self) -> NDArray[np.bool_]:
         """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x].
 
-        Raises ValueError where lengths do not fit, or no more than the name of a mask is known.
+        Raises ValueError if lengths do not fit, or only the name of a mask is known.
         """
         if self.mask is None:
             return self.pattern.contact
         if self.mask.values is None:
-            raise ValueError(f"of the mask {self.mask} nothing is known here but its name")
+            raise ValueError(f"the values of the mask {self.mask} are not available, only its name")
         return self.mask.values
 
     @property
     def pattern(self) -> Pattern:
-        """The pattern; raises ValueError where its lengths do not fit, or it has a mask instead."""
+        """The pattern; raises ValueError if its lengths do not fit, or it has a mask instead."""
         if self.mask:
-            raise ValueError(f"the mask {self.mask} is no pattern of pillars and grooves")
+            raise ValueError(f"the mask {self.mask} is not a pattern of pillars and grooves")
         pattern = Pattern.flat(self.n_blocks, self.n_rows or None)
         if self.n_p:
             pattern = pattern.pillared(self.n_p, self.n_s)
@@ -198,19 +195,19 @@ class Scene:
 
     @property
     def sides(self) -> tuple[str, ...]:
-        """Axes along which pillars have sides that nothing cuts, 6 blocks long or more."""
+        """Axes along which pillars have uncut sides of at least 6 blocks."""
         if self.n_p < _SIDE or self.along_3 == "y":
             return ()
         return ("x",) if self.n_p2 else ("x", "y")
 
     @property
     def names(self) -> dict[str, Any]:
-        """Lengths of its levels, and what else tells patterns of them apart, by name."""
+        """Lengths and direction of its levels, by name."""
         return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
 
     @property
     def named(self) -> dict[str, str]:
-        """All that tells it from other scenes, by name."""
+        """All properties that identify the scene, by name."""
         named: dict[str, Any] = {"n_blocks": self.n_blocks}
         if self.n_rows:
             named["n_rows"] = self.n_rows
@@ -226,17 +223,17 @@ class Scene:
     def folder(self) -> str:
         """Folder of its realisations.
 
-        Without the "=" that would make readers of many files take its parts for columns again.
+        With "-" in place of "=", from which readers of partitioned tables would add columns.
         """
         return "/".join(f"{key}-{value}" for key, value in self.named.items())
 
     def __str__(self) -> str:
-        """Name it as captions and titles do."""
+        """Return its name in captions and titles."""
         return ", ".join(f"{key} = {value}" for key, value in self.named.items())
 
     @property
     def arguments(self) -> str:
-        """The scene as options of `springblock simulate`; its maps as the files they come from."""
+        """The scene as options of `springblock simulate`, with the files of its fields."""
         varied, files, options = dict(self.varied), self.files, []
         for name, value in self.named.items():
             if name in varied:
@@ -250,7 +247,7 @@ class Scene:
 
     @property
     def files(self) -> dict[str, Path]:
-        """Files that its maps and its law are read from, by column."""
+        """Files of its fields and of its law, by column."""
         maps = {key: getattr(self, key) for key in MAPS}
         maps["law"] = dict(self.varied).get("law")
         files = {key: getattr(each, "file", None) for key, each in maps.items()}
@@ -258,19 +255,18 @@ class Scene:
 
 
 def in_order(constants: Mapping[str, Any]) -> Varied:
-    """Constants in the one order, and numbers as numbers, even where they come as text.
+    """Sort constants in the order of `CONSTANTS`, and convert numbers given as text.
 
-    Names other than `CONSTANTS`, which come last, are those of a law from a file: `Setup.vary`
-    refuses what the law has not.
+    Other names come last; they belong to a law from a file, and `Setup.vary` checks them.
 
     Raises
     ------
     ValueError
-        Where that cannot be the name of a constant, or it is no number.
+        If a name cannot be that of a constant, or a value is not a number.
     """
     for name in constants:
         if not name.isidentifier():
-            raise ValueError(f"{name!r} is no constant; there are {', '.join(CONSTANTS)}")
+            raise ValueError(f"unknown constant {name!r}; choose from {', '.join(CONSTANTS)}")
     names = [*CONSTANTS, *sorted(constants.keys() - set(CONSTANTS))]
     return tuple((name, _value(name, constants[name])) for name in names if name in constants)
 

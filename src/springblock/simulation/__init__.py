@@ -1,1 +1,1 @@
-"""One realisation: set up, loaded, run, and what it yields."""
+"""Simulation of one realisation: setup, prelude, run and results."""

@@ -1,4 +1,4 @@
-"""An unfinished run in a file, to go on from as if nothing had stopped it."""
+"""Checkpoints: unfinished runs in files, which continue to the same bits."""
 
 import hashlib
 import json
@@ -20,10 +20,10 @@ Array = NDArray[np.float64]
 
 
 def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[str, str]:
-    """What an unfinished run belongs to, by the names under which another is refused.
+    """Return digests of everything that determines a run, by the names used in error messages.
 
-    `surface` is what `prelude.conditions` returns. The number of cores and the prelude are not
-    part of it, since they change no bit.
+    `surface` comes from `prelude.conditions`. The number of cores and the prelude are left out,
+    since results do not depend on them.
     """
     coefficients = b"".join(mu.tobytes() for mu in friction)
     return {
@@ -35,37 +35,37 @@ def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[
 
 
 def check_belonging(path: Path, theirs: dict[str, Any], ours: dict[str, Any]) -> None:
-    """Refuse a file that was kept for another run, naming what differs."""
+    """Refuse the checkpoint of another run, naming what differs."""
     other = ", ".join(name for name in ours | theirs if theirs.get(name) != ours.get(name))
     if other:
-        raise ValueError(f"{path} belongs to a run of other {other}; remove it first")
+        raise ValueError(f"{path} belongs to a run with other {other}; remove it first")
 
 
 @dataclass
 class Checkpoint:
-    """Where an unfinished run is kept, and how often.
+    """Checkpoint file of a run and the interval at which it is written.
 
     Raises
     ------
     TypeError, ValueError
-        Where the interval is not a positive number.
+        If the interval is not a positive number.
     """
 
     path: Path
     interval: float  #: wall-clock seconds between two checkpoints
     belongs: dict[str, str]  #: see `belonging`
-    written: float = field(default_factory=monotonic)  #: s, the last time
+    written: float = field(default_factory=monotonic)  #: s, time of the last checkpoint
 
     def __post_init__(self) -> None:
         check_positive("checkpoint_interval", self.interval)
 
     @property
     def is_due(self) -> bool:
-        """Whether it was last written long enough ago."""
+        """Whether the interval since the last checkpoint has passed."""
         return monotonic() - self.written >= self.interval
 
     def save(self, state: State, taken: Iterable[Samples], snapshots: Sequence[Array]) -> None:
-        """Write a run as it stands between two samples, whole or not at all."""
+        """Write the state of a run between two samples, whole or not at all."""
         samples = [np.concatenate(parts) for parts in zip(*taken, strict=True)]
         arrays: dict[str, Any] = {
             "belongs": json.dumps(self.belongs),
@@ -78,12 +78,12 @@ class Checkpoint:
         self.written = monotonic()
 
     def restore(self, state: State) -> tuple[Samples, list[Array]]:
-        """Move `state`, at rest so far, on to where it was saved; return samples and snapshots.
+        """Set `state` to the saved one; return the samples and snapshots up to then.
 
         Raises
         ------
         ValueError
-            Where the file keeps another run, naming what differs, or is none.
+            If the file is not a checkpoint, or belongs to another run, naming what differs.
         """
         kept = _read(self.path)
         check_belonging(self.path, json.loads(str(kept["belongs"])), self.belongs)
@@ -96,14 +96,14 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         kept = read_arrays(path)
     except ValueError as error:
-        raise ValueError(f"{path} is no checkpoint: {error}") from error
+        raise ValueError(f"{path} is not a checkpoint: {error}") from error
     if "belongs" not in kept:
-        raise ValueError(f"{path} is no checkpoint: it holds {', '.join(kept)}")
+        raise ValueError(f"{path} is not a checkpoint: it holds {', '.join(kept)}")
     return kept
 
 
 def _fields(state: State) -> list[NDArray[Any]]:
-    """All that a run goes on from; what it works in is filled anew."""
+    """Return all fields that determine the rest of a run; scratch arrays are not among them."""
     of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
     return [*state.blocks, *state.work, state.ledger, *of_law]
 

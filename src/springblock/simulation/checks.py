@@ -1,4 +1,4 @@
-"""What a run may be asked for: surfaces and times that make sense."""
+"""Checks of surfaces and times."""
 
 import math
 from typing import Any
@@ -11,8 +11,8 @@ from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[np.float64]
 
-#: Blocks of the shortest side with periodic edges: on a shorter one a block is its own neighbour,
-#: or twice that of another.
+#: Least number of blocks per side with periodic edges: with fewer, a block would be its own
+#: neighbour, or a neighbour of another one twice.
 _SHORTEST_PERIOD = 3
 
 
@@ -21,29 +21,29 @@ def checked_surface(
 ) -> tuple[NDArray[np.bool_], Array, Array]:
     """Return contact and coefficients, (N_y, N_x) each, the latter zero outside the contact.
 
-    A contact may be given as 0 and 1, a coefficient as one number for all blocks.
+    The contact may consist of 0 and 1, and a coefficient may be one number for all blocks.
 
     Raises
     ------
     TypeError, ValueError
-        With a sentence on what is wrong with them.
+        If a shape, type or value is not valid, with the reason.
     """
     mask = _as_mask(contact)
     if mask.ndim != 2:
         raise ValueError(f"contact must have the shape (N_y, N_x), not {mask.shape}")
     if max(mask.shape) > MAX_BLOCKS:
         raise ValueError(
-            f"contact has the shape {mask.shape}; this solver goes up to {MAX_BLOCKS} blocks a side"
+            f"contact has the shape {mask.shape}; a side may have at most {MAX_BLOCKS} blocks"
         )
     if not isinstance(periodic, bool):
         raise TypeError(f"periodic must be True or False, not {periodic!r}")
     if periodic and min(mask.shape) < _SHORTEST_PERIOD:
         raise ValueError(
-            f"contact has the shape {mask.shape}; with periodic edges each side must hold at least "
+            f"contact has the shape {mask.shape}; with periodic edges each side must have at least "
             f"{_SHORTEST_PERIOD} blocks"
         )
     if not mask.any():
-        raise ValueError("contact is False everywhere: at least one block must bear the load")
+        raise ValueError("contact is False everywhere; at least one block must be in contact")
     fields = []
     for name, values in (("mu_static", mu_static), ("mu_dynamic", mu_dynamic)):
         mu = np.asarray(values)
@@ -55,13 +55,13 @@ def checked_surface(
             raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
         in_contact = mu[mask]
         if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
-            raise ValueError(f"{name} must be finite and not negative wherever there is contact")
+            raise ValueError(f"{name} must be finite and not negative on all blocks in contact")
         fields.append(np.where(mask, mu, 0.0).astype(float))
     return mask, fields[0], fields[1]
 
 
 def _as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
-    """Contact as it is, or made of the whole numbers 0 and 1."""
+    """Return contact as an array of bool, converted from 0 and 1 if necessary."""
     mask = np.asarray(contact)
     if mask.dtype == np.bool_:
         return mask
@@ -74,7 +74,7 @@ def _as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
 
 
 def check_positive(name: str, value: Any) -> None:
-    """Refuse what is not a finite, positive number of seconds."""
+    """Refuse a time that is not finite and positive."""
     if isinstance(value, bool) or not isinstance(value, REAL):
         raise TypeError(f"{name} must be a number of seconds, not {value!r}")
     if not (math.isfinite(value) and value > 0.0):
@@ -82,7 +82,7 @@ def check_positive(name: str, value: Any) -> None:
 
 
 def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
-    """How many times `unit` is in `value`; raise ValueError unless it is a whole number."""
+    """Return `value` divided by `unit`; raise ValueError unless it is a whole number."""
     check_positive(name, value)
     ratio = value / unit
     count = round(ratio) if math.isfinite(ratio) else 0
@@ -92,7 +92,7 @@ def whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
 
 
 def count_samples(duration: float, sample_interval: float) -> int:
-    """Whole sample intervals within a positive duration; at least one."""
+    """Return the number of whole sample intervals within a positive duration; at least one."""
     if duration < sample_interval * (1.0 - 1e-9):
         raise ValueError(
             f"duration must be at least one sample_interval = {sample_interval!r} s, "

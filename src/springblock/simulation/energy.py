@@ -1,4 +1,4 @@
-"""The energy ledger of a run: where the slider's work has gone."""
+"""Energy balance of a run."""
 
 import math
 from dataclasses import dataclass
@@ -11,17 +11,17 @@ from springblock.model.material import Material
 
 @dataclass(frozen=True)
 class Energy:
-    """Work of the slider and where it has gone by the end of a run, in J."""
+    """Work, energies and heat at the end of a run, in J; (14) of docs/model.md."""
 
-    work_in: float  #: done by the slider
-    elastic: float  #: stored in all springs
+    work_in: float  #: work done by the slider
+    elastic: float  #: energy of all springs
     kinetic: float
-    friction: float  #: turned into heat by friction with the substrate
-    viscous: float  #: turned into heat by damping
+    friction: float  #: frictional heat
+    viscous: float  #: heat of damping
 
     @property
     def relative_residual(self) -> float:
-        """What is missing from the balance, as a share of `work_in`; NaN where there is none."""
+        """Residual of the balance, as a share of `work_in`; NaN without work."""
         if self.work_in == 0.0:
             return math.nan
         spent = self.elastic + self.kinetic + self.friction + self.viscous
@@ -31,7 +31,7 @@ class Energy:
 def _stretch_squared(
     apart: NDArray[np.float64], rest_x: float, rest_y: float
 ) -> NDArray[np.float64]:
-    """(r - L)² of springs with rest vector (rest_x, rest_y) whose ends moved `apart`, (2, ...)."""
+    """(r - L)² of springs with rest vector (rest_x, rest_y) and relative displacement `apart`."""
     rest2 = rest_x**2 + rest_y**2
     q = (2.0 * (rest_x * apart[0] + rest_y * apart[1]) + apart[0] ** 2 + apart[1] ** 2) / rest2
     return rest2 * (q / (1.0 + np.sqrt(1.0 + q))) ** 2  # r - L without cancellation
@@ -43,13 +43,13 @@ def elastic_energy(
     material: Material,
     periodic: bool = False,
 ) -> float:
-    """Energy in all springs, J, of displacements (2, N_y, N_x) in m under a slider at (2,) in m.
+    """Energy of all springs, J, for displacements (2, N_y, N_x) in m and the slider at (2,) in m.
 
-    On a periodic surface springs across the edges are among them.
+    On a periodic surface this includes the springs across the edges.
     """
     length, k_int = material.spacing, material.k_int
     d, every = displacement, slice(None)
-    if periodic:  # with images of the first row and column, whose own springs are not counted again
+    if periodic:  # append images of the first row and column, without the springs between them
         d, every = np.pad(d, ((0, 0), (0, 1), (0, 1)), mode="wrap"), slice(-1)
     springs = (
         (k_int, d[:, every, 1:] - d[:, every, :-1], length, 0.0),

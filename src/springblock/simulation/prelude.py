@@ -1,11 +1,11 @@
 """The loading before the first detachment, computed once for all seeds.
 
-Until the first block detaches, the motion depends on the pattern and the direction, not on the
-friction coefficients. A prelude runs the scene with blocks that never let go, and keeps a few
-states: how the blocks without contact move, and the running maximum of |F_mot| on those in
-contact, which rest. A realisation may start from the latest state whose maxima all stay under
-its own thresholds: it is then, to the last bit, where it would have come from zero. (With a law
-from a file the force until then, a sum over blocks in another order, may differ by rounding.)
+Until the first block detaches, the motion depends on the pattern and the direction, but not on the
+friction coefficients. A prelude simulates the scene with blocks that never detach and stores a few
+states: the motion of the blocks without contact, and the running maximum of |F_mot| on the blocks
+in contact, which are at rest. A realisation may start from the latest state whose maxima are all
+below its thresholds, with the same result, to the last bit, as a run from zero. (With a law from a
+file, the force before that state is summed in another order and may differ by rounding.)
 """
 
 import json
@@ -30,69 +30,68 @@ from springblock.solver.laws import strengths
 
 Array = NDArray[np.float64]
 
-#: Sample intervals between two looks at the state.
+#: Sample intervals between two candidates for a stored state.
 _BETWEEN = 10
-#: For each of these shares of all seeds, the latest state is kept that so many may start from.
-#: The number of blocks that should have detached grows about exponentially with time: six states
-#: at about these shares then leave the least to be done again, and hardly a seed begins at zero.
+#: For each of these shares of all seeds, the latest state is stored from which so many may start.
+#: The expected number of detached blocks grows about exponentially with time; six states at about
+#: these shares then save the most time, and few seeds start from zero.
 HOLDING = (0.998, 0.96, 0.85, 0.65, 0.4, 0.2)
-#: A threshold must exceed the running maximum by this much, against differences in rounding.
+#: Relative margin by which a threshold must exceed the running maximum, against rounding.
 _SLACK = 1e-12
-#: A threshold that is never reached, and can be squared.
+#: A threshold that is never reached, and whose square is finite.
 _NEVER = 1e150
 
 
 @dataclass(frozen=True, eq=False)
 class Prelude:
-    """Stored states of one scene; k of them, one per share in `HOLDING` at most.
+    """Stored states of one scene: k states, at most one per share in `HOLDING`.
 
-    In the kernels' units, blocks row by row. Valid for the conditions it was computed under, and
-    refused under any other.
+    In the kernels' units, blocks row by row. Valid only for the conditions of its computation.
     """
 
-    conditions: str  #: what the motion depends on, see `conditions`
-    samples: NDArray[np.int64]  #: (k,) sample intervals gone by
+    conditions: str  #: all that determines the motion, see `conditions`
+    samples: NDArray[np.int64]  #: (k,) sample intervals until the state
     fields: Array  #: (k, 4, blocks without contact) displacement and velocity
     peak: Array  #: (k, blocks in contact) running maximum of |F_mot|²
     ledger: Array  #: (k, 3)
     force: Array  #: (2, samples of the last state) components of ΣF_s
-    code_version: str = ""  #: that made it, where a command has computed it
+    code_version: str = ""  #: version of the code, if computed by a command
 
     @property
     def surface(self) -> str:
-        """Pattern, edges and direction of its scene, as `surface` writes them."""
+        """Pattern, edges and direction of its scene, in the format of `surface`."""
         return json.dumps(json.loads(self.conditions)[:4])
 
     @property
     def constants(self) -> dict[str, Any]:
-        """Constants of the material that was loaded, by name."""
+        """Constants of its material, by name."""
         return dict(json.loads(self.conditions)[4])
 
     def save(self, path: Path) -> None:
-        """Write whole or not at all, as .npz."""
+        """Write an .npz file, whole or not at all."""
         parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}
         with whole_file(path) as partial, partial.open("wb") as file:
             np.savez_compressed(file, **parts)
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
-        """Read what `save` wrote.
+        """Read a file that `save` has written.
 
         Raises
         ------
         ValueError
-            With one sentence, where it is not as it was written, or is none.
+            If the file is damaged or not a prelude.
         """
         try:
             return cls(**{name: _together(part) for name, part in read_arrays(path).items()})
         except (TypeError, ValueError):
-            raise ValueError(f"{path} is no prelude, or damaged; {MENDING}") from None
+            raise ValueError(f"{path} is not a prelude, or damaged; {MENDING}") from None
 
     def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
-        """Move `state`, at rest so far, on to the latest stored state that is valid for it.
+        """Set `state`, at rest, to the latest stored state that is valid for its thresholds.
 
-        No further than `latest` sample intervals. Returns the sample intervals gone by and their
-        samples; none if no stored state will do.
+        At most to sample interval `latest`. Returns the number of sample intervals skipped, zero
+        if no stored state is valid, and their samples.
         """
         blocks, grid = state.blocks, constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
@@ -113,9 +112,9 @@ class Prelude:
 
 
 def _apart(part: Any) -> NDArray[Any]:
-    """Bytes of floating-point numbers by their place, (8, ...): leading ones repeat, others never.
+    """Return floating-point numbers as planes of bytes, (8, ...), which halves compressed files.
 
-    The file is half as large.
+    Leading bytes of neighbouring numbers repeat; the others do not.
     """
     whole = np.asarray(part)
     if whole.dtype != np.float64:
@@ -124,7 +123,7 @@ def _apart(part: Any) -> NDArray[Any]:
 
 
 def _together(stored: NDArray[Any]) -> Any:
-    """What `_apart` has taken apart, to the bit."""
+    """Undo `_apart`, to the bit."""
     if stored.dtype.kind == "U":
         return str(stored)
     if stored.dtype != np.uint8:
@@ -135,7 +134,7 @@ def _together(stored: NDArray[Any]) -> Any:
 def surface(
     contact: NDArray[np.bool_], towards: tuple[float, float], periodic: bool = False
 ) -> str:
-    """Pattern, edges and direction as text."""
+    """Return pattern, edges and direction as text."""
     mask = np.packbits(contact).tobytes().hex()
     return json.dumps([contact.shape, periodic, mask, towards])
 
@@ -143,7 +142,7 @@ def surface(
 def conditions(
     contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float], periodic: bool
 ) -> str:
-    """All that the motion before the first detachment depends on, as text."""
+    """Return all that determines the motion before the first detachment, as text."""
     pulled = json.loads(surface(contact, towards, periodic))
     how = setup.integrator, setup.step, setup.every
     return json.dumps([*pulled, dict(setup.material.items()), *how])
@@ -160,11 +159,10 @@ def compute_prelude(
     periodic: bool = False,
     mu_static: ArrayLike | None = None,
 ) -> Prelude:
-    """Load a surface whose blocks never let go, until most seeds would have let one go.
+    """Load a surface whose blocks never detach, until in most realisations one would have.
 
-    What comes out is shared by `simulate` among all seeds. Arguments and errors are those of
-    `simulate`; where `mu_static` is not drawn, the only state that is kept is the last before a
-    block lets go.
+    `simulate` takes the prelude for any seed. Arguments and errors are those of `simulate`; if
+    `mu_static` is given instead of drawn, only the last state before a detachment is stored.
     """
     ones = np.ones(np.shape(contact))
     mask, _, _ = checked_surface(contact, ones, ones, periodic)
@@ -185,16 +183,16 @@ def compute_prelude(
     while holding >= HOLDING[-1]:
         done, taken = (len(record) - 1) * _BETWEEN, Samples.empty(_BETWEEN)
         fields = np.array([unpadded(field, constants.grid)[~mask] for field in blocks[:4]])
-        # takes the place of an earlier state that as many of the shares may start from
+        # replaces an earlier state between the same two shares
         passed = sum(holding < share for share in HOLDING)
         kept[passed] = done, fields, peak[bound], state.ledger.copy()
         _, broken, _ = advance(state, constants, done * every, _BETWEEN * every, every, taken)
-        if broken >= 0:  # a spring fails before blocks let go: realisations will find out
+        if broken >= 0:  # a spring breaks before any block detaches: `simulate` raises the error
             break
         record.append(taken)
         needed = np.sqrt(peak[bound]) / load
         if mu_static is None:
-            # where coefficients are correlated the share is higher, and states are a little early
+            # as if blocks were independent; with correlated coefficients the share is larger
             holding = math.exp(log_share_above(needed, material).sum())
         else:
             holding = float((needed < np.asarray(mu_static)[mask]).all())

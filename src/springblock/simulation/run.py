@@ -1,4 +1,4 @@
-"""What one run yields."""
+"""Results of one run."""
 
 import math
 from dataclasses import dataclass
@@ -11,8 +11,7 @@ from springblock.simulation.energy import Energy
 Array = NDArray[np.float64]
 Counts = NDArray[np.integer]
 
-#: Share of the drop after the peak by which the force must have risen again: then it has passed
-#: its first minimum.
+#: Rise of the force after a minimum, over its drop from the peak, for which the minimum counts.
 _REBOUND = 0.1
 
 
@@ -23,16 +22,16 @@ class Run:
     time: Array  #: (n,) s, multiples of the sample interval, from zero
     force: Array  #: (n,) N, |ΣF_s|
     detachments: Counts  #: (n,) blocks that detached for the first time in the interval
-    switches: Counts  #: (n,) blocks that went from rest to sliding, again or not
-    t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    switches: Counts  #: (n,) switches from rest to sliding in the interval
+    t_det: Array  #: (N_y, N_x) s, first detachment; NaN without one, or outside the contact
     normal_force: float  #: P l² N_y N_x, N
     contact: NDArray[np.bool_]  #: (N_y, N_x) blocks in contact with the substrate
-    snapshot_times: Array  #: (k,) s, when displacements were kept
+    snapshot_times: Array  #: (k,) s, times of the stored displacements
     snapshots: Array  #: (k, 2, N_y, N_x) m, [time, component, y, x], displacements at these times
 
     @property
     def name(self) -> str:
-        """What it is a run of."""
+        """Title of the run: the size of its surface."""
         rows, columns = self.t_det.shape
         return f"{columns} x {rows} blocks"
 
@@ -48,10 +47,10 @@ class Run:
 
     @property
     def dynamic_friction(self) -> float:
-        """Mean of force over P l² N_y N_x after the first minimum that follows the peak.
+        """Mean of the force over P l² N_y N_x after the first minimum that follows the peak.
 
-        Over the samples that the run holds; the force still oscillates there. NaN where the run
-        ends before, or the force does not fall.
+        Over the remaining samples, in which the force still oscillates. NaN if the run ends before
+        the minimum, or the force does not fall.
         """
         minimum = first_minimum(self.force)
         if minimum is None:
@@ -60,13 +59,13 @@ class Run:
 
     @property
     def t_avg(self) -> float:
-        """Mean of t_det over the contact blocks that have detached, s; NaN where none has."""
+        """Mean of t_det over the contact blocks that have detached, s; NaN if none has."""
         detached = self.t_det[np.isfinite(self.t_det)]
         return float(detached.mean()) if detached.size else math.nan
 
     @property
     def t_first(self) -> float:
-        """Time of the first detachment, s; NaN where there is none."""
+        """Time of the first detachment, s; NaN without one."""
         detached = self.t_det[np.isfinite(self.t_det)]
         return float(detached.min()) if detached.size else math.nan
 
@@ -79,10 +78,10 @@ class Run:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Realisation(Run):
-    """A run that was computed just now, with what is not stored."""
+    """A computed run, with results that are not stored."""
 
     energy: Energy  #: at the end, J
-    steps: int  #: of the integrator
+    steps: int  #: number of integration steps
     displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
     velocity: Array  #: (2, N_y, N_x) m/s, at the end
 
@@ -93,17 +92,17 @@ def friction(run: Run) -> Array:
 
 
 def percent(run: Run, blocks: Counts) -> Array:
-    """Counts of blocks as a share of all that detach in the run, %.
+    """Numbers of blocks as a share of all that detach in the run, %.
 
-    These are all contact blocks where the run has gone on until everything slides.
+    These are all contact blocks, if the run lasts until all of them have detached.
     """
     return 100.0 * blocks / np.count_nonzero(np.isfinite(run.t_det))
 
 
 def first_minimum(force: Array) -> int | None:
-    """Index of the first minimum after the peak of `force`; None if it is not passed yet.
+    """Index of the first minimum after the peak of `force`, or None.
 
-    A minimum counts once the force has risen again by a tenth of its drop from the peak.
+    A minimum counts once the force has risen from it by a tenth of its drop from the peak.
     """
     peak = int(np.argmax(force))
     after = force[peak:]

@@ -1,4 +1,4 @@
-"""How a surface is computed: the layer, the integrator and its times."""
+"""Setup of a run: material, integrator, step and sample interval."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
@@ -14,20 +14,20 @@ from springblock.simulation.checks import check_positive, whole_multiple
 from springblock.solver.stability import IS_STABLE
 
 PAPER = Material()
-#: Steps of single blocks that nobody can wait for, and those of a year on one core.
+#: Largest number of steps times blocks, and that of a year on one core.
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
-#: Samples of a run, as many as a cell of a table holds.
+#: Largest number of samples, the limit of a cell of a table.
 _MOST_SAMPLES = 2**31 - 1
 
 
 @dataclass(frozen=True)
 class Setup:
-    """What a run depends on besides its surface and its direction, by the keywords of `simulate`.
+    """Material and numerical parameters of a run, as arguments of `simulate`.
 
     Raises
     ------
     TypeError, ValueError
-        Where a run could not be made, an unstable step among the reasons.
+        If a value is not valid, or the step is unstable.
     """
 
     material: Material = PAPER
@@ -64,9 +64,9 @@ class Setup:
         return whole_multiple("sample_interval", self.sample_interval, "step", self.step)
 
     def loading_time(self, contact: NDArray[np.bool_], threshold: float) -> float:
-        """Time in s at which a block of this coefficient would let go if no neighbour pulled.
+        """Time t = mu F_n/(K_s v), s, at which a block without neighbours would detach.
 
-        t = mu F_n/(K_s v); the blocks in contact share the load on all (N_y, N_x).
+        `threshold` is mu; the blocks in contact share the load on all (N_y, N_x).
         """
         load = self.material.block_load * contact.size / np.count_nonzero(contact)
         with np.errstate(all="ignore"):  # infinite where the slider hardly moves
@@ -80,16 +80,16 @@ class Setup:
         duration: float | None = None,
         until: float = 0.0,
     ) -> None:
-        """Refuse a run that nobody can wait for, from what it is asked for.
+        """Refuse a run that would be too long.
 
-        Without a duration it takes the loading time of its strongest block, whose coefficient is
-        `threshold`, and goes on `until` its last snapshot, s.
+        Without a duration, a run lasts for the loading time of its strongest block, of coefficient
+        `threshold`, and at least `until` its last snapshot, s.
 
         Raises
         ------
         TypeError, ValueError
-            Where the duration is no time, or the run would take more than a year on one core or
-            more samples than a table can hold.
+            If the duration is not a positive time, or if the run would take more than a year on one
+            core or have more samples than a table can hold.
         """
         if duration is None:
             loading = self.loading_time(contact, threshold)

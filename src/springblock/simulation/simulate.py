@@ -1,4 +1,4 @@
-"""From a contact mask and its friction coefficients to a realisation."""
+"""Simulation of one realisation from contact mask and friction coefficients."""
 
 import math
 from collections.abc import Sequence
@@ -33,17 +33,17 @@ from springblock.solver.law_file import FromFile
 
 Array = NDArray[np.float64]
 
-#: A run pauses this often, in sample intervals, to see whether it may stop.
+#: Sample intervals between two tests whether a run is complete.
 _SAMPLES_PER_CALL = 10
-#: A force that does not drop (mu_d = mu_s, or strong damping) is followed for this multiple of
-#: the time at which the last block has detached.
-_PATIENCE = 1.5
-#: The strongest block alone would let go at mu_s F_n/(K_s v); a run gives up at this multiple.
-_LAST_RESORT = 3.0
+#: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of the
+#: time of the last first detachment.
+_WITHOUT_DROP = 1.5
+#: A run fails at this multiple of the loading time of its strongest block, mu_s F_n/(K_s v).
+_LATEST = 3.0
 
 
 class SimulationError(RuntimeError):
-    """The equations of motion could not be followed any further."""
+    """A run cannot be continued."""
 
 
 def simulate(
@@ -64,55 +64,56 @@ def simulate(
     checkpoint: str | Path | None = None,
     checkpoint_interval: float = 300.0,
 ) -> Realisation:
-    """Pull one surface from rest and record how it lets go.
+    """Pull one surface from rest and record force and detachments.
 
-    The model of Costagliola, Bosia & Pugno 2022 (doi:10.1016/j.ijsolstr.2022.111525), section 2.
+    The model is that of section 2 of Costagliola, Bosia & Pugno 2022,
+    doi:10.1016/j.ijsolstr.2022.111525.
 
     Parameters
     ----------
     contact : (N_y, N_x) bool, or 0 and 1, [y, x]
         Blocks in contact with the substrate, as `Pattern.contact`.
     mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
-        Microscopic friction coefficients; not read outside the contact.
+        Microscopic friction coefficients; values outside the contact are ignored.
     material : Material
     direction : "x", "y" or an angle from x in degrees
-        Where the slider goes.
+        Sliding direction.
     integrator : "leapfrog" or "rk4"
     step : s
         Integration step h.
     duration : s, or None
         None: until every contact block has detached and the force has passed its peak and the
-        first minimum after it. Where the force does not drop, until 1.5 times the last first
-        detachment.
+        first minimum after it. If the force does not drop, until 1.5 times the time of the last
+        first detachment.
     sample_interval : s
-        Between entries of the force curve; a multiple of the step.
+        Time between samples of the force; a multiple of the step.
     snapshot_times : s
-        Multiples of the sample interval at which the displacements are kept, in rising order.
-        A run without duration goes on until the last of them, if it would end before.
+        Times at which displacements are stored, in ascending order; multiples of the sample
+        interval. A run without duration lasts at least until the last of them.
     prelude : Prelude
-        States of this very scene before its first detachment, see `compute_prelude`. They
-        save time and change nothing.
+        States of the same scene before its first detachment, see `compute_prelude`. They save
+        time; results are the same.
     cores : int
-        On which the leapfrog follows one large surface, to the bit as on one.
+        Number of cores for the leapfrog on one large surface; results are the same to the bit.
     periodic : bool
-        Whether springs join opposite edges, which are free otherwise. Each side then holds at
+        Whether springs join opposite edges, which are free otherwise. Each side must have at
         least 3 blocks.
     progress : bool
-        Whether to count samples on stderr.
+        Whether to show a progress bar on stderr.
     checkpoint : Path
-        File that keeps the run while it is not finished. Where it is there, the run goes on from
-        it, to the bit; it is removed at the end.
+        File for the state of the unfinished run. If it exists, the run continues from it, to the
+        same bits; it is removed at the end.
     checkpoint_interval : s
         Wall-clock seconds between two checkpoints.
 
     Raises
     ------
     TypeError, ValueError
-        For arguments that make no sense, an unstable step among them, and for the prelude or the
-        checkpoint of another run.
+        If an argument is not valid, the step is unstable, or prelude or checkpoint belong to
+        another run.
     SimulationError
-        Where a spring collapses, bursts or becomes NaN, with time and block; or where a run
-        without duration does not come to its end.
+        If a spring leaves 1/2 to 2 times its rest length or becomes NaN, with time and block; or
+        if blocks do not detach in a run without duration.
     """
     contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
     setup = Setup(material, integrator, step, sample_interval)
@@ -122,13 +123,13 @@ def simulate(
         for time in snapshot_times
     ]
     if stops != sorted(set(stops)):
-        raise ValueError("snapshot_times must rise from one to the next")
+        raise ValueError("snapshot_times must be in ascending order, without repetition")
     strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
     setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
     end = None if duration is None else count_samples(duration, sample_interval)
     if end is not None and stops and stops[-1] > end:
         raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
-    limit = _LAST_RESORT * setup.loading_time(contact, strongest)
+    limit = _LATEST * setup.loading_time(contact, strongest)
 
     surface = contact, mu_static, mu_dynamic
     state, constants = prepare(
@@ -168,16 +169,16 @@ class _Motion:
     advance: Advance
     state: State
     constants: Constants
-    samples: int = 0  #: taken so far, not counting the one at rest
+    samples: int = 0  #: recorded so far, without the initial one
     record: list[Samples] = field(default_factory=lambda: [Samples.empty(1)])
 
     @property
     def steps(self) -> int:
-        """Taken so far."""
+        """Number of steps so far."""
         return self.samples * self.setup.every
 
     def skip(self, prelude: Prelude, expected: str, latest: float) -> None:
-        """Start from the latest state of a prelude that will do, instead of from zero."""
+        """Start from the latest valid state of a prelude instead of from zero."""
         if prelude.conditions != expected:
             raise ValueError(
                 "this prelude belongs to another scene, material, integrator, step or "
@@ -188,7 +189,7 @@ class _Motion:
             self.record.append(taken)
 
     def resume(self, kept: Checkpoint) -> list[Array]:
-        """Go on from a checkpoint, if there is one, and return the snapshots taken before it."""
+        """Continue from a checkpoint, if there is one; return the snapshots up to then."""
         if not kept.path.exists():
             return []
         taken, snapshots = kept.restore(self.state)
@@ -196,7 +197,7 @@ class _Motion:
         return snapshots
 
     def proceed(self, until: int) -> None:
-        """Go on to sample `until`."""
+        """Advance to sample `until`."""
         if until == self.samples:
             return
         every, more, first = self.setup.every, until - self.samples, self.steps
@@ -207,8 +208,8 @@ class _Motion:
         now, law = (first + done) * self.setup.step, self.state.law
         if isinstance(law, FromFile) and law.failed[0] >= 0:
             raise SimulationError(
-                f"by t = {now:.4g} s {self.setup.material.law} has returned a friction coefficient "
-                "that is negative or not finite"
+                f"before t = {now:.4g} s the law {self.setup.material.law} returned a friction "
+                "coefficient that is negative or not finite"
             )
         if row >= 0:
             raise SimulationError(
@@ -220,7 +221,7 @@ class _Motion:
         self.record.append(taken)
 
     def is_over(self, end: int | None, limit: float) -> bool:
-        """Whether the scene has shown what it must: see `simulate`."""
+        """Return whether the run is complete, see `simulate`."""
         if end is not None:
             return self.samples >= end
         blocks, step = self.state.blocks, self.setup.step
@@ -228,17 +229,17 @@ class _Motion:
         last = float(t_det.max())
         now = self.steps * step
         if math.isfinite(last):
-            return now > _PATIENCE * last or first_minimum(self.force()) is not None
+            return now > _WITHOUT_DROP * last or first_minimum(self.force()) is not None
         if now > limit:
-            waiting = int(np.isinf(t_det).sum())
+            stuck = int(np.isinf(t_det).sum())
             raise SimulationError(
-                f"at t = {now:.4g} s {waiting} contact blocks have not detached; "
-                "give the run a duration if that is meant to be"
+                f"at t = {now:.4g} s {stuck} contact blocks have not detached; "
+                "if this is intended, set a duration"
             )
         return False
 
     def force(self) -> Array:
-        """|ΣF_s| so far, in the kernel's unit."""
+        """|ΣF_s| so far, in the kernels' units."""
         x = np.concatenate([samples.force_x for samples in self.record])
         y = np.concatenate([samples.force_y for samples in self.record])
         return np.hypot(x, y)
@@ -250,7 +251,7 @@ class _Motion:
         return self.setup.material.spacing * u
 
     def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
-        """Turn what has been recorded into SI units."""
+        """Return the results in SI units."""
         grid, material, step = self.constants.grid, self.setup.material, self.setup.step
         n_y, n_x = grid.shape
         t_det = step * unpadded(self.state.blocks.t_det, grid)
@@ -281,13 +282,13 @@ class _Motion:
         )
 
     def _newton(self) -> float:
-        """Force in N that changes a block's velocity by one l per step in one step."""
+        """Force in N that adds a velocity of one l per step in one step."""
         material, step = self.setup.material, self.setup.step
         force_time = INTEGRATORS[self.setup.integrator].force_time(step, material.gamma)
         return material.mass * material.spacing / (step * force_time)
 
     def _first_detachments(self) -> NDArray[np.int64]:
-        """Blocks seen to detach for the first time in each interval; none before the first."""
+        """Number of first detachments in each sample interval, with 0 for the initial sample."""
         t_det = self.state.blocks.t_det
         steps = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64)
         return np.bincount(steps // self.setup.every + 1, minlength=self.samples + 1)
@@ -299,7 +300,7 @@ class _Motion:
         slider = self.steps * slide * material.spacing
         displacement = self.displacement()
         last_pull = material.k_s * np.sum(slider[:, None, None] - displacement, axis=(1, 2))
-        # trapezoidal rule: the loop has counted the last force in full
+        # trapezoidal rule: the ledger contains the full last force instead of half of it
         work_in = joule * ledger[WORK] - 0.5 * float(last_pull @ slide) * material.spacing
         return Energy(
             work_in=float(work_in),

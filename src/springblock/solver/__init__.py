@@ -1,1 +1,1 @@
-"""The compiled core: springs, friction, and the integrators behind one narrow interface."""
+"""Compiled kernels: springs, friction laws, and the integrators behind one interface."""

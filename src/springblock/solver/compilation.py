@@ -1,10 +1,9 @@
-"""How the kernels are compiled, and where numba caches their machine code.
+"""Compilation of the kernels by numba, and the cache of their machine code.
 
-Machine code is cached in `springblock/<digest>` of `$NUMBA_CACHE_DIR`, or else of the user's cache
-folder, where the digest stands for the sources of the solver, the release of numba and the
-processor. Numba's settings are the same after an import of this module as before; only where this
-is the first of a process to declare a function, the width of vectors chosen in
-`_processor_features` holds for all functions of that process.
+Machine code is cached in `springblock/<digest>` in `$NUMBA_CACHE_DIR`, or else in the user's cache
+folder; the digest covers the sources of the solver, the release of numba and the processor. An
+import of this module leaves numba's settings unchanged. But if it declares the first function of a
+process, the vector width chosen in `_processor_features` holds for all functions of that process.
 """
 
 import contextlib
@@ -27,7 +26,7 @@ _LOG = logging.getLogger(__name__)
 
 @contextlib.contextmanager
 def _setting(name: str, value: object) -> Iterator[None]:
-    """Change one of numba's settings for a while."""
+    """Change one of numba's settings temporarily."""
     before = getattr(numba.config, name)
     setattr(numba.config, name, value)
     try:
@@ -37,10 +36,10 @@ def _setting(name: str, value: object) -> Iterator[None]:
 
 
 def _processor_features() -> str | None:
-    """Features of the processor that numba is to use; None leaves the choice to numba.
+    """Return the processor features for numba to use; None leaves the choice to numba.
 
-    With AVX-512, vectors of 512 bits are used. LLVM prefers half of that because the first of these
-    processors then lowered their clock. NUMBA_CPU_NAME or NUMBA_CPU_FEATURES overrule this.
+    With AVX-512, vectors have 512 bits. LLVM prefers 256, since the first of these processors
+    reduced their clock rate for longer ones. NUMBA_CPU_NAME or NUMBA_CPU_FEATURES override this.
     """
     config = numba.config
     if config.CPU_NAME is not None or config.CPU_FEATURES is not None:
@@ -60,7 +59,7 @@ with _setting("CPU_FEATURES", _FEATURES):
 
 
 def _digest() -> str:
-    """Digest of what the machine code of all kernels depends on; 16 hexadecimal digits."""
+    """Return the digest of sources, numba's release and processor; 16 hexadecimal digits."""
     name = numba.config.CPU_NAME or llvmlite.binding.get_host_cpu_name()
     content = hashlib.sha256(repr((numba.__version__, name, _FEATURES)).encode())
     for file in sorted(Path(__file__).parent.glob("*.py")):
@@ -69,14 +68,14 @@ def _digest() -> str:
 
 
 def _cache_folder() -> Path:
-    """Return the folder for machine code, which nobody but this user can write to.
+    """Return the folder for machine code, to which only this user can write.
 
-    Numba runs what it finds there.
+    Numba executes what it finds there.
 
     Raises
     ------
     OSError, RuntimeError
-        If there is no such folder and none can be made.
+        If the folder cannot be created, or others can write to it.
     """
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
     shared = Path(home or Path.home() / ".cache") / "springblock"
@@ -103,23 +102,22 @@ def _say_compiling() -> None:
     _LOG.warning(_COMPILING)
 
 
-try:  # parts that numba may move or change without notice
+try:  # internals, which numba may move or change without notice
     from numba.core.compiler import Compiler
     from numba.core.cpu import CPUTargetOptions
     from numba.core.event import Listener, register
 except ImportError:
     Compiler = Listener = CPUTargetOptions = object
 
-#: Whether numba has them: without, kernels are slower, and may differ in the last bits.
+#: Whether numba has these internals. Without them kernels are slower and may differ in last bits.
 HAS_PRIVATE_PARTS = hasattr(CPUTargetOptions, "_nrt")
 
 
 class _Restrict(Compiler):  # type: ignore[misc]
-    """Compiler that assumes that the arrays handed to a function do not overlap.
+    """Compiler that assumes that the array arguments of a function do not overlap.
 
-    Every row would otherwise begin with a check of each array against all others. With `_nrt`
-    false, references to arrays are not counted, which takes an atomic operation for each array in
-    each call: kernels make no arrays.
+    Otherwise every loop over a row would begin with a check of each pair of arrays. Kernels make no
+    arrays, so `_nrt` is off: it would count references by atomic operations in each call.
     """
 
     def define_pipelines(self):
@@ -131,7 +129,7 @@ class _Restrict(Compiler):  # type: ignore[misc]
 class _OneCompiler(Listener):  # type: ignore[misc]
     """Lock that lets one process at a time compile and write to the cache.
 
-    Of two that add code for other types to one kernel at once, numba would confuse the files.
+    If two processes added code for different types to one kernel, numba would mix up their files.
     """
 
     def __init__(self, file: Path) -> None:
@@ -155,30 +153,30 @@ if FOLDER and HAS_PRIVATE_PARTS:
 
 
 def cached_njit(function: Callable[..., Any], **options: Any) -> Any:
-    """`numba.njit` with machine code in the cache folder; each process compiles if there is none.
+    """Apply `numba.njit` with the cache folder; without one, each process compiles anew.
 
-    Where a function is cached is settled when it is declared.
+    The folder of a function is fixed when the function is declared.
     """
     with _setting("CACHE_DIR", str(FOLDER)):
         return njit(cache=FOLDER is not None, **options)(function)
 
 
-#: Fused multiply-adds are allowed; nothing that would lose a NaN or reorder a sum.
+#: Fused multiply-adds are allowed, but nothing that would drop a NaN or reorder a sum.
 _OPTIONS = {"nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}}
 if HAS_PRIVATE_PARTS:
     _OPTIONS |= {"pipeline_class": _Restrict, "_nrt": False}
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile a function for the types that it is called with, and cache its machine code."""
+    """Compile a function for the types of its arguments, and cache its machine code."""
     return cached_njit(function, **_OPTIONS)
 
 
 @intrinsic
 def add(typingctx, total, term):
-    """Return total + term, for sums whose order the compiler may choose.
+    """Return total + term, as a term of a sum that the compiler may reorder.
 
-    A loop that ends in such sums can be vectorised without leave to reorder anything else.
+    This allows a loop with sums to be vectorised, while all other operations keep their order.
     """
 
     def generate(context, builder, signature, arguments):

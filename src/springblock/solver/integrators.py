@@ -10,12 +10,12 @@ INTEGRATORS: dict[str, Integrator] = {"leapfrog": leapfrog, "rk4": rk4}
 
 
 def on_cores(integrator: str, cores: Any) -> Advance:
-    """`Integrator.advance`, on so many cores.
+    """Return `Integrator.advance` for this number of cores.
 
     Raises
     ------
     TypeError, ValueError
-        Where that is no number of cores, or more than the integrator can use.
+        If `cores` is not a positive whole number, or more than the integrator can use.
     """
     if isinstance(cores, bool) or not isinstance(cores, int):
         raise TypeError(f"cores must be a whole number, not {cores!r}")

@@ -1,8 +1,9 @@
-"""1/√x by multiplications alone, which the processor overlaps; a root and a division it does not.
+"""1/√x by multiplications alone, which are pipelined, unlike roots and divisions.
 
-A floating-point number read as an integer is about a logarithm: half of it, taken away from a
-constant, is 1/√x to 3.5 % (Lomont, Fast inverse square root, 2003). With h = 1 - x y² for a guess
-y, 1/√x = y (1 - h)^(-1/2): a cubic in h leaves 1e-6, and one more step 1e-16.
+The bits of a floating-point number, read as an integer, approximate its logarithm: a constant minus
+half of them gives 1/√x to 3.5 % (Lomont, Fast inverse square root, 2003). With h = 1 - x y² for an
+estimate y, 1/√x = y (1 - h)^(-1/2); a cubic in h reduces the error to 1e-6, and a second step to
+1e-16.
 """
 
 import numpy as np
@@ -11,7 +12,7 @@ from numba import njit, types
 from numba.extending import intrinsic
 from numpy.polynomial import chebyshev
 
-#: What half of the logarithm is taken from, and the most that |h| of the guess comes to.
+#: Constant from which half of the bits are subtracted, and the largest |h| of that estimate.
 _MAGIC = 0x5FE6EB50C7B537A9
 _FIRST_H = 0.0692
 
@@ -22,7 +23,7 @@ def _factor(h):
 
 
 def _cubic() -> tuple[float, ...]:
-    """Coefficients of that factor as a cubic in h over what a first guess leaves."""
+    """Coefficients of the cubic for `_factor` on |h| ≤ `_FIRST_H`, lowest order first."""
     unit = chebyshev.chebinterpolate(lambda x: _factor(_FIRST_H * x), 3)
     return tuple((chebyshev.cheb2poly(unit) / _FIRST_H ** np.arange(4)).tolist())
 
@@ -48,7 +49,8 @@ def _guess(typingctx, x):
 def inverse_root(x):
     """Return 1/√x within 1.5 units in the last place, for normal numbers x.
 
-    Zero and subnormal numbers yield a large number below 1/√x, infinity 1/√x of the largest number.
+    Zero and subnormal numbers give a large finite number below 1/√x; infinity gives 1/√x of the
+    largest number.
     """
     x = _LARGEST if x > _LARGEST else x
     y = _guess(x)

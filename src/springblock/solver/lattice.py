@@ -1,8 +1,9 @@
-"""What an integrator works on: the state of all blocks and the constants of one run.
+"""State of all blocks and constants of one run, as the integrators use them.
 
-Arrays are flat with a border: block (y, x) stands at y pitch + x + 1, and the columns beyond a row
-hold phantoms that fill up vectors, and make the springs across the edge strain-free. Lengths are in
-l, velocities in l per step, times in steps, forces in the velocity that they add in one step.
+Fields are flat arrays with a border: block (y, x) has the index y pitch + x + 1. The columns beyond
+a row hold phantom blocks, which fill up vectors and keep the springs across the edge unstrained.
+Lengths are in l, velocities in l per step, times in steps, and forces in the velocity that they add
+in one step.
 """
 
 from copy import deepcopy
@@ -32,22 +33,22 @@ from springblock.solver.springs import (
 Array = NDArray[np.float64]
 
 
-#: Places in the ledger: the slider's work, friction's heat, and velocities squared for damping's.
+#: Entries of the ledger: slider work, frictional heat, and squared velocities, for viscous heat.
 WORK, HEAT, SQUARES = range(3)
 
 
 class Blocks(NamedTuple):
     """Fields of all blocks, each with N_y rows of `pitch` numbers.
 
-    With periodic edges there is one more, an image of the first as `close_rows` leaves it.
+    With periodic edges there is one more row, an image of the first, which `close_rows` updates.
     """
 
     ux: Array  #: displacement
     uy: Array
     wx: Array  #: velocity
     wy: Array
-    t_det: Array  #: first detachment; infinite before
-    static: Array  #: mu_s F_n; 0 where there is no contact
+    t_det: Array  #: time of first detachment; infinite before
+    static: Array  #: mu_s F_n; 0 outside the contact
     dynamic: Array  #: mu_d F_n; infinite for phantoms, which therefore never move
 
 
@@ -56,14 +57,14 @@ class State(NamedTuple):
 
     blocks: Blocks
     scratch: Array  #: springs and forces of a band of rows, see `springs`
-    work: tuple[Array, ...]  #: lattice-sized fields of the integrator's own
+    work: tuple[Array, ...]  #: work fields of the integrator
     ledger: Array  #: (3,) sums over steps, see `WORK`
-    peak: Array | None  #: running maximum of |F_mot|², kept only for a prelude
-    in_contact: NDArray[np.bool_]  #: (N_y,) rows that hold any block in contact
-    law: Law  #: of friction; a prelude, whose blocks never let go, needs none
+    peak: Array | None  #: running maximum of |F_mot|², for a prelude only
+    in_contact: NDArray[np.bool_]  #: (N_y,) whether a row holds any block in contact
+    law: Law  #: law of friction; None for a prelude, in which no block detaches
 
     def copy(self) -> "State":
-        """Return a state that shares no memory with this one, but for the law's functions."""
+        """Return a copy that shares no memory with this state except the law's functions."""
         return deepcopy(self, {id(part): part for part in self.law or () if callable(part)})
 
 
@@ -83,16 +84,16 @@ class Totals(NamedTuple):
 
     x: float  #: displacement
     y: float
-    heat: float  #: of friction
-    squares: float  #: velocity squared
+    heat: float  #: frictional heat of the step
+    squares: float  #: squared velocity
 
 
 class Samples(NamedTuple):
-    """What one call of an integrator records, one entry per sample interval."""
+    """Record of one call of an integrator, one entry per sample interval."""
 
     force_x: Array  #: sum of F_s at the end of the interval
     force_y: Array
-    switches: NDArray[np.int64]  #: blocks that went from rest to sliding within it
+    switches: NDArray[np.int64]  #: switches from rest to sliding within the interval
 
     @classmethod
     def empty(cls, count: int) -> "Samples":
@@ -101,7 +102,7 @@ class Samples(NamedTuple):
 
 
 class Advance(Protocol):
-    """Function by which an integrator takes steps."""
+    """Function that advances a state in time."""
 
     def __call__(
         self,
@@ -112,33 +113,30 @@ class Advance(Protocol):
         every: int,
         samples: Samples,
     ) -> tuple[int, int, int]:
-        """Take `steps` steps from step `first` on, sampling each time `every` steps are full.
+        """Advance by `steps` steps from step `first` on, and sample after every `every` steps.
 
-        Returns steps taken, and row and column of a spring that no longer holds; -1 if all do.
+        Returns the number of steps taken, and row and column of a broken spring, -1 if none is.
         """
 
 
 class Integrator(Protocol):
-    """Integration scheme: a module of this package.
-
-    CONTRIBUTING.md says how to add one.
-    """
+    """Integration scheme: a module of this package (see CONTRIBUTING.md)."""
 
     FORCE_EVALUATIONS: int  #: per step
-    WORK_FIELDS: int  #: lattice-sized fields that it keeps for itself
+    WORK_FIELDS: int  #: number of work fields
 
     def force_time(self, step: float, gamma: float) -> float:
-        """How long a force acts in one step, s."""
+        """Time for which a force acts in one step, s."""
 
     @property
     def advance(self) -> Advance:
-        """Follows the blocks on one core."""
+        """Function that advances a state on one core."""
 
     def at_step(self, state: State, constants: Constants, steps: int) -> tuple[Array, float]:
-        """Velocity, (2, lattice), after `steps` steps, and friction's heat until then."""
+        """Velocity, (2, lattice), after `steps` steps, and the frictional heat so far."""
 
 
-#: Threshold of a contact block whose mu_s is zero: it detaches in the first step, and is counted.
+#: Threshold of a contact block with mu_s = 0: not zero, which stands for no contact.
 _NO_THRESHOLD = 1e-300
 
 
@@ -153,9 +151,9 @@ def prepare(
     keep_peak: bool = False,
     periodic: bool = False,
 ) -> tuple[State, Constants]:
-    """Lay out one run, at rest and free of strain, in the kernels' units.
+    """Return state and constants of a run in the kernels' units, at rest and unstrained.
 
-    `heading` is the unit vector of the slider's motion; opposite edges are joined if `periodic`.
+    `heading` is the unit vector of the slider velocity; opposite edges are joined if `periodic`.
     """
     grid = Grid.of(contact.shape, periodic)
     n_y, n_x = contact.shape
@@ -210,7 +208,7 @@ def prepare(
 
 
 def unpadded(field: Array, grid: Grid) -> Array:
-    """View of a flat field as (N_y, N_x), [y, x], without its border."""
+    """View of a flat field as (N_y, N_x), [y, x], without border and phantoms."""
     n_y, n_x = grid.shape
     return field.reshape(-1, int(grid.pitch))[:n_y, 1 : n_x + 1]
 
@@ -224,9 +222,9 @@ def band_from(start, constants):
 
 @njit(inline="always")
 def close_edge(ux, uy, row, grid):
-    """Let the spring across the eastern edge of a row be free of strain, and those of phantoms.
+    """Displace the phantoms of a row with its last block, so that their springs are unstrained.
 
-    On a periodic surface the row goes on from its beginning.
+    On a periodic surface they are images of the first blocks of the row.
     """
     i, n = row * grid.pitch, grid.n_x
     if grid.periodic is not None:
@@ -234,7 +232,7 @@ def close_edge(ux, uy, row, grid):
             ux[i + x], uy[i + x] = ux[i + x - n], uy[i + x - n]
         return
     last_x, last_y = ux[i + n], uy[i + n]
-    for lane in range(LANES):  # always as many, which takes no loop
+    for lane in range(LANES):  # a constant number, so that the loop is unrolled
         x = grid.width + U(2 + lane - LANES)
         ux[i + x] = last_x if x > n else ux[i + x]
         uy[i + x] = last_y if x > n else uy[i + x]
@@ -249,9 +247,9 @@ def close_edges(ux, uy, grid):
 
 @kernel
 def close_rows(ux, uy, grid):
-    """Let an image of the first row follow the last one, on a periodic surface.
+    """Copy the first row beyond the last one, on a periodic surface.
 
-    To be done before blocks move: the last row still needs the first one when that has moved.
+    Call it before blocks move: the last band needs the first row as at the start of the step.
     """
     if grid.periodic is not None:
         beyond = grid.n_y * grid.pitch
@@ -260,8 +258,8 @@ def close_rows(ux, uy, grid):
 
 
 @njit(inline="always")
-def place(y, x, grid):
-    """Return where block (y, x), x from 1, or its image stands; -1 beyond a free edge."""
+def index_of(y, x, grid):
+    """Return the index of block (y, x), x from 1, or of its periodic image; -1 beyond an edge."""
     n_y, n_x = np.int64(grid.n_y), np.int64(grid.n_x)
     if grid.periodic is not None:
         y, x = y % n_y, (x - 1) % n_x + 1
@@ -269,8 +267,8 @@ def place(y, x, grid):
 
 
 @kernel
-def keep_peaks(peak, band, s):
-    """Keep the largest |F_mot|² of each block in a band, for a prelude."""
+def update_peaks(peak, band, s):
+    """Update the running maximum of |F_mot|² of each block in a band, for a prelude."""
     if peak is not None:
         for row in range(band.start, band.stop):
             i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
@@ -280,10 +278,10 @@ def keep_peaks(peak, band, s):
 
 
 @kernel
-def book(ledger, samples, constants, totals, switches, k, first, every):
-    """Enter step k into the ledger, and into the samples where it ends an interval.
+def tally(ledger, samples, constants, totals, switches, k, first, every):
+    """Add step k to the ledger, and to the samples if it completes an interval.
 
-    Returns the switches that no sample holds yet.
+    Returns the switches that belong to the interval still open.
     """
     blocks, k_s = constants.grid.n_y * constants.grid.n_x, constants.springs.k_s
     force_x = k_s * (blocks * constants.slider_x * (k + 1) - totals.x)

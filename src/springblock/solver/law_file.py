@@ -1,8 +1,8 @@
 """Laws of friction from files (`springblock.model.law`), as the kernels call them.
 
-All of them are one type, whose functions are called through pointers: for a new law only these are
-compiled, in a second or two. The state of a block is a row of numbers, and functions are given the
-row. T and V are as in `laws`.
+All these laws are one type, whose functions are called through pointers: a new law compiles them
+alone, in a second or two. The state of a block is a row of an array, and functions take the index
+of the row. T and V are as in `laws`.
 """
 
 import math
@@ -20,22 +20,22 @@ from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
 
-#: Iterations that find V, if it is to be found, and the share of `speed` by which V may be off.
-_ITERATIONS, _SAME = 100, 1e-15
-#: Speed, in l per step, that is no different from zero.
+#: Largest number of iterations for V, and the error at which they end, relative to `speed`.
+_ITERATIONS, _TOLERANCE = 100, 1e-15
+#: Speed, in l per step, that counts as zero.
 _LEAST = 1e-100
 
 
 class FromFile(NamedTuple):
     """Friction by a law from a file."""
 
-    state: Array  #: (2 blocks + 1, variables): now, one step before, and of a block that lets go
-    contact: NDArray[np.bool_]  #: (2 blocks + 1,), by the same rows; others feel no friction
+    state: Array  #: (2 blocks + 1, variables): now, one step before, and at a release
+    contact: NDArray[np.bool_]  #: (2 blocks + 1,), by the same rows; others have no friction
     constants: Array  #: in the order of the file
     load: float  #: F_n, as the velocity that it adds in one step
     speed: float  #: l/h, m/s
     step: float  #: h, s
-    failed: NDArray[np.int64]  #: (1,) block whose mu was no friction coefficient, or -1
+    failed: NDArray[np.int64]  #: (1,) block whose mu was negative or not finite, or -1
     friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu
     update: Any  #: (constants, state, row, speed, step): the state in a row, after a step
 
@@ -48,7 +48,7 @@ def from_file(
     Raises
     ------
     ValueError
-        Where numba does not compile its functions, with the reason.
+        If numba cannot compile its functions, with the reason.
     """
     initial = np.array(list(law.initial.values()))
     return FromFile(
@@ -68,7 +68,7 @@ _ARRAYS = float64[::1], float64[:, ::1], int64
 
 @cache
 def _compiled(law: LawFile) -> dict[str, Any]:
-    """Functions of a law as C functions, which find their arguments by name."""
+    """Compile `friction` and `update` of a law to C functions with the arguments of `FromFile`."""
     state = list(law.initial)
     place = {name: f"constants[{i}]" for i, name in enumerate(law.constants)}
     place |= {name: f"state[row, {i}]" for i, name in enumerate(state)}
@@ -104,7 +104,7 @@ def _compiled(law: LawFile) -> dict[str, Any]:
 
 @kernel
 def _friction(law, row, speed, static, dynamic):
-    """T of a block with the state of a row, at a speed in l per step."""
+    """Return T for the state in a row, at a speed in l per step."""
     mu_static, mu_dynamic = static / law.load, dynamic / law.load
     at = np.int64(row)
     mu = law.friction(law.constants, law.state, at, mu_static, mu_dynamic, speed * law.speed)
@@ -114,22 +114,22 @@ def _friction(law, row, speed, static, dynamic):
 
 
 def _resistance(law, row, speed, share, static, dynamic):
-    """Of several V the largest, which a block comes from as it slows down.
+    """Return T at the largest solution V, which a decelerating block reaches first.
 
-    Where friction falls with V, a fixed-point iteration from above finds it; where it rises, that
-    oversteps V, which then lies between the last two.
+    If friction decreases with V, a fixed-point iteration from above finds it. If friction
+    increases, the iteration overshoots, and V lies between the last two iterates.
     """
     if not law.contact[row]:
         return dynamic
     mean, friction = speed, _friction(law, row, max(speed, 0.0), static, dynamic)
     for _ in range(_ITERATIONS if share != 0.0 else 0):
         before, mean = mean, speed + share * friction
-        if abs(mean - before) <= _SAME * abs(speed):
+        if abs(mean - before) <= _TOLERANCE * abs(speed):
             break
         if mean <= 0.0 and share < 0.0:
             mean = 0.0
         fast, friction = friction, _friction(law, row, max(mean, 0.0), static, dynamic)
-        if friction == fast:  # whatever the speed
+        if friction == fast:  # independent of speed
             break
         if share < 0.0 and speed + share * friction >= mean:
             low, high = (mean, friction), (before, fast)
@@ -141,10 +141,10 @@ def _resistance(law, row, speed, share, static, dynamic):
 
 @kernel
 def _between(law, row, speed, share, static, dynamic, low, high):
-    """T where V = speed + share T lies between two speeds, each given with its T.
+    """Return T at V = speed + share T between two speeds, each given with its T.
 
-    By false position (Illinois) in log V: friction that rises with speed usually does so with the
-    logarithm of it.
+    By false position (Illinois) in log V, since friction usually increases with the logarithm of
+    the speed.
     """
     left, right = math.log(max(low[0], _LEAST)), math.log(high[0])
     below = low[0] - speed - share * low[1]
@@ -156,9 +156,9 @@ def _between(law, row, speed, share, static, dynamic, low, high):
         mean = math.exp(middle)
         friction = _friction(law, row, mean, static, dynamic)
         excess = mean - speed - share * friction
-        if abs(excess) <= _SAME * speed:
+        if abs(excess) <= _TOLERANCE * speed:
             break
-        # The end that stays twice counts half.
+        # Illinois: halve the residual of an end that is kept twice.
         if excess > 0.0:
             right, above, below = middle, excess, 0.5 * below if moved > 0.0 else below
         else:
@@ -168,7 +168,7 @@ def _between(law, row, speed, share, static, dynamic, low, high):
 
 
 def _share_of_end(law, row, speed, static, dynamic):
-    """Return the least share without ringing: a block creeps where friction rises steeply."""
+    """Return the least weight of the new velocity for which steep friction causes no ringing."""
     if speed == 0.0 or not law.contact[row]:
         return 0.5
     slow = _friction(law, row, speed, static, dynamic)
@@ -180,7 +180,7 @@ def _strength(law, static, dynamic):
     return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
 
 
-def _fresh(law):
+def _state_at_release(law):
     return len(law.state) - 1
 
 
@@ -192,7 +192,7 @@ def _state_before(law, row, moved):
     return row + len(law.state) // 2
 
 
-def _keep(law, b, row, moved, slides):
+def _store_state(law, b, row, moved, slides):
     if not law.contact[b]:
         return
     for i in range(law.state.shape[1]):
@@ -202,13 +202,13 @@ def _keep(law, b, row, moved, slides):
         law.update(law.constants, law.state, np.int64(b), moved * law.speed, law.step)
 
 
-#: By the names under which `laws` calls them.
+#: Functions by the names that `laws` uses.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     "resistance": _resistance,
     "share_of_end": _share_of_end,
     "strength": _strength,
-    "fresh": _fresh,
+    "state_at_release": _state_at_release,
     "state_of": _state_of,
     "state_before": _state_before,
-    "keep": _keep,
+    "store_state": _store_state,
 }

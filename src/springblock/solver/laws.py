@@ -1,23 +1,21 @@
-"""Laws of friction: what opposes a block that slides.
+"""Laws of friction of a sliding block.
 
-A block lets go at F_c = max(mu_s, mu_d) F_n. From then on, until it comes to rest again, friction
-takes mu F_n from it:
+A block detaches at F_c = max(mu_s, mu_d) F_n. While it slides, friction opposes it with mu F_n:
 
 coulomb             mu = mu_d: Amontons-Coulomb, the paper's law.
 slip_weakening      mu = mu_d + (mu_s - mu_d) max(1 - s/d_c, 0) after a slip s: linear weakening
                     (Ida 1972, doi:10.1029/JB077i020p03796; Andrews 1976,
-                    doi:10.1029/JB081i032p05679). A block that comes to rest heals at once: its
+                    doi:10.1029/JB081i032p05679). A block that comes to rest heals instantly: its
                     next slip begins with s = 0.
 velocity_weakening  mu = mu_d + (mu_s - mu_d)/(1 + v/v_c) at a speed v (Burridge & Knopoff 1967,
                     doi:10.1785/BSSA0570030341; in this form Carlson & Langer 1989,
                     doi:10.1103/PhysRevA.40.6470, whose mu_d is zero).
 
-With mu_s <= mu_d there is nothing to weaken. Both weakening laws become Coulomb's, to the bit, as
-d_c or v_c goes to zero. For laws from files see `law_file`.
+With mu_s <= mu_d friction does not weaken. Both weakening laws become Coulomb's, to the bit, in the
+limit of d_c or v_c to zero. For laws from files see `law_file`.
 
-A law is a type: the kernels are compiled for the one they are given, and Coulomb's, None, leaves
-nothing behind in them. In formulas here T stands for mu F_n, as the velocity that it takes in one
-step, and V for the mean speed of that step.
+A law is a type, for which the kernels are compiled; Coulomb's is None and adds no operation to
+them. T is the velocity that mu F_n removes in one step, and V the mean speed of that step.
 """
 
 import math
@@ -38,24 +36,24 @@ Array = NDArray[np.float64]
 
 
 class SlipWeakening(NamedTuple):
-    """Friction that falls as a block slips."""
+    """Friction that decreases with slip."""
 
-    slip: Array  #: of each block since it let go, in l; zero at rest
+    slip: Array  #: of each block since its release, in l; zero at rest
     rate: float  #: l/d_c
 
 
 class VelocityWeakening(NamedTuple):
-    """Friction that falls with speed."""
+    """Friction that decreases with speed."""
 
     scale: float  #: v_c, in l per step
 
 
 Law = SlipWeakening | VelocityWeakening | FromFile | None
 
-#: Beyond these, in the kernels' units, d_c and v_c are no different from zero or infinity.
+#: Values, in the kernels' units, beyond which d_c and v_c act as zero or infinity.
 _LEAST, _MOST = 1e-100, 1e100
-#: Slip before a step counts as zero below this share of the slip within it.
-_NOTHING = 1e-12
+#: Slip before a step that counts as zero, relative to the slip within the step.
+_NO_SLIP = 1e-12
 
 
 def law_of(
@@ -65,9 +63,9 @@ def law_of(
     contact: NDArray[np.bool_],
     field: Callable[[], Array],
 ) -> Law:
-    """Law of a material in the kernels' units.
+    """Return the law of a material in the kernels' units.
 
-    `load` is F_n of a block and `contact` flat, as is what `field` makes: an array of all blocks.
+    `load` is F_n of a block; `contact` is flat, and `field` returns a flat field of all blocks.
     """
     law = material.law
     if isinstance(law, LawFile):
@@ -80,7 +78,7 @@ def law_of(
 
 
 def strengths(law: Law, static: Array, dynamic: Array) -> Array:
-    """`strength` of several blocks."""
+    """Return the `strength` of each of several blocks, (n,)."""
     if isinstance(law, FromFile):
         return np.array([strength(law, *each) for each in zip(static, dynamic, strict=True)])
     return np.maximum(static, dynamic)
@@ -95,15 +93,15 @@ def _resistance_dynamic(law, slip, speed, share, static, dynamic):
 
 
 def _resistance_after_slip(law, slip, speed, share, static, dynamic):
-    """From rest, a block that runs through d_c within the step weakens at once."""
+    """Return T after a slip; it drops to mu_d at once if a step from rest slips beyond d_c."""
     mean = speed + share * dynamic
     left = max(1.0 - slip * law.rate, 0.0)
-    at_once = (slip <= _NOTHING * mean) & (0.5 * mean * law.rate >= 1.0)
+    at_once = (slip <= _NO_SLIP * mean) & (0.5 * mean * law.rate >= 1.0)
     return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
 
 
 def _resistance_at_speed(law, slip, speed, share, static, dynamic):
-    """Of two V, the larger: the one that a block comes from as it slows down."""
+    """Return T at the larger of the two solutions V, which a decelerating block reaches first."""
     drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
     under_root = (fastest + c) * (fastest + c) + 4.0 * share * drop * c
     mean = 0.5 * (fastest - c + math.sqrt(max(under_root, 0.0)))
@@ -118,7 +116,7 @@ def _stronger(law, static, dynamic):
     return max(static, dynamic)
 
 
-def _nothing(law):
+def _no_state(law):
     return 0.0
 
 
@@ -138,24 +136,24 @@ def _slip_before(law, state, moved):
     return max(state - moved, 0.0)
 
 
-def _keep_none(law, b, state, moved, slides):
+def _store_nothing(law, b, state, moved, slides):
     pass
 
 
-def _keep_slip(law, b, state, moved, slides):
+def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
 
-#: What laws without a state have in common.
+#: Functions that laws without a state have in common.
 _STATELESS: dict[str, Callable[..., Any]] = {
     "share_of_end": _half,
     "strength": _stronger,
-    "fresh": _nothing,
+    "state_at_release": _no_state,
     "state_of": _no_slip,
     "state_before": _none_before,
-    "keep": _keep_none,
+    "store_state": _store_nothing,
 }
-#: The functions of each law, by its type: those below, which say what they return.
+#: Functions of each law by its type; their signatures are given at the end of this module.
 FUNCTIONS: dict[type, dict[str, Callable[..., Any]]] = {
     type(None): _STATELESS | {"resistance": _resistance_dynamic},
     SlipWeakening: _STATELESS
@@ -163,7 +161,7 @@ FUNCTIONS: dict[type, dict[str, Callable[..., Any]]] = {
         "resistance": _resistance_after_slip,
         "state_of": _slip_so_far,
         "state_before": _slip_before,
-        "keep": _keep_slip,
+        "store_state": _store_slip,
     },
     VelocityWeakening: _STATELESS | {"resistance": _resistance_at_speed},
     FromFile: law_file.FUNCTIONS,
@@ -171,10 +169,10 @@ FUNCTIONS: dict[type, dict[str, Callable[..., Any]]] = {
 
 
 def _of_each_law(name):
-    """Return the function that calls the one of the law that it is given, compiled or not.
+    """Return a function that dispatches on the type of its first argument, compiled or not.
 
-    Compiled callers have it chosen by type, and LLVM inlines it; numba, told to do so by itself,
-    loses the store in `_keep_slip`.
+    LLVM inlines it into compiled callers; if numba inlined it instead, the assignment in
+    `_store_slip` would be lost.
     """
 
     def chosen(law, *arguments):
@@ -187,20 +185,20 @@ def _of_each_law(name):
     return chosen
 
 
-#: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T. In a step
-#: of the leapfrog, `speed` is half of |v + w|, of which friction takes half of T: share is -1/2.
-#: Where V is known, share is 0. T is infinite where no V will do: the block stops.
+#: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T. In the
+#: leapfrog `speed` is |v + w|/2, and friction reduces it by T/2: share is -1/2. If V is known,
+#: share is 0. T is infinite if no V solves the equation: the block stops.
 resistance = _of_each_law("resistance")
-#: (law, state, speed, static, dynamic) -> share of the velocity after a step in the one at which
-#: friction acts: 1/2, but more where friction rises steeply with speed.
+#: (law, state, speed, static, dynamic) -> weight θ of the velocity after a step in the one at which
+#: friction is evaluated: 1/2, but more where friction rises steeply with speed.
 share_of_end = _of_each_law("share_of_end")
-#: (law, static, dynamic) -> T that the force on a block at rest must exceed.
+#: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
 strength = _of_each_law("strength")
-#: (law) -> state of a block that lets go: its slip, or the row where its state is.
-fresh = _of_each_law("fresh")
+#: (law) -> state of a block that detaches: its slip, or the row of its state.
+state_at_release = _of_each_law("state_at_release")
 #: (law, b) -> state of block b.
 state_of = _of_each_law("state_of")
-#: (law, state, moved) -> state before the last step, as far as it is known.
+#: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
 state_before = _of_each_law("state_before")
-#: (law, b, state, moved, slides): store the state of block b after a step that began with `state`.
-keep = _of_each_law("keep")
+#: (law, b, state, moved, slides): store the state of block b after a step from `state`.
+store_state = _of_each_law("store_state")

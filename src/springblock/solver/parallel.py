@@ -1,8 +1,8 @@
-"""The leapfrog of one large surface on several cores, to the bit as on one.
+"""The leapfrog on several cores, for one large surface; results are those of one core to the bit.
 
-Each core takes a share of neighbouring bands through every step. Only the bands at the two ends of
-a share feel rows of another one: all cores first compute the forces of these, while nothing moves,
-and only then go through their share.
+Each core advances a share of adjacent bands. Only the first and the last band of a share are
+coupled to rows of another share: all cores compute the forces on these two before any block moves,
+and then advance their shares.
 """
 
 from concurrent.futures import Executor, ThreadPoolExecutor
@@ -18,32 +18,36 @@ from springblock.solver.lattice import (
     Samples,
     State,
     band_from,
-    book,
     close_rows,
+    tally,
 )
 from springblock.solver.leapfrog import Rows, make_rows, move_band, place_releases, totals, wake
-from springblock.solver.release import Released, room
+from springblock.solver.release import Releases, make_releases
 from springblock.solver.springs import ONE, Band, U, forces_on_band, scratch
 
 
 class Share(NamedTuple):
-    """Rows [start, stop) that one core moves, and its room to work in."""
+    """Rows [start, stop) that one core advances, with its work arrays."""
 
     start: np.uint64
     stop: np.uint64
-    lower: Array  #: scratch of the first band, and then of all but the last
+    lower: Array  #: scratch of all bands but the last
     upper: Array  #: scratch of the last band
-    released: Released
+    released: Releases
 
 
 def shares(constants: Constants, cores: int) -> list[Share]:
-    """Divide the bands of a lattice among so many cores, or fewer where there are fewer bands."""
+    """Divide the bands of a lattice among this many cores, or one each if there are fewer bands."""
     size, (n_y, n_x) = int(constants.band_rows), constants.grid.shape
     bands = -(-n_y // size)
     cuts = np.unique(np.linspace(0, bands, min(cores, bands) + 1).astype(int)) * size
     return [
         Share(
-            U(start), U(min(stop, n_y)), scratch(), scratch(), room((min(stop, n_y) - start) * n_x)
+            U(start),
+            U(min(stop, n_y)),
+            scratch(),
+            scratch(),
+            make_releases((min(stop, n_y) - start) * n_x),
         )
         for start, stop in zip(cuts[:-1].tolist(), cuts[1:].tolist(), strict=True)
     ]
@@ -51,7 +55,7 @@ def shares(constants: Constants, cores: int) -> list[Share]:
 
 @kernel
 def _forces_on_end(blocks, rows, band, s, springs, slider):
-    """Forces of a band, and first what the row below pulls it with."""
+    """Compute the forces on a band, after those that the row below exerts on it."""
     if band.start > 0:
         below = Band(band.start - ONE, band.start, band.grid)
         row, column = forces_on_band(blocks.ux, blocks.uy, below, rows.awake, s, springs, slider)
@@ -61,8 +65,8 @@ def _forces_on_end(blocks, rows, band, s, springs, slider):
 
 
 @kernel
-def _look(blocks, rows, share, constants, slider):
-    """Forces at both ends of a share, before anything moves.
+def _forces_at_ends(blocks, rows, share, constants, slider):
+    """Compute the forces on the first and the last band of a share, before any block moves.
 
     Returns row and column of a broken spring; column 0 if none is.
     """
@@ -82,7 +86,7 @@ def _last_band(share, constants):
 
 
 @kernel
-def _move(blocks, law, peak, rows, share, constants, slider, now):
+def _move_share(blocks, law, peak, rows, share, constants, slider, now):
     """Advance the rows of a share by one step.
 
     Returns switches and releases, and row and column of a broken spring; column 0 if none is.
@@ -112,10 +116,10 @@ def advance(
     samples: Samples,
     cores: int,
 ) -> tuple[int, int, int]:
-    """As `leapfrog.advance`, on so many cores."""
+    """Advance as `leapfrog.advance` does, on this many cores."""
     (n_y, n_x), periodic = constants.grid.shape, constants.grid.periodic is not None
     rows, switches = make_rows(state.in_contact, periodic), 0
-    released, parts = room(n_y * n_x), shares(constants, cores)
+    released, parts = make_releases(n_y * n_x), shares(constants, cores)
     with ThreadPoolExecutor(len(parts)) as executor:
         for k in range(first, first + steps):
             if state.peak is None:
@@ -126,7 +130,7 @@ def advance(
             if count > 0:
                 place_releases(state.blocks, state.law, rows, released, count, constants, k)
             switches += more
-            switches = book(
+            switches = tally(
                 state.ledger, samples, constants, totals(rows), switches, k, first, every
             )
     return steps, -1, -1
@@ -137,26 +141,28 @@ def _step(
     state: State,
     rows: Rows,
     parts: list[Share],
-    released: Released,
+    released: Releases,
     constants: Constants,
     k: int,
 ) -> tuple[int, int, int, int]:
-    """Move all blocks; returns switches and releases, and row and column of a broken spring."""
+    """Take one step; return switches and releases, and row and column of a broken spring."""
     slider = constants.slider_x * k, constants.slider_y * k
     blocks, law, peak = state.blocks, state.law, state.peak
     close_rows(blocks.ux, blocks.uy, constants.grid)
-    looked = list(executor.map(lambda part: _look(blocks, rows, part, constants, slider), parts))
-    for row, column in looked:
+    broken = executor.map(
+        lambda part: _forces_at_ends(blocks, rows, part, constants, slider), parts
+    )
+    for row, column in list(broken):
         if column > 0:
             return 0, 0, row, column
     switches = count = 0
     moved = executor.map(
-        lambda part: _move(blocks, law, peak, rows, part, constants, slider, k), parts
+        lambda part: _move_share(blocks, law, peak, rows, part, constants, slider, k), parts
     )
-    for part, (more, let_go, row, column) in zip(parts, list(moved), strict=True):
+    for part, (more, detached, row, column) in zip(parts, list(moved), strict=True):
         if column > 0:
             return switches, count, row, column
-        for all_of_them, its_own in zip(released[:5], part.released[:5], strict=True):
-            all_of_them[count : count + let_go] = its_own[:let_go]
-        switches, count = switches + more, count + let_go
+        for merged, own in zip(released[:5], part.released[:5], strict=True):
+            merged[count : count + detached] = own[:detached]
+        switches, count = switches + more, count + detached
     return switches, count, 0, 0

@@ -1,25 +1,18 @@
-"""Releases within a step, which makes both integrators second order across detachments.
+"""Release times within a step, which make both integrators second order across detachments.
 
-A block at rest whose |F_mot| is beyond F_c = max(mu_s, mu_d) F_n at step k, and was not one step
-before, has let go a share θ of a step before step k,
+A block at rest detaches at t_det = (k - θ) h, when |F_mot| reaches F_c = max(mu_s, mu_d) F_n
+between steps k - 1 and k. If the net force adds a velocity a per step, then at step k, by (9) to
+(12) of docs/model.md, which derives them,
 
-    θ = (|F_k| - F_c) / (|F_k| - |F_k-1|).
+    θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),    ε = (h/h_limit)²,
+    slip s = (θ_ε²/2 - ε/8) a,    velocity θ_ε a,    heat Q = (1 - ε) a²/8 - (K_s + 3 K_int) s²/2.
 
-It has moved since: with a for the velocity that the net force adds in one step, it has slipped by
-θ² a/2 at step k, with a velocity of θ a. Only the few blocks that let go need F_k-1. It follows
-from where their neighbours have been, afterwards and outside the loops over all blocks.
+Q, per mass, is the energy that the leapfrog would not dissipate otherwise; in `rk4` it is zero, and
+s has no term in ε. F_k-1 is needed only for the few blocks that detach, and is reconstructed after
+the loop over all blocks from the earlier displacements of their neighbours.
 
-The leapfrog conserves v_k-1/2 · v_k+1/2 / 2 in place of v_k²/2, which is a²/8 less once a block is
-accelerated; friction will take that energy, and not the true one, until the block stops. A start is
-therefore credited with a²/8 as heat, less what the placement itself creates: the kinetic energy
-θ² a²/2, beyond the work of the net force along the slip.
-
-Near the stability limit a²/8 would be much. With ε = (h/h_limit)² the motion starts nearer to the
-middle of the step, at θ + ε (1/2 - θ), and the slip is less by ε a/8: at the limit the block starts
-from where it rests with a velocity of a half step, and the credit is zero. t_det keeps θ.
-
-Where friction weakens as a block moves, it lets go without a drop: a is what F_mot has risen by
-since then. Its slip is of third order in h and its velocity of second, whatever share that was.
+Under a weakening law the net force at the release is zero, and a is the increase of F_mot since
+then: the slip is of third order in h and the velocity of second, for any θ.
 """
 
 import math
@@ -33,21 +26,21 @@ from springblock.solver.compilation import kernel
 from springblock.solver.springs import Array, g
 
 
-class Released(NamedTuple):
-    """Room for the blocks that let go in one step, and for the surroundings of one of them."""
+class Releases(NamedTuple):
+    """Work arrays for the blocks that detach in one step, and for the neighbourhood of one."""
 
     row: NDArray[np.int64]  #: (N_y N_x,)
     x: NDArray[np.int64]  #: (N_y N_x,) column, from 1
-    ax: Array  #: (N_y N_x,) velocity that the net force adds to each in one step
+    ax: Array  #: (N_y N_x,) velocity that the net force adds in one step
     ay: Array
     share: Array  #: (N_y N_x,) θ
     now: Array  #: (2, 5, 5) displacements at step k, [y, x]; NaN beyond the edges
-    before: Array  #: (2, 3, 3) of the middle at step k - 1
+    before: Array  #: (2, 3, 3) displacements of the inner blocks at step k - 1
 
 
-def room(blocks: int) -> Released:
-    """Return work arrays for this many blocks; untouched, they take no memory."""
-    return Released(
+def make_releases(blocks: int) -> Releases:
+    """Return work arrays for this many blocks, which take memory only when written to."""
+    return Releases(
         np.empty(blocks, np.int64),
         np.empty(blocks, np.int64),
         np.empty(blocks),
@@ -60,7 +53,7 @@ def room(blocks: int) -> Released:
 
 @njit(inline="always")
 def _pull(patch, y, x, j, i, kappa):
-    """Pull on the block at (y, x) of a patch by its neighbour at (y + j, x + i)."""
+    """Force on the block at (y, x) of a patch by its neighbour at (y + j, x + i); 0 without one."""
     dx, dy = patch[0, y + j, x + i] - patch[0, y, x], patch[1, y + j, x + i] - patch[1, y, x]
     if np.isnan(dx):
         return 0.0, 0.0
@@ -72,17 +65,17 @@ def _pull(patch, y, x, j, i, kappa):
 
 @njit(inline="always")
 def _pull_of_pair(patch, y, x, j, i, kappa):
-    """Pull by two neighbours on opposite sides."""
+    """Force by the two neighbours at (y ± j, x ± i)."""
     ax, ay = _pull(patch, y, x, j, i, kappa)
     bx, by = _pull(patch, y, x, -j, -i, kappa)
     return ax + bx, ay + by
 
 
 @kernel
-def force_in(patch, y, x, springs, slider):
-    """F_mot of the block at (y, x) of a patch of displacements.
+def force_in_patch(patch, y, x, springs, slider):
+    """F_mot of the block at (y, x) of a patch of displacements, under a slider at (x, y).
 
-    The order of sums is the same seen from any side, as in `springs`.
+    The order of summation is invariant under reflections, as in `springs`.
     """
     east_x, east_y = _pull_of_pair(patch, y, x, 0, 1, springs.kappa)
     north_x, north_y = _pull_of_pair(patch, y, x, 1, 0, springs.kappa)
@@ -94,21 +87,21 @@ def force_in(patch, y, x, springs, slider):
 
 
 @njit(inline="always")
-def placed(share, epsilon):
-    """Return θ of the motion, which goes to 1/2 at the stability limit, ε = 1."""
+def effective_share(share, epsilon):
+    """Return θ_ε of (12), which tends to 1/2 at the stability limit, ε = 1."""
     return share + epsilon * (0.5 - share)
 
 
 @kernel
-def share_of_step(released, threshold, springs, slider, slide):
-    """Return θ of the block in the middle; `slide` is how far the slider goes in a step.
+def release_share(released, threshold, springs, slider, slide):
+    """Return θ of (9) for the central block; `slide` is the slider's displacement per step.
 
-    NaN for a block that felt more than its threshold one step before: it was moving then, and has
-    come to rest for an instant only.
+    NaN if the force exceeded the threshold one step earlier, too: the block was then sliding, and
+    at rest for an instant only.
     """
     back = slider[0] - slide[0], slider[1] - slide[1]
-    before = math.hypot(*force_in(released.before, 1, 1, springs, back))
+    before = math.hypot(*force_in_patch(released.before, 1, 1, springs, back))
     if before > threshold:
         return np.nan
-    now = math.hypot(*force_in(released.now, 2, 2, springs, slider))
+    now = math.hypot(*force_in_patch(released.now, 2, 2, springs, slider))
     return (now - threshold) / (now - before) if now > threshold else 0.0

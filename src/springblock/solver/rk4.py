@@ -1,13 +1,13 @@
-"""Fourth-order Runge-Kutta, the paper's method, in a form that converges.
+"""Fourth-order Runge-Kutta, the paper's method, in a form that converges: (8) of docs/model.md.
 
-Taken literally, with friction opposite to the velocity of each *stage*, the method does not
-converge: the stage velocities of a slow block alternate in sign, and it creeps instead of coming
-to rest. Here friction keeps one direction through all four stages: against the velocity that a
-moving block has in the middle of the step, against F_mot of one that has just let go. Where it
-weakens, each stage has a friction of its own size. A block whose velocity has turned back at the
-end of the step stops there; a block at rest stays through all stages. Without friction the method
-is of fourth order. Releases are placed within their steps, which makes it second order across them;
-stops fall on step boundaries.
+With friction opposite to the velocity of each *stage* the method does not converge: the stage
+velocities of a slow block alternate in sign, and it creeps instead of coming to rest. Here friction
+has one direction e through all four stages: opposite to the velocity of a sliding block in the
+middle of the step, or to F_mot for a block that has just detached. Under weakening laws its
+magnitude differs from stage to stage. A block whose velocity has reversed at the end of the step
+stops there; a block at rest stays at rest through all stages. The method is of fourth order without
+friction, and of second order across releases, which are placed within their steps (`release`).
+Stops fall on step boundaries.
 """
 
 import math
@@ -20,42 +20,41 @@ from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
     HEAT,
     Array,
-    Blocks,
     Constants,
     Samples,
     State,
     Totals,
     band_from,
-    book,
     close_edge,
     close_rows,
-    keep_peaks,
-    place,
+    index_of,
+    tally,
+    update_peaks,
 )
-from springblock.solver.laws import keep, resistance, state_of
-from springblock.solver.release import placed, room, share_of_step
+from springblock.solver.laws import resistance, state_of, store_state
+from springblock.solver.release import effective_share, make_releases, release_share
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 
 class Stage(NamedTuple):
-    """What is known of each block between the stages of a step, two components each."""
+    """State of each block between the stages of a step, two components each."""
 
     ux: Array  #: displacement
     uy: Array
     wx: Array  #: velocity
     wy: Array
-    dx: Array  #: weighted sum of velocities over stages: what the step moves it by
+    dx: Array  #: weighted sum of velocities over stages: the displacement in this step
     dy: Array
-    ax: Array  #: of accelerations
+    ax: Array  #: weighted sum of accelerations: the change of velocity
     ay: Array
-    ex: Array  #: direction that friction opposes in this step
+    ex: Array  #: unit vector e, which friction opposes in this step
     ey: Array
 
 
 FORCE_EVALUATIONS = 4
 WORK_FIELDS = len(Stage._fields)
 
-#: Weight and node of each stage, and how far the next one is from the step's start.
+#: Weight and node of each stage, and the node of the next one.
 STAGES = (
     (1.0 / 6.0, 0.0, 0.5),
     (1.0 / 3.0, 0.5, 0.5),
@@ -65,44 +64,43 @@ STAGES = (
 
 
 def force_time(step: float, gamma: float) -> float:
-    """Time for which a force acts in one step, s: damping is a force of its own here."""
+    """Time for which a force acts in one step, s: the whole step, as damping is a force here."""
     return step
 
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
-    """Velocity (2, lattice) after `steps` steps, in l per step, and friction's heat until then."""
+    """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far."""
     return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[HEAT])
 
 
 @njit(inline="always")
 def _friction_direction(law, fx, fy, wx, wy, static, friction, damping):
-    """Unit vector that friction opposes in this step; zero for a block that stays at rest.
+    """Unit vector e that friction opposes in this step; zero for a block that stays at rest.
 
-    That of a moving block is its direction in the middle of the step, unless it turns back before.
-    A block that has hardly been let go is slow where friction weakens, and is turned at once: its
-    direction solves the implicit equation, in which friction has the direction of the middle, too.
+    For a sliding block, its direction of motion in the middle of the step, unless it reverses
+    before. Under weakening laws a block is slow just after its release and turns within a step: its
+    direction then solves the implicit equation, with friction along e itself.
     """
     speed = math.sqrt(wx * wx + wy * wy)
     if speed > 0.0:
         ex, ey = wx / speed, wy / speed
-        half = 0.5 / (1.0 + damping) ** 2  # of a step; less where damping is stiff
+        half = 0.5 / (1.0 + damping) ** 2  # half a step, less under strong damping
         back = friction if law is None else 0.0
         mx, my = wx + half * (fx - back * ex), wy + half * (fy - back * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
-    # With mu_s < mu_d the block needs more than mu_d F_n to move at all.
-    if force > static and force > friction:
+    if force > static and force > friction:  # the latter matters for blocks with mu_s < mu_d
         return fx / force, fy / force
     return 0.0, 0.0
 
 
 @kernel
-def _set_out(blocks, law, stage, released, count, band, s, damping, now):
-    """Choose friction's direction in a band, and let go; returns how many have let go so far.
+def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
+    """Set the direction of friction in a band and release blocks; return the releases so far.
 
-    The stage's velocity is that of the step's start; all sums over stages are zero. A block that
-    lets go has been sliding for half a step, as far as is known yet.
+    Stage velocities are those at the start of the step, and sums over stages are zero. Released
+    blocks start with (10) of docs/model.md for θ = 1/2, which `_place_releases` corrects.
     """
     wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
@@ -116,7 +114,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
             rests = wx[b] == 0.0 and wy[b] == 0.0
             half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (wx[b], wy[b])
             speed, slip = math.sqrt(half_x * half_x + half_y * half_y), state_of(law, b)
-            share = -0.5 if rests else 0.0  # see `resistance`
+            share = -0.5 if rests else 0.0  # see `laws.resistance`
             friction = resistance(law, slip, speed, share, static[b], dynamic[b])
             ex[b], ey[b] = _friction_direction(
                 law, fx, fy, wx[b], wy[b], static[b], friction, damping
@@ -125,7 +123,7 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
-                keep(law, b, 0.0, 0.125 * excess, True)
+                store_state(law, b, 0.0, 0.125 * excess, True)
                 wx[b], wy[b] = 0.5 * ax, 0.5 * ay
                 stage.wx[b], stage.wy[b] = wx[b], wy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
@@ -136,12 +134,15 @@ def _set_out(blocks, law, stage, released, count, band, s, damping, now):
 
 
 @kernel
-def _look_around(blocks, stage, released, row, x, constants):
-    """Reconstruct the displacements around a block at the step's start, and one step before."""
+def _reconstruct_displacements(blocks, stage, released, row, x, constants):
+    """Reconstruct the displacements around a block at the start of the step, and one step before.
+
+    A sliding block is taken to have the same mean acceleration in both steps.
+    """
     now, before = released.now, released.before
     for j in range(3):
         for i in range(3):
-            b = place(row + j - 1, x + i - 1, constants.grid)
+            b = index_of(row + j - 1, x + i - 1, constants.grid)
             ux, uy = (blocks.ux[b], blocks.uy[b]) if b >= 0 else (np.nan, np.nan)
             now[0, j + 1, i + 1], now[1, j + 1, i + 1] = ux, uy
             if b >= 0 and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
@@ -154,31 +155,35 @@ def _look_around(blocks, stage, released, row, x, constants):
 
 @kernel
 def _place_releases(blocks, law, stage, released, count, constants, k):
-    """Let `count` blocks go at their times before step k, not half a step before it.
+    """Place the releases of `count` blocks at their times before step k, not half a step before.
 
-    To second order, that shifts where they are at the end of the step by what it shifts at its
-    start, and by the difference in velocity. Returns the heat of friction before the step.
+    The stages have started from (10) of docs/model.md with θ = 1/2. To second order, θ_ε changes
+    the displacement at the end of the step by the changes of slip and velocity at its start,
+
+        Δu = [(θ_ε²/2 - 1/8) + (θ_ε - 1/2)] a.                                  (13)
+
+    Returns the friction work along the displacements that are not part of the stages.
     """
     slide = constants.slider_x, constants.slider_y
     slider = slide[0] * k, slide[1] * k
     epsilon = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0
     for m in range(count):
-        b = place(released.row[m], released.x[m], constants.grid)
-        blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # as before the step
-        keep(law, b, 0.0, 0.0, False)
+        b = index_of(released.row[m], released.x[m], constants.grid)
+        blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # at rest before the step, for its neighbours
+        store_state(law, b, 0.0, 0.0, False)
     for m in range(count):
         row, x = released.row[m], released.x[m]
-        b = place(row, x, constants.grid)
-        _look_around(blocks, stage, released, row, x, constants)
+        b = index_of(row, x, constants.grid)
+        _reconstruct_displacements(blocks, stage, released, row, x, constants)
         threshold = max(blocks.static[b], blocks.dynamic[b])
-        share = share_of_step(released, threshold, constants.springs, slider, slide)
+        share = release_share(released, threshold, constants.springs, slider, slide)
         released.share[m] = 0.5 if np.isnan(share) else share
     heat = 0.0
     for m in range(count):
-        b, share = place(released.row[m], released.x[m], constants.grid), released.share[m]
+        b, share = index_of(released.row[m], released.x[m], constants.grid), released.share[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - share
-        share = placed(share, epsilon)
+        share = effective_share(share, epsilon)
         further = 0.5 * share * share - 0.125 + share - 0.5
         blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
         stage.dx[b] += further * released.ax[m]
@@ -191,7 +196,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
 
 @njit(inline="always")
 def _friction_in_stage(blocks, law, stage, b):
-    """Friction where a stage has got to, and at its speed."""
+    """Friction of block b at the slip and the speed of the current stage."""
     ex, ey, slip = stage.ex[b], stage.ey[b], state_of(law, b)
     slip += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
     speed = abs(stage.wx[b] * ex + stage.wy[b] * ey)
@@ -199,8 +204,8 @@ def _friction_in_stage(blocks, law, stage, b):
 
 
 @kernel
-def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
-    """Take one stage on the rows of a band; returns its part of the heat and the squared speed."""
+def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
+    """Compute one stage in a band; return its share of the heat and of the squared velocities."""
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
@@ -236,7 +241,7 @@ def _take_stage(blocks, law, stage, weight, reach, band, s, damping):
 
 @kernel
 def _displacement_of_row(ux, uy, i, n):
-    """Sums over a row, in an order that does not depend on the law: preludes know none."""
+    """Sums over a row, in an order that does not depend on the law: preludes have none."""
     sum_x, sum_y = 0.0, 0.0
     for x in range(ONE, n + ONE):
         sum_x, sum_y = add(sum_x, ux[i + x]), add(sum_y, uy[i + x])
@@ -244,10 +249,10 @@ def _displacement_of_row(ux, uy, i, n):
 
 
 @kernel
-def _finish(blocks, law, stage, grid, heat, squares):
-    """Complete the step, clear the sums over stages, and sum up, row by row lest rounding adds up.
+def _finish_step(blocks, law, stage, grid, heat, squares):
+    """Complete the step, clear the sums over stages, and return the totals.
 
-    `heat` of friction and `squares` of speed are what the stages have summed up already.
+    Sums are taken row by row, which limits rounding; `heat` and `squares` are those of the stages.
     """
     ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
     static, ex, ey = blocks.static, stage.ex, stage.ey
@@ -261,14 +266,14 @@ def _finish(blocks, law, stage, grid, heat, squares):
             b = i + x
             new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
-            lost = 0.5 * (new_x * new_x + new_y * new_y)  # what it still had when it turned back
+            lost = 0.5 * (new_x * new_x + new_y * new_y)  # kinetic energy of a block that reverses
             slip, further = state_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
             work = blocks.dynamic[b] * further if law is None else 0.0
-            keep(law, b, slip, further, not turned)
+            store_state(law, b, slip, further, not turned)
             heat_of_row = add(heat_of_row, work + (lost if turned else 0.0))
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
-            there_x, there_y = ux[b] + du[b], uy[b] + dv[b]
-            ux[b], uy[b], su[b], sv[b] = there_x, there_y, there_x, there_y
+            next_x, next_y = ux[b] + du[b], uy[b] + dv[b]
+            ux[b], uy[b], su[b], sv[b] = next_x, next_y, next_x, next_y
             wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
         sum_x, sum_y = _displacement_of_row(ux, uy, i, grid.n_x)
@@ -278,15 +283,9 @@ def _finish(blocks, law, stage, grid, heat, squares):
     return Totals(total_x, total_y, heat, squares)
 
 
-def _begin(blocks: Blocks, stage: Stage) -> None:
-    """Let the first stage be where the blocks are; without friction any direction will do."""
-    stage.ux[:], stage.uy[:], stage.wx[:], stage.wy[:] = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    stage.ex[:], stage.ey[:] = 1.0, 0.0
-
-
 @kernel
-def _follow(state, stage, constants, first, steps, every, samples, every_row, released):
-    """As `advance`, with room for what is known between stages and for the blocks that let go."""
+def _time_loop(state, stage, constants, first, steps, every, samples, every_row, released):
+    """Compiled loop of `advance`, with work arrays for stages and for the blocks that detach."""
     blocks, law, s, grid = state.blocks, state.law, state.scratch, constants.grid
     damping, switches = constants.damping, np.int64(0)
     for k in range(first, first + steps):
@@ -302,15 +301,15 @@ def _follow(state, stage, constants, first, steps, every, samples, every_row, re
                 if column > 0:
                     return k - first, np.int64(row), np.int64(column) - 1
                 if node == 0.0:
-                    keep_peaks(state.peak, band, s)
-                    count = _set_out(blocks, law, stage, released, count, band, s, damping, k)
-                more, speeds = _take_stage(blocks, law, stage, weight, reach, band, s, damping)
+                    update_peaks(state.peak, band, s)
+                    count = _begin_step(blocks, law, stage, released, count, band, s, damping, k)
+                more, speeds = _advance_stage(blocks, law, stage, weight, reach, band, s, damping)
                 heat, squares = heat + more, squares + speeds
         if count > 0:
             early = _place_releases(blocks, law, stage, released, count, constants, k)
             heat += 0.0 if law is None else early
-        totals = _finish(blocks, law, stage, grid, heat, squares)
-        switches = book(state.ledger, samples, constants, totals, switches + count, k, first, every)
+        totals, switches = _finish_step(blocks, law, stage, grid, heat, squares), switches + count
+        switches = tally(state.ledger, samples, constants, totals, switches, k, first, every)
     return steps, np.int64(-1), np.int64(-1)
 
 
@@ -319,6 +318,8 @@ def advance(
 ) -> tuple[int, int, int]:
     """See `Integrator.advance`."""
     (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)
-    every_row, released = np.ones(n_y + 1, np.bool_), room(n_y * n_x)
-    _begin(state.blocks, stage)
-    return _follow(state, stage, constants, first, steps, every, samples, every_row, released)
+    every_row, released = np.ones(n_y + 1, np.bool_), make_releases(n_y * n_x)
+    for field, values in zip(stage[:4], state.blocks[:4], strict=True):
+        field[:] = values
+    stage.ex[:], stage.ey[:] = 1.0, 0.0  # without friction e has no effect
+    return _time_loop(state, stage, constants, first, steps, every, samples, every_row, released)

@@ -1,23 +1,24 @@
 """Exact non-linear springs in displacement form, one band of rows at a time.
 
-A spring of stiffness k, rest length L and rest direction e (in units of the lattice spacing)
-whose ends have moved apart by d pulls with F = k (1 - L/r) (e + d), r = |e + d| (section 2 of the
-paper). Strains are 1e-2 and, in stiff materials, far less: computing r and then 1 - L/r would
-cancel all but a few digits. With q = (2 e·d + d²)/L² = (r/L)² - 1,
+A spring of stiffness k and rest vector e, |e| = L (in units of the lattice spacing), whose ends are
+displaced by d relative to each other, exerts the force F = k (1 - L/r) (e + d), r = |e + d|
+(section 2 of the paper; (2) of docs/model.md). Strains are 1e-2 or, in stiff materials, far
+smaller, so that 1 - L/r would lose all but a few digits to cancellation. With
+q = (2 e·d + d²)/L² = (r/L)² - 1,
 
     1 - L/r = 1 - (1 + q)^(-1/2) = q g(q),    g(q) = 1/((1 + q) + √(1 + q)),
 
-has neither cancellation nor, with g as a short polynomial, a root or a division. Rows in which
-the springs of some block leave the polynomial's range are computed again with the closed form.
+does not cancel and, with a short polynomial for g, needs neither a root nor a division. Rows in
+which the springs of some block leave the range of the polynomial are computed again with the closed
+form.
 
-A row is worked on in short loops, first what its springs pull with, then what its blocks feel: in
-one long loop the processor would run out of registers before it could overlap the work on several
-blocks. Rows are filled up with phantoms to whole vectors: places that hold the displacement of the
-last block, feel no diagonal spring, and never move. With periodic edges they are images of the
-first blocks of their row, and beyond the last row stands an image of the first one: springs across
-the edges are computed as all others are.
+A row takes two short loops, over the forces of its springs and over the sums on its blocks: one
+long loop would need more registers than the processor has. Rows are filled up to whole vectors with
+phantom blocks, which have the displacement of the last block, no diagonal springs, and never move.
+With periodic edges they are images of the first blocks of the row, and an image of the first row
+follows the last one, so that springs across the edges are computed like all others.
 
-Units here: lengths in l; forces as the change of velocity per step that they cause, in l per step.
+Lengths are in l, forces in the velocity that they add in one step, in l per step.
 """
 
 from typing import Literal, NamedTuple
@@ -33,30 +34,29 @@ from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
 
-#: |q| up to which the polynomial stands for g, and the most by which it is off, relatively: as much
-#: as rounding leaves of a strain of 5e-4 between blocks that have moved by l.
+#: Largest |q| for which g is the polynomial, and its largest relative error: as large as the
+#: rounding error of a strain of 5e-4 between blocks displaced by l.
 SERIES_RANGE = 1.0 / 32.0
 SERIES_ERROR = 4e-13
 SERIES_DEGREE = 6
 
-#: A spring may shrink to half its rest length and grow to twice it: -3/4 < q < 3.
+#: A spring may have 1/2 to 2 times its rest length: -3/4 < q < 3.
 Q_MIN, Q_MAX = -0.75, 3.0
 
-#: Rows are worked on in bands of about this many blocks.
+#: Rows are computed in bands of about this many blocks.
 _BAND_BLOCKS = 2048
 
-#: So many columns of a band are worked on together: what their springs pull with stays in the
-#: nearest cache.
+#: Columns of a band are computed in tiles of this many, whose spring forces fit into the L1 cache.
 _TILE = np.uint64(256)
 
-#: Rows are filled up with phantoms to a multiple of this many blocks: no vector is cut short.
+#: Rows are filled up with phantoms to a multiple of this many blocks, the longest vector.
 LANES = 8
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Fields of scratch: forces are a band of rows each; the others, seen as an array of their own by
-# `one_row`, one row. Their distance is a constant, so that the compiler can see that they do not
-# overlap, and no power of two, so that they do not compete for the same cache lines.
+# Offsets of the fields of scratch: the forces on a band of rows, then, in the view `one_row`, the
+# springs of one row. Their distance is constant, so that the compiler can exclude overlaps, and not
+# a power of two, so that they do not share cache lines.
 _FIELD = MAX_BLOCKS + 72
 _FIELDS = tuple(U(k * _FIELD) for k in range(10))
 FORCE_X, FORCE_Y = _FIELDS[:2]
@@ -64,14 +64,14 @@ EAST_X, EAST_Y, NORTH_X, NORTH_Y, NE_X, NE_Y, NW_X, NW_Y, BELOW_X, BELOW_Y = _FI
 
 
 class Grid(NamedTuple):
-    """How the blocks of a lattice are laid out."""
+    """Memory layout of a lattice."""
 
     n_y: np.uint64  #: rows
     n_x: np.uint64  #: blocks of a row
     width: np.uint64  #: blocks of a row with its phantoms
-    pitch: np.uint64  #: numbers from one row to the next: a border, the width and a border
-    #: Whether opposite edges are joined. None where they are free: kernels are then compiled as if
-    #: there were no others.
+    pitch: np.uint64  #: numbers from one row to the next: border, width and border
+    #: Whether opposite edges are joined; None if they are free, so that kernels are compiled
+    #: without the branches for periodic edges.
     periodic: Literal[True] | None
 
     @classmethod
@@ -94,7 +94,7 @@ class Grid(NamedTuple):
 
 
 class Band(NamedTuple):
-    """Rows [start, stop) of a lattice, which are worked on together."""
+    """Rows [start, stop) of a lattice, computed together."""
 
     start: np.uint64
     stop: np.uint64
@@ -102,15 +102,15 @@ class Band(NamedTuple):
 
 
 class Columns(NamedTuple):
-    """Columns [start, stop) of a band, from 1, which are worked on together."""
+    """Columns [start, stop) of a band, from 1, computed together."""
 
-    springs: np.uint64  #: where their springs begin: those from the west are among them
+    springs: np.uint64  #: first column whose springs are needed, including those from the west
     start: np.uint64
     stop: np.uint64
 
 
 class Springs(NamedTuple):
-    """Stiffness of the springs, as the velocity that a force adds in one step."""
+    """Stiffness of the springs, in the kernels' units."""
 
     kappa: float  #: K_int l
     series: tuple[float, ...]  #: kappa times the polynomial of g
@@ -118,13 +118,13 @@ class Springs(NamedTuple):
 
     @classmethod
     def of(cls, kappa: float, k_s: float) -> "Springs":
-        """With the coefficients of kappa g(q), lowest first."""
+        """Return the springs with the coefficients of kappa g(q), lowest order first."""
         return cls(kappa, tuple((kappa * series()).tolist()), k_s)
 
 
 @njit(inline="always")
 def one_row(s):
-    """View of those fields of scratch that hold one row."""
+    """View of the fields of scratch that hold one row."""
     return s[2 * _FIELD :]
 
 
@@ -141,7 +141,7 @@ def _slope(q):
 
 
 def series() -> Array:
-    """Coefficients of g as a polynomial in q, lowest first; g(0) = 1/2 to the last bit."""
+    """Coefficients of the polynomial for g(q), lowest order first; g(0) = 1/2 exactly."""
     in_unit_range = chebyshev.chebinterpolate(lambda x: _slope(SERIES_RANGE * x), SERIES_DEGREE - 1)
     rising = chebyshev.cheb2poly(in_unit_range) / SERIES_RANGE ** np.arange(SERIES_DEGREE)
     return np.concatenate([[0.5], rising])
@@ -149,13 +149,13 @@ def series() -> Array:
 
 @njit(inline="always")
 def _horner(p, q, c):
-    """Return c + q p for four springs: side by side, for one alone would wait for itself."""
+    """Return c + q p for four springs, interleaved to hide the latency of each operation."""
     return c + q[0] * p[0], c + q[1] * p[1], c + q[2] * p[2], c + q[3] * p[3]
 
 
 @njit(inline="always")
 def _series(q, c):
-    """Return kappa g(q) of four springs by the polynomial c."""
+    """Return kappa g(q) of four springs by the polynomial with coefficients c."""
     c0, c1, c2, c3, c4, c5, c6 = c
     p = _horner((c6, c6, c6, c6), q, c5)
     p = _horner(p, q, c4)
@@ -166,11 +166,10 @@ def _series(q, c):
 
 
 @njit(inline="always")
-def _apart(ux, uy, i, j, x):
-    """How far the ends of the springs to the east, north, and along diagonals have moved apart.
+def _relative_displacements(ux, uy, i, j, x):
+    """Relative displacements d of the springs of block (i, x) to the east, north and north-east.
 
-    They belong to block (i, x); row j is the next one. The last spring goes north-west from the
-    block to the east.
+    The fourth is that of the spring between its eastern and its northern neighbour; row j is next.
     """
     ax, ay = ux[i + x], uy[i + x]
     bx, by = ux[i + x + ONE], uy[i + x + ONE]
@@ -180,9 +179,9 @@ def _apart(ux, uy, i, j, x):
 
 
 @njit(inline="always")
-def _stretch(apart):
+def _stretch(relative):
     """Return q of the four springs."""
-    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = apart
+    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = relative
     east = 2.0 * ex + (ex * ex + ey * ey)
     north = 2.0 * ny + (nx * nx + ny * ny)
     ne = (ney + nex) + 0.5 * (nex * nex + ney * ney)
@@ -191,9 +190,9 @@ def _stretch(apart):
 
 
 @njit(inline="always")
-def _enter(s, x, apart, east, north, ne, nw):
-    """Enter what the four springs pull with, F = pull (e + d)."""
-    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = apart
+def _store_pulls(s, x, relative, east, north, ne, nw):
+    """Store the forces F = pull (e + d) of the four springs."""
+    (ex, ey), (nx, ny), (nex, ney), (nwx, nwy) = relative
     s[EAST_X + x], s[EAST_Y + x] = east + east * ex, east * ey
     s[NORTH_X + x], s[NORTH_Y + x] = north * nx, north + north * ny
     s[NE_X + x], s[NE_Y + x] = ne + ne * nex, ne + ne * ney
@@ -201,11 +200,10 @@ def _enter(s, x, apart, east, north, ne, nw):
 
 
 @njit(inline="always")
-def _places(row, grid):
-    """Return where a row and the next one stand.
+def _row_offsets(row, grid):
+    """Return the offsets of a row and of the next one.
 
-    Before a free edge there is no next one: with the row itself in its place, northern springs are
-    free of strain.
+    At a free edge the next one is the row itself, so that northern springs are unstrained.
     """
     i = row * grid.pitch
     return i, i + grid.pitch if row + ONE < grid.n_y or grid.periodic is not None else i
@@ -215,7 +213,7 @@ def _places(row, grid):
 def _last_diagonal(row, grid):
     """Return the first x without diagonal springs to the north.
 
-    With free edges that is the last block, or in the last row the first one.
+    With free edges this is the last block, or the first one in the last row.
     """
     if grid.periodic is not None:
         return grid.width + ONE
@@ -224,52 +222,52 @@ def _last_diagonal(row, grid):
 
 @njit(inline="always")
 def _pulls_by_series(ux, uy, row, band, columns, s, c):
-    """Enter what the springs from a row pull with, kappa q g(q) (e + d); are all within range?
+    """Store the spring forces kappa q g(q) (e + d) of a row; return whether all q are in range.
 
-    Diagonal springs are entered as if they were as stiff as axial ones; `_gather` halves them.
+    Forces of diagonal springs have the stiffness of axial ones; `_sum_forces` halves them.
     """
-    i, j = _places(row, band.grid)
+    i, j = _row_offsets(row, band.grid)
     edge, within = _last_diagonal(row, band.grid), True
     for x in range(columns.springs, columns.stop):
-        apart = _apart(ux, uy, i, j, x)
-        q = _stretch(apart)
+        relative = _relative_displacements(ux, uy, i, j, x)
+        q = _stretch(relative)
         p = _series(q, c)
         q_squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
         within = within & (q_squared <= SERIES_RANGE**2)  # False for NaN
         ne, nw = (q[2] * p[2], q[3] * p[3]) if x < edge else (0.0, 0.0)
-        _enter(s, x, apart, q[0] * p[0], q[1] * p[1], ne, nw)
+        _store_pulls(s, x, relative, q[0] * p[0], q[1] * p[1], ne, nw)
     return within
 
 
 @njit(inline="always")
-def _is_whole(q):
+def _is_intact(q):
     return (q > Q_MIN) & (q < Q_MAX)  # False for NaN
 
 
 @njit(inline="always")
 def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
-    """As `_pulls_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
+    """Store the spring forces of a row at any strain; return the x of a broken spring, or 0."""
     n = band.grid.n_x
-    i, j = _places(row, band.grid)
+    i, j = _row_offsets(row, band.grid)
     edge, broken = _last_diagonal(row, band.grid), np.int64(n + ONE)
     for x in range(columns.springs, columns.stop):
-        apart = _apart(ux, uy, i, j, x)
-        q = _stretch(apart)
+        relative = _relative_displacements(ux, uy, i, j, x)
+        q = _stretch(relative)
         inside = x < edge
         east, north = kappa * q[0] * g(q[0]), kappa * q[1] * g(q[1])
         ne, nw = (kappa * q[2] * g(q[2]), kappa * q[3] * g(q[3])) if inside else (0.0, 0.0)
-        _enter(s, x, apart, east, north, ne, nw)
-        diagonals = _is_whole(q[2]) & _is_whole(q[3])
-        whole = _is_whole(q[0]) & _is_whole(q[1]) & (diagonals | (not inside))
+        _store_pulls(s, x, relative, east, north, ne, nw)
+        diagonals = _is_intact(q[2]) & _is_intact(q[3])
+        whole = _is_intact(q[0]) & _is_intact(q[1]) & (diagonals | (not inside))
         broken = min(broken, np.int64(n + ONE) if whole else np.int64(x))
     return U(broken) % (n + ONE)
 
 
 @njit(inline="always")
 def _close_springs(s, grid):
-    """Let the springs from the last block of a row come to the first one, on a periodic surface.
+    """Connect the springs of the last block of a row to the first one, on a periodic surface.
 
-    Nothing comes to it across a free edge: there, no one writes to these places.
+    With free edges these entries stay zero.
     """
     if grid.periodic is not None:
         n = grid.n_x
@@ -278,19 +276,19 @@ def _close_springs(s, grid):
 
 
 @njit(inline="always")
-def _gather(ux, uy, row, band, columns, s, force, k_s, slider):
-    """Enter F_mot of the blocks of a row, from what the springs from it and from below pull with.
+def _sum_forces(ux, uy, row, band, columns, s, force, k_s, slider):
+    """Store F_mot of the blocks of a row, summed over its springs and those from the row below.
 
-    What the springs from a row pull the next one with waits in BELOW. The order of sums is the same
-    seen from the north and from the south, from the east and from the west, so that a mirrored
-    scene moves as a mirror image to the last bit.
+    The forces of its springs on the next row are kept in BELOW. The order of summation is invariant
+    under reflections in x and in y, so that a mirrored scene moves as the mirror image to the last
+    bit.
     """
     pitch, (sx, sy) = band.grid.pitch, slider
     i, own, w = row * pitch, (row - band.start) * pitch, columns.start - ONE
     e_x, e_y = s[EAST_X + w], s[EAST_Y + w]
     ne_x, ne_y, nw_x, nw_y = s[NE_X + w], s[NE_Y + w], s[NW_X + w], s[NW_Y + w]
     for x in range(columns.start, columns.stop):
-        # Of the column to the west: east, north-east, and the one that goes there from here.
+        # Springs from the column to the west: east, north-east, and north-west from this block.
         w_x, w_y, wne_x, wne_y, wnw_x, wnw_y = e_x, e_y, ne_x, ne_y, nw_x, nw_y
         e_x, e_y, n_x, n_y = s[EAST_X + x], s[EAST_Y + x], s[NORTH_X + x], s[NORTH_Y + x]
         ne_x, ne_y, nw_x, nw_y = s[NE_X + x], s[NE_Y + x], s[NW_X + x], s[NW_Y + x]
@@ -304,36 +302,36 @@ def _gather(ux, uy, row, band, columns, s, force, k_s, slider):
 
 @kernel
 def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, slider):
-    """Enter F_mot of columns of a band from row `first` on.
+    """Store F_mot of columns of a band from row `first` on.
 
-    Rows are left out where neither they nor the next row are `needed`. Returns the first row with
-    a spring out of range, which is not entered, or the band's stop.
+    A row is skipped if neither it nor the next one is `needed`. Returns the first row with a spring
+    out of range, which is not stored, or the end of the band.
     """
     for row in range(first, band.stop):
         if needed[row] or needed[row + ONE]:
             if not _pulls_by_series(ux, uy, row, band, columns, s, springs.series):
                 return row
             _close_springs(s, band.grid)
-            _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
+            _sum_forces(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return band.stop
 
 
 @kernel
 def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider):
-    """As `_forces_by_series`, one row, any strain; returns the first x of a broken spring, or 0."""
+    """Store F_mot of one row at any strain; return the first x of a broken spring, or 0."""
     broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
     if broken == 0:
         _close_springs(s, band.grid)
-        _gather(ux, uy, row, band, columns, s, force, springs.k_s, slider)
+        _sum_forces(ux, uy, row, band, columns, s, force, springs.k_s, slider)
     return broken
 
 
 @kernel
 def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
-    """As `forces_on_band`, once what pulls the first row from below is known."""
+    """Do the work of `forces_on_band`, given the forces on the first row from the row below."""
     end = band.grid.width + ONE
-    whole = band.grid.periodic is not None  # such a row goes on from its end
-    tile = band.grid.width if whole else _TILE
+    # A periodic row is one tile, as its first block needs the springs of the last one.
+    tile = band.grid.width if band.grid.periodic is not None else _TILE
     for first in range(ONE, end, tile):
         start = U(first)
         columns = Columns(start - U(LANES) if start > 1 else start, start, min(start + tile, end))
@@ -352,17 +350,17 @@ def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
 
 @kernel
 def forces_on_band(ux, uy, band, needed, s, springs, slider):
-    """Put F_mot of a band, under a slider at (x, y), into FORCE_X and FORCE_Y of scratch `s`.
+    """Store F_mot of a band, under a slider at (x, y), in FORCE_X and FORCE_Y of scratch `s`.
 
-    Bands come in ascending order. Rows that are not `needed`, (N_y + 1,), are not computed, or not
-    right. Returns row and column (from 1) of a spring that has collapsed, burst or become NaN;
+    Call it for bands in ascending order. Forces are valid only in rows that are `needed`,
+    (N_y + 1,). Returns row and column (from 1) of a spring outside the allowed strains or NaN;
     column 0 if there is none.
     """
     pulls, grid = one_row(s), band.grid
     if band.start == 0:
         for x in range(ONE, grid.width + ONE):
             pulls[BELOW_X + x], pulls[BELOW_Y + x] = 0.0, 0.0
-        if grid.periodic is not None:  # the last row lies below the first
+        if grid.periodic is not None:  # the last row is below the first
             last = Band(grid.n_y - ONE, grid.n_y, grid)
             row, broken = _forces_on_rows(ux, uy, last, needed, pulls, s, springs, slider)
             if broken > 0:
@@ -371,14 +369,15 @@ def forces_on_band(ux, uy, band, needed, s, springs, slider):
 
 
 def scratch() -> Array:
-    """Room for what is known of one band of rows."""
+    """Return the scratch of one band of rows."""
     return aligned((2 + len(_FIELDS)) * _FIELD)
 
 
 def aligned(size: int, shift: int = 0) -> Array:
-    """Zeros, the second of which begins a cache line, `shift` lines from where others do.
+    """Zeros, the second of which begins a cache line, shifted by `shift` lines.
 
-    The processor takes a number stored for one loaded, if it stands as far into a page of 4096 B.
+    Arrays with different shifts avoid 4K aliasing: a load would wait for a store to an address that
+    differs by a multiple of 4096 B.
     """
     raw = np.zeros(size + 8 * (shift + 1))
     start = (-(raw.ctypes.data // 8) - 1) % 8 + 8 * shift

@@ -1,4 +1,4 @@
-"""Largest steps of the integrators, told without compiling them."""
+"""Stability limits of the integrators, in a module that compiles nothing."""
 
 import math
 from collections.abc import Callable
@@ -10,32 +10,32 @@ Array = NDArray[np.float64]
 
 
 def leapfrog_is_stable(step: float, omega: Array, gamma: float) -> bool:
-    """Whether no mode of angular frequency `omega` grows.
+    """Return whether no mode of angular frequency `omega` grows.
 
-    With u for the displacement, u⁺ - (1 + a - c) u + a u⁻ = 0 with c = ω² h (1 - a)/γ: both
-    roots lie within the unit circle while c < 2 (1 + a); h < 2/ω without damping.
+    A mode obeys u⁺ - (1 + a - c) u + a u⁻ = 0 with c = ω² h (1 - a)/γ. Both roots lie within the
+    unit circle if c < 2 (1 + a); without damping, if h < 2/ω.
     """
     c = np.asarray(omega) ** 2 * step * leapfrog_force_time(step, gamma)
     return bool(np.all(c < 2.0 * (1.0 + math.exp(-gamma * step))))
 
 
 def leapfrog_force_time(step: float, gamma: float) -> float:
-    """Time for which a force acts in one step, s: (1 - exp(-γh))/γ, h without damping.
+    """Time for which a force acts in one step, s: (1 - exp(-γh))/γ; h without damping.
 
-    h also where γh is next to nothing, and of fewer digits than γ.
+    It is h also if γh is almost subnormal, and has fewer digits than γ.
     """
     return -math.expm1(-gamma * step) / gamma if gamma * step > 1e-300 else step
 
 
 def rk4_is_stable(step: float, omega: Array, gamma: float) -> bool:
-    """Whether no mode of angular frequency `omega` grows: |R(λh)| ≤ 1 for λ² + γλ + ω² = 0."""
+    """Return whether no mode of frequency `omega` grows: |R(λh)| ≤ 1, λ² + γλ + ω² = 0."""
     root = np.sqrt(np.asarray(gamma * gamma / 4.0 - omega * omega, dtype=complex))
     z = step * np.concatenate([-gamma / 2.0 + root, -gamma / 2.0 - root])
     growth = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
     return bool(np.all(growth <= 1.0 + 1e-12))
 
 
-#: Whether a step keeps all modes of these angular frequencies from growing, by integrator.
+#: By integrator: (step, angular frequencies, gamma) -> whether no such mode grows.
 IS_STABLE: dict[str, Callable[[float, Array, float], bool]] = {
     "leapfrog": leapfrog_is_stable,
     "rk4": rk4_is_stable,

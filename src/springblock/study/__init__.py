@@ -1,1 +1,1 @@
-"""The study: its configuration, its cost, and the state of its results."""
+"""Configuration of a study, cost of its jobs, and state of its results."""

@@ -1,7 +1,7 @@
-"""One file to deposit: a study with all that made it, described as an RO-Crate.
+"""Archive of a study, with code and results in one file, described as an RO-Crate.
 
 RO-Crate 1.1 (doi:10.5281/zenodo.4541002) in the profile Workflow Run Crate 0.5: the Snakefile is
-the workflow, and one action made the results from the configuration and the locked packages.
+the workflow; one action has made the results from the configuration and the locked packages.
 """
 
 import hashlib
@@ -27,7 +27,7 @@ _PROFILES = [
     "https://w3id.org/ro/wfrun/workflow/0.5",
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0",
 ]
-#: Types of files by their ending; all others are text.
+#: Media types by file name extension; all other files are text.
 _TYPES = {
     ".md": "text/markdown",
     ".npz": "application/zip",
@@ -43,18 +43,18 @@ _TYPES = {
 def archive(study: Path, results: Path, configuration: Path, output: Path) -> int:
     """Write code, configuration and results of a finished study into one zip file.
 
-    `results` and `configuration` lie in the folder `study`. Logs are left out, and whatever of
-    the study git does not know. Times of files are kept, so that nothing seems out of date.
+    `results` and `configuration` are in the folder `study`. Logs and untracked files of the study
+    are omitted. Modification times are preserved, so that no result appears to be out of date.
 
     Returns
     -------
     int
-        How many files there are in it.
+        Number of files in the archive.
 
     Raises
     ------
     ValueError
-        Where the folder is neither a clone nor an unpacked archive; or where nothing was made yet.
+        If the folder is neither a clone nor an unpacked archive, or has no results.
     """
     made = _results(study, results)
     files = sorted({*_code(study), *made})
@@ -70,7 +70,7 @@ def archive(study: Path, results: Path, configuration: Path, output: Path) -> in
 
 
 def _code(study: Path) -> list[str]:
-    """What git tracks in a clone; what the crate lists in an archive that was unpacked."""
+    """Return the tracked files of a clone, or the files listed in an unpacked archive."""
     if (study / ".git").exists():
         listed = subprocess.run(
             ["git", "ls-files", "-z"], cwd=study, capture_output=True, check=True
@@ -84,12 +84,12 @@ def _code(study: Path) -> list[str]:
 
 
 def _results(study: Path, results: Path) -> list[str]:
-    """Files that the study made, but for logs and records of run time."""
+    """Return the results of the study, without logs and run times."""
     aside = {"benchmarks", "logs", "set-aside"}
     found = (file.relative_to(results) for file in sorted(results.rglob("*")) if file.is_file())
     kept = [name for name in found if name.parts[0] not in aside and not name.name.startswith(".")]
     if not any(name.parts[0] == "tables" for name in kept):
-        raise ValueError(f"{results} holds no tables: run the study first")
+        raise ValueError(f"{results} has no tables; run the study first")
     return [(results / name).relative_to(study).as_posix() for name in kept]
 
 
@@ -116,7 +116,7 @@ def _crate(study: Path, files: Iterable[str], made: list[str], configuration: st
 
 
 def _add(crate: ROCrate, study: Path, name: str) -> Any:
-    """Describe a file: what it is, how large it is, and its checksum."""
+    """Add a file with its type, size and checksum."""
     content = (study / name).read_bytes()
     properties = {
         "name": name,
@@ -134,7 +134,7 @@ def _add(crate: ROCrate, study: Path, name: str) -> Any:
 def _action(
     crate: ROCrate, study: Path, entities: dict[str, Any], results: list[Any], configuration: str
 ) -> Any:
-    """Describe the run: what was used, what it made, and when."""
+    """Describe the run: its inputs, its results and its times."""
     times = [(study / entity.id).stat().st_mtime for entity in results]
     began, ended = (datetime.fromtimestamp(when(times), UTC) for when in (min, max))
     properties = {

@@ -1,4 +1,4 @@
-"""A results folder, held against what its files say and against the code of today."""
+"""Check of a results folder: damaged, misplaced and outdated files."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +15,7 @@ from springblock.simulation.prelude import Prelude
 from springblock.simulation.setup import Setup
 from springblock.study.record import read
 
-#: Files that say what made them, by the step that makes them.
+#: Files with metadata on their origin, by the step that makes them.
 _MADE_BY = {
     "simulate": ("realisations/**/*.parquet", "preludes/**/*.npz", "tables/realisations.parquet"),
     "mask": ("surfaces/*.npy",),
@@ -31,14 +31,14 @@ _ASIDE = "set-aside"
 
 
 class Fault(NamedTuple):
-    """A file that cannot be used, and why."""
+    """A file that cannot be used, with the reason."""
 
     file: Path
     reason: str
 
 
 def faults(results: Path) -> Iterator[Fault]:
-    """Files that are damaged, not in their place, or of other code, as they tell themselves."""
+    """Yield the files that are damaged, misplaced, or made by different code."""
     constants = _constants(results)
     for step, patterns in _MADE_BY.items():
         for file in sorted(file for pattern in patterns for file in results.glob(pattern)):
@@ -49,7 +49,7 @@ def faults(results: Path) -> Iterator[Fault]:
 
 
 def set_aside(results: Path) -> Iterator[Fault]:
-    """Move what cannot be used to the folder `set-aside`, in which it keeps its place."""
+    """Move files that cannot be used to the folder `set-aside`, with their relative paths."""
     for fault in list(faults(results)):
         place = results / _ASIDE / fault.file.relative_to(results)
         while place.exists():
@@ -60,7 +60,7 @@ def set_aside(results: Path) -> Iterator[Fault]:
 
 
 def _constants(results: Path) -> dict[str, Any]:
-    """Return the constants of the study, as its record has them; none without a record."""
+    """Return the constants of the study from its record; none without a record."""
     record = read(results)
     if record is None:
         return {}
@@ -70,7 +70,7 @@ def _constants(results: Path) -> dict[str, Any]:
 
 
 def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> None:
-    """Raise ValueError, in one sentence, for a file that cannot be used."""
+    """Raise ValueError, with the reason, for a file that cannot be used."""
     if step == "mask":
         BlockMap.mask(file)
         return
@@ -82,18 +82,18 @@ def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> N
         if file.is_relative_to(results / "realisations"):
             _check_batch(file, results, table.slice(0, 1).to_pylist()[0], constants)
     if not same_code(version, code_version(step)):
-        raise ValueError(f"{file} was made by other code, {version}; {MENDING}")
+        raise ValueError(f"{file} was made by different code, {version}; {MENDING}")
 
 
 def _check_batch(file: Path, results: Path, row: Row, constants: dict[str, Any]) -> None:
-    """Refuse realisations that are not of the scene and the study that they lie in."""
+    """Refuse realisations of a scene or a study other than that of their folder."""
     scene = Scene.from_row(row)
     if file.parent != results / "realisations" / scene.folder:
-        raise ValueError(f"{file} holds {scene}; {MENDING}")
+        raise ValueError(f"{file} is misplaced, since it holds {scene}; {MENDING}")
     found, varied = expanded(row), dict(scene.varied)
     expected = (constants if "law" in varied else expanded(constants)) | varied
     for name, value in expected.items():
         if found[name] != (str(value) if name == "law" else value):
             raise ValueError(
-                f"{name} is {found[name]!r} in {file}, {value!r} in its study; {MENDING}"
+                f"{name} is {found[name]!r} in {file}, but {value!r} in the study; {MENDING}"
             )

@@ -1,4 +1,4 @@
-"""The study's configuration: checked, and expanded into scenes and batches of seeds."""
+"""Configuration of a study: checks, and expansion into scenes and batches of seeds."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -22,31 +22,31 @@ from springblock.study.texts import check_texts
 
 Configuration = Mapping[str, Any]
 
-#: What YAML means by these words.
+#: Words of YAML and their values.
 _YAML_WORDS = {"true": True, "false": False, "null": None}
-#: Groups that figures are drawn from, and the level of their scenes.
+#: Groups of the paper's figures, with the level of their scenes.
 _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
-#: To which 24.0 is no integer, as it is none to Python.
+#: Validator for which 24.0 is not an integer, as in Python.
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER
 )
-#: Realisations below which a correlation has no interval.
+#: Least number of realisations for the interval of a correlation.
 _CORRELATED = 3
 
 
 @dataclass(frozen=True)
 class Ensemble:
-    """A scene, how often it is simulated, and for how long."""
+    """A scene with the seeds and the duration of its realisations."""
 
     scene: Scene
     seeds: range
-    duration: float | None  #: s; None until the scene has shown its peak
+    duration: float | None  #: s; None to end after the peak, see `simulate`
 
     def batches(self, size: int) -> dict[int, range]:
-        """Return the seeds of each batch by its number: batch i has those from i·size on.
+        """Return the seeds of each batch, by number: batch i begins with seed i·size.
 
-        Where batches begin does not depend on the number of seeds: a study that grows has each
-        seed in one batch alone.
+        Batches do not depend on the number of seeds, so that each seed of a growing study stays in
+        its batch.
         """
         first, last = self.seeds[0], self.seeds[-1]
         return {
@@ -56,20 +56,20 @@ class Ensemble:
 
 
 def completed(configuration: Configuration) -> dict[str, Any]:
-    """Read numbers that came as text, and continue lists by what `add` holds in their places.
+    """Convert numbers given as text, and append the entries of `add` to the lists they extend.
 
-    YAML takes 1e-3, which has no point, for text, and Snakemake all that `--config` holds deeper
-    than its first level.
+    YAML reads 1e-3, without a decimal point, as text, and so does Snakemake with nested values of
+    `--config`.
 
     Raises
     ------
     ValueError
-        Where `add` holds no keys.
+        If `add` is not a mapping.
     """
     whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
     added = whole.pop("add", None) or {}
     if not isinstance(added, dict):
-        raise ValueError(f"add is {added!r}; it may hold keys of the configuration")
+        raise ValueError(f"add must hold keys of the configuration, not {added!r}")
     return _continued(whole, added)
 
 
@@ -87,7 +87,7 @@ def _with_numbers(value: Any, key: str = "") -> Any:
 
 
 def _continued(node: Any, more: Any) -> Any:
-    """Merge dictionaries, append lists, and take whatever else is new."""
+    """Merge dictionaries, concatenate lists, and replace other values by new ones."""
     if isinstance(node, dict) and isinstance(more, dict):
         inner = {key: _continued(node.get(key), value) for key, value in more.items()}
         return {**node, **inner}
@@ -95,12 +95,12 @@ def _continued(node: Any, more: Any) -> Any:
 
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
-    """Refuse a configuration that could not be computed, before anything is.
+    """Refuse an invalid configuration before any computation.
 
     Raises
     ------
     TypeError, ValueError
-        With one sentence that names the key, what it holds and what it may hold.
+        With the key, its value and the allowed values.
     """
     check_texts(configuration)
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
@@ -117,7 +117,7 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
 
 @contextmanager
 def _named(key: str) -> Iterator[None]:
-    """Put the key before what is wrong with it."""
+    """Prefix error messages with the key."""
     try:
         yield
     except ValueError as reason:
@@ -147,22 +147,23 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
     own = setup.vary(dict(scene.varied))
     _check_draws(ensemble, own.material)
-    for duration in (None, ensemble.duration):  # of its prelude, and of its realisations
+    for duration in (None, ensemble.duration):  # its prelude and its realisations
         own.check_length(scene.contact, _threshold(scene, own.material), duration)
     if ensemble.duration is not None:
         count_samples(ensemble.duration, own.sample_interval)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
-            "its surfaces must be the paper's, square, with free edges and without files; "
-            "others may be in a group of any other name"
+            "surfaces in this group must be square, with free edges and without files, as in the "
+            "paper; choose another name for groups of other surfaces"
         )
     if scene.level != _LEVELS.get(group, scene.level):
-        raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
-    # Where nothing scatters one realisation is all there are, and no figure asks for its c(r).
+        raise ValueError(f"scenes must be of level {_LEVELS[group]}, not {scene.level}")
+    # Without scatter one realisation suffices, and no figure needs its c(r).
     is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(own.material)
     if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
         raise ValueError(
-            f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
+            f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
+            f"blocks, not {len(ensemble.seeds)}"
         )
 
 
@@ -171,7 +172,7 @@ def _scatters(material: Material) -> bool:
 
 
 def _threshold(scene: Scene, material: Material) -> float:
-    """Largest coefficient that a file says, or the mean of those that are drawn."""
+    """Return the largest static coefficient of a file, or the mean of drawn ones."""
     known = None if scene.mu_static_field is None else scene.mu_static_field.values
     return material.mu_static if known is None else float(known[scene.contact].max())
 
@@ -181,7 +182,7 @@ def _check_draws(ensemble: Ensemble, material: Material) -> None:
     if scene.is_drawn:
         check_draws(scene.shape, material)
     elif len(seeds) > 1:
-        raise ValueError(f"seeds is {len(seeds)}, but nothing is drawn: leave it out, or say 1")
+        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:
@@ -189,7 +190,7 @@ def _sentence(error: jsonschema.ValidationError) -> str:
     if error.validator == "additionalProperties":
         known = ", ".join(error.schema["properties"])
         unknown = sorted(set(error.instance) - set(error.schema["properties"]))
-        return f"{key} has the unknown key {unknown[0]!r}; it may hold {known}"
+        return f"{key}: unknown key {unknown[0]!r}; choose from {known}"
     if error.validator == "required":
         return f"{key}: {error.message}"
     meaning = error.schema.get("description")
@@ -197,14 +198,14 @@ def _sentence(error: jsonschema.ValidationError) -> str:
 
 
 def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
-    """Expand each group of scenes into its grids, by the group's name.
+    """Expand each group of scenes, by name.
 
-    A scene that several groups hold is one ensemble, with the largest number of seeds.
+    A scene that occurs in several groups is one ensemble, with the largest number of seeds.
 
     Raises
     ------
     ValueError
-        With the name of the group, where its lists do not fit together.
+        With the name of the group, if its lists do not match.
     """
     groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}
@@ -221,7 +222,7 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
 
 
 def setup(configuration: Configuration) -> Setup:
-    """Return how scenes are computed that have nothing of their own."""
+    """Return the setup of scenes without varied constants."""
     times = {key: configuration[key] for key in ("integrator", "step", "sample_interval")}
     with _named("material"):
         material = Material().vary(configuration["material"])
@@ -229,9 +230,9 @@ def setup(configuration: Configuration) -> Setup:
 
 
 def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
-    """Ensembles that figures take by the names of groups: the paper's surfaces.
+    """Return the ensembles for figures, by group: only surfaces of the paper's kind.
 
-    The group `surfaces`, which is drawn for itself, has those of one's own as well.
+    The group `surfaces`, which has a figure of its own, keeps all.
     """
     return {
         group: [each for each in members if each.scene.is_papers or group == "surfaces"]
@@ -245,9 +246,9 @@ def _keep_largest(largest: dict[Scene, Ensemble], ensemble: Ensemble) -> None:
     for key in MAPS:
         one, other = getattr(known.scene, key), getattr(scene, key)
         if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
-            raise ValueError(f"{one.file} and {other.file} are both called {one}")
+            raise ValueError(f"{one.file} and {other.file} have the same name {one}; rename one")
     if known.duration != ensemble.duration:
-        raise ValueError(f"{scene} is given two durations")
+        raise ValueError(f"duration must be the same wherever {scene} occurs")
     largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
 
 
@@ -259,7 +260,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
     seeds = grid.get("seeds", 1)
     counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
     if len(counts) != len(n_p):
-        raise ValueError(f"seeds lists {len(counts)} numbers for {len(n_p)} values of n_p")
+        raise ValueError(f"seeds must have one number per n_p, {len(n_p)}, not {len(counts)}")
     shapes = product(_sizes(configuration, grid), grid.get("n_rows", [0]))
     pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
     maps = {constants: list(_maps(configuration, grid, constants)) for constants in varied}
@@ -274,7 +275,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
 
 
 def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:
-    """N of a grid's scenes; 0 where a mask says it."""
+    """Return the values of N in a grid; 0 to take it from a mask."""
     of_mask = "mask" in grid or "topography" in grid
     return grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
 
@@ -282,7 +283,7 @@ def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:
 def _maps(
     configuration: Configuration, grid: Mapping[str, Any], constants: Varied
 ) -> Iterator[dict[str, Any]]:
-    """Each mask of a grid, if it has any, with the coefficients that files say."""
+    """Yield each mask of a grid, if any, with the coefficients from files."""
     own = {
         f"{name}_field": BlockMap.coefficients(Path(grid[name]))
         for name in ("mu_static", "mu_dynamic")
@@ -291,7 +292,9 @@ def _maps(
     masks = list(_masks(configuration, grid, constants))
     for one, other in combinations(masks, 2):
         if one == other:
-            raise ValueError(f"masks {one.file} and {other.file} describe the same surface {one}")
+            raise ValueError(
+                f"masks {one.file} and {other.file} describe the same surface {one}; remove one"
+            )
     yield from ({"mask": mask} | own for mask in masks)
     if not masks:
         yield own
@@ -303,7 +306,7 @@ def _masks(
     cuts = {key: _listed(grid[key]) for key in ("bearing_area", "height") if key in grid}
     if "mask" in grid:
         if "topography" in grid or cuts:
-            raise ValueError("mask cannot be given together with a topography or its cut")
+            raise ValueError("mask cannot be combined with topography, bearing_area or height")
         yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
     elif "topography" in grid:
         spacing = dict(constants).get("spacing", configuration["material"]["spacing"])
@@ -312,16 +315,16 @@ def _masks(
             cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))
             yield BlockMap.of_topography(cut, folder)
     elif cuts:
-        raise ValueError(f"{next(iter(cuts))} needs a topography")
+        raise ValueError(f"{next(iter(cuts))} needs topography")
 
 
 def _listed(given: Any) -> list[Any]:
-    """Read what may be one value or a list of them."""
+    """Return a list of one or more values."""
     return given if isinstance(given, list) else [given]
 
 
 def _gap(given: int | str, n_p: int) -> int:
-    """Read n_s, which may be given as a multiple or a part of n_p: "2n_p", "n_p/3"."""
+    """Read n_s, possibly as a multiple or a fraction of n_p: "2n_p", "n_p/3"."""
     if not isinstance(given, str):
         return given
     times, parts = given.split("n_p")
@@ -329,7 +332,7 @@ def _gap(given: int | str, n_p: int) -> int:
 
 
 def _varied(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Varied]:
-    """Each combination of the constants that a grid lists, without those that the study has."""
+    """Yield each combination of the constants of a grid, without values equal to the study's."""
     law = as_law(configuration["material"].get("law", "coulomb"))
     own = law.constants if isinstance(law, LawFile) else {}
     study = {**dict(Material().items()), **own, **configuration["material"], **configuration}

@@ -1,36 +1,36 @@
-"""What a job takes of a machine, from measured rates: what a queue is to be asked for."""
+"""Run time and memory of jobs, from measured rates, for requests to a queue."""
 
 import math
 
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 
-#: CPU seconds per block and step with all blocks moving; `make bench` measures them.
+#: CPU seconds per block and step with all blocks moving, measured by `make bench`.
 _RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
-_START = 10.0  #: s until a job computes, on a machine that is busy
-_MARGIN = 3.0  #: a slower processor; strong disorder, which takes up to 1.4 times as long to let go
-_BASE = 350  #: MB of Python and its libraries, measured as 250
-_PER_BLOCK = 600e-6  #: MB of the lattice and its prelude, measured as 400e-6
-_PER_ROW = 130e-6  #: MB of a block in each realisation of a batch, measured as 90e-6
+_START = 10.0  #: s to start a job on a busy machine
+_MARGIN = 3.0  #: for slower processors, and for strong disorder, with which runs last 1.4 times
+_BASE = 350  #: MB for Python and its libraries, measured: 250
+_PER_BLOCK = 600e-6  #: MB per block for lattice and prelude, measured: 400e-6
+_PER_ROW = 130e-6  #: MB per block and realisation of a batch, measured: 90e-6
 
 
 def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
-    """CPU time in s of one realisation from zero; its prelude takes no more.
+    """CPU time in s of one realisation from zero, which is also the upper limit for a prelude.
 
-    A run that ends by itself takes 0.2 to 1.4 times as long as loading a mean block up to its
-    threshold, t = mu_s F_n/(K_s v), on all surfaces of this study.
+    On all surfaces of this study, a run without duration lasts for 0.2 to 1.4 times the loading
+    time of a block with the mean threshold, t = mu_s F_n/(K_s v).
     """
     duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
     return duration / setup.step * math.prod(scene.shape) * _RATE[setup.integrator]
 
 
 def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:
-    """Wall time in minutes to ask for, with its margin."""
+    """Wall-clock time to request, min, including the margin."""
     work = realisations * cpu_seconds(scene, setup, duration)
     return math.ceil(_MARGIN * (_START + work) / 60.0)
 
 
 def memory(scene: Scene, realisations: int = 1) -> int:
-    """Memory in MB to ask for, with its margin."""
+    """Memory to request, MB, including the margin."""
     blocks = math.prod(scene.shape)
     return math.ceil(_BASE + blocks * (_PER_BLOCK + _PER_ROW * realisations))

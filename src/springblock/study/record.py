@@ -1,8 +1,8 @@
-"""What a results folder was made under: configurations and code, in one file of the folder.
+"""Record of the configurations and the code of a results folder, in one of its files.
 
-Snakemake remembers how each file was made and makes it again where that changes. The record serves
-where this memory, the folder `.snakemake`, is lost: only time stamps are left to Snakemake then,
-and it would take results of another configuration for up to date.
+Snakemake stores how each file was made in `.snakemake`, and makes it again after a change. Without
+that folder it has only time stamps, and would accept results of another configuration; the record
+prevents this.
 """
 
 import json
@@ -15,45 +15,46 @@ from springblock.files import whole_file
 from springblock.provenance import STEPS, digest
 
 RECORD = "study.json"
-#: A results folder and the memory that belongs to it share the name of a file in here.
+#: Folder with an empty file for each results folder that belongs to this `.snakemake`, by identity.
 MEMORY = Path(".snakemake", "springblock")
 
 
 def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
-    """Refuse results that may be of another configuration or code, of which no memory is left.
+    """Refuse results of unknown origin, which may be of another configuration or other code.
 
-    Writes nothing, so that a dry run may ask.
+    Writes nothing, so that dry runs may call it.
 
     Raises
     ------
     ValueError
-        With one sentence.
+        With the reason.
     """
     record = read(results)
     if record is None:
         if any((results / part).exists() for part in ("preludes", "realisations")):
             raise ValueError(
-                f"{results} holds results without {RECORD}, which says how they were made; remove "
-                "them, or choose another folder: results"
+                f"{results} holds results without {RECORD}, the record of their configuration; "
+                "remove them, or choose another folder with the key results"
             )
         return
     before = record["made"][-1]["configuration"]
     if before["realisations_per_job"] != configuration["realisations_per_job"]:
         raise ValueError(
-            f"realisations_per_job: {results} was made with {before['realisations_per_job']}, and "
-            "batches of another size would hold its seeds twice; keep it, or choose another folder"
+            f"realisations_per_job must remain {before['realisations_per_job']}, with which "
+            f"{results} was made, since other batches would repeat its seeds; keep it, or choose "
+            "another folder with the key results"
         )
     if not (MEMORY / record["identity"]).exists():
-        _refuse_other(results, record, configuration, "Snakemake's memory of it is lost")
+        _refuse_other(results, record, configuration, "Snakemake's metadata on them are missing")
 
 
 def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> None:
-    """Write down what a run makes results with, before its first job.
+    """Record configuration and code of a run before its first job.
 
     Raises
     ------
     ValueError
-        Where `snakemake --touch` would declare up to date what was made otherwise.
+        If `snakemake --touch` would mark results of another configuration or code as up to date.
     """
     record = read(results)
     if touched and record is not None:
@@ -71,12 +72,12 @@ def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> Non
 
 
 def read(results: Path) -> dict[str, Any] | None:
-    """Return the record of a results folder, None where it has none.
+    """Return the record of a results folder, or None.
 
     Raises
     ------
     ValueError
-        Where the file is none.
+        If the file is damaged.
     """
     try:
         record: dict[str, Any] = json.loads((results / RECORD).read_text(encoding="utf-8"))
@@ -91,7 +92,7 @@ def read(results: Path) -> dict[str, Any] | None:
 def _refuse_other(
     results: Path, record: Mapping[str, Any], configuration: Mapping[str, Any], reason: str
 ) -> None:
-    """Raise ValueError unless all results were made under this configuration, by this code."""
+    """Raise ValueError unless all results are of this configuration and code."""
     now = _now(configuration)
     for made in record["made"]:
         for part in ("configuration", "code"):
@@ -99,7 +100,7 @@ def _refuse_other(
             if differs or made[part].keys() != now[part].keys():
                 raise ValueError(
                     f"{results} may hold results of another {part} ({', '.join(differs)}), and "
-                    f"{reason}; remove {results}, or choose another folder: results"
+                    f"{reason}; remove {results}, or choose another folder with the key results"
                 )
 
 

@@ -1,8 +1,7 @@
-"""What the texts of a configuration may hold, whatever key they belong to.
+"""Check of the characters and the length of all texts in a configuration.
 
-Others read them, too: shells, Snakemake, in whose paths braces are wildcards, and what submits its
-jobs to a cluster, which puts what `--config` holds in double quotes. They take many a character for
-their own.
+These texts also reach shells, Snakemake, which reads braces in paths as wildcards, and the
+submission of cluster jobs, which puts the values of `--config` in double quotes.
 """
 
 import re
@@ -10,21 +9,19 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any
 
-#: Letters and digits of any script, and a few more; neither an option nor lost at the ends.
+#: Letters and digits of any script and a few other characters; no leading "-", no spaces at ends.
 _TEXT = re.compile(r"(?![- ])[\w ./+,@()-]*(?<! )")
-_WHOLE, _PART = 1000, 200  #: bytes of a text, and of what is between two of its slashes
-_LARGEST = 2**63  #: which whole numbers stay below, as columns of tables do
+_WHOLE, _PART = 1000, 200  #: largest number of bytes of a text, and between two slashes
+_LARGEST = 2**63  #: upper bound of whole numbers in columns of tables
 
 
 def check_texts(value: Any, key: str = "") -> None:
-    """Refuse texts and names of keys that others could take for something else.
-
-    And whole numbers that no column could hold.
+    """Refuse texts and keys with other characters, and whole numbers too large for a column.
 
     Raises
     ------
     ValueError
-        With one sentence that names the key, what it holds and what it may hold.
+        With the key, its value and the allowed values.
     """
     if isinstance(value, Mapping):
         for name, inner in value.items():
@@ -45,8 +42,8 @@ def _check_text(text: Any, holds: str) -> None:
         raise ValueError(f"{shown}, which must be a text")
     if not _TEXT.fullmatch(text):
         raise ValueError(
-            f"{shown}; a text may hold letters, digits, spaces within and . _ / + , @ ( ) - alone, "
-            "and may not begin with -"
+            f"{shown}; a text may hold only letters, digits, . _ / + , @ ( ) - and spaces between "
+            "them, and must not begin with -"
         )
     if len(text.encode()) > _WHOLE or max(len(part.encode()) for part in text.split("/")) > _PART:
         raise ValueError(

@@ -276,7 +276,7 @@ def sizes(integrator: str) -> Iterator[Case]:
         yield case(name, n, FIRST, first_detachment, (scattered(0.1), n))
     yield case("1000 x 1000 blocks with scatter", 1000, FIRST, first_of_a_million)
     yield case("one contact block", 6, FRICTION, one_contact_block)
-    for n, reason in ((0, "contact"), (MAX_BLOCKS + 1, f"goes up to {MAX_BLOCKS}")):
+    for n, reason in ((0, "contact"), (MAX_BLOCKS + 1, f"at most {MAX_BLOCKS}")):
         yield case(f"{n} x {n} blocks", n, "none", refused_size, (n, reason), "refused")
 
 
@@ -336,7 +336,7 @@ def overflows(integrator: str) -> Iterator[Case]:
         ("load", "block_load", {"pressure": 1e308, "spacing": 1e10, "thickness": 1e10}),
     ):
         name = f"{what} beyond the largest float"
-        reason = f"Material.{derived} beyond floating point"
+        reason = f"Material.{derived} outside the range"
         yield case(name, 1e308, "none", ten_steps, (reason, changes), "refused")
     for name, n, speed in (
         ("speed whose energy overflows", 1, 1e160),
