@@ -15,6 +15,7 @@ from springblock.model.material import Material
 from springblock.simulation.checkpoint import Checkpoint, belonging
 from springblock.simulation.checks import checked_surface, count_samples, whole_multiple
 from springblock.simulation.energy import Energy, elastic_energy
+from springblock.simulation.fields import Fields, check_size
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import PAPER, Setup
@@ -30,6 +31,7 @@ from springblock.solver.lattice import (
     unpadded,
 )
 from springblock.solver.law_file import FromFile
+from springblock.solver.shear import shear_forces
 
 Array = NDArray[np.float64]
 
@@ -87,7 +89,7 @@ def simulate(
     sample_interval : s
         Between entries of the force curve; a multiple of the step.
     snapshot_times : s
-        Multiples of the sample interval at which the displacements are kept, in rising order.
+        Multiples of the sample interval at which `Realisation.fields` are kept, in rising order.
         A run without duration goes on until the last of them, if it would end before.
     prelude : Prelude
         States of this very scene before its first detachment, see `compute_prelude`. They
@@ -123,6 +125,7 @@ def simulate(
     ]
     if stops != sorted(set(stops)):
         raise ValueError("snapshot_times must rise from one to the next")
+    check_size(len(stops), contact.size)
     strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
     setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
     end = None if duration is None else count_samples(duration, sample_interval)
@@ -149,7 +152,7 @@ def simulate(
             pause = pause if end is None else min(pause, end)
             for stop in [stop for stop in stops if motion.samples < stop <= pause]:
                 motion.proceed(stop)
-                snapshots.append(motion.displacement())
+                snapshots.append(motion.snapshot())
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
             if kept is not None and kept.is_due:
@@ -245,9 +248,20 @@ class _Motion:
 
     def displacement(self) -> Array:
         """(2, N_y, N_x) m."""
-        blocks, grid = self.state.blocks, self.constants.grid
-        u = np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
-        return self.setup.material.spacing * u
+        blocks = self.state.blocks
+        return self.setup.material.spacing * self._vectors(blocks.ux, blocks.uy)
+
+    def snapshot(self) -> Array:
+        """Displacement, velocity and stress of `Fields`, (3, 2, N_y, N_x)."""
+        state, constants, material = self.state, self.constants, self.setup.material
+        own, _ = INTEGRATORS[self.setup.integrator].at_step(state, constants, self.steps)
+        force = self._newton() * self._vectors(*shear_forces(state, constants, self.steps, own))
+        velocity = self._vectors(*own) * material.spacing / self.setup.step
+        return np.stack([self.displacement(), velocity, force / material.spacing**2])
+
+    def _vectors(self, x: Array, y: Array) -> Array:
+        """Two components without their border, (2, N_y, N_x)."""
+        return np.stack([unpadded(field, self.constants.grid) for field in (x, y)])
 
     def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
         """Turn what has been recorded into SI units."""
@@ -259,11 +273,12 @@ class _Motion:
         velocity, heat = INTEGRATORS[self.setup.integrator].at_step(
             self.state, self.constants, self.steps
         )
-        velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
+        velocity = self._vectors(*velocity) * material.spacing / step
         force = self._newton() * self.force()
         energy = self._energy(velocity, heat)
         if not math.isfinite(energy.relative_residual):
             raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
+        fields = self._fields(snapshots, stops)
         return Realisation(
             time=time,
             force=force,
@@ -275,9 +290,22 @@ class _Motion:
             steps=self.steps,
             displacement=self.displacement(),
             velocity=velocity,
-            snapshots=np.array(snapshots).reshape(-1, *velocity.shape),
-            snapshot_times=self.setup.sample_interval * np.array(stops, float),
+            snapshots=fields.displacement,
+            snapshot_times=fields.time,
+            fields=fields,
+            contact=fields.contact,
+        )
+
+    def _fields(self, snapshots: list[Array], stops: list[int]) -> Fields:
+        grid, setup = self.constants.grid, self.setup
+        kept = np.array(snapshots).reshape(-1, 3, 2, *grid.shape)
+        return Fields(
+            time=setup.sample_interval * np.array(stops, float),
+            displacement=kept[:, 0],
+            velocity=kept[:, 1],
+            stress=kept[:, 2],
             contact=unpadded(self.state.blocks.static, grid) > 0.0,
+            spacing=setup.material.spacing,
         )
 
     def _newton(self) -> float:
