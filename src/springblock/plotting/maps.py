@@ -134,7 +134,7 @@ def sequential(values: Array) -> Look:
     # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
     # doi:10.1371/journal.pone.0199239).
     colours = colormaps["cividis"].with_extremes(bad=NO_CONTACT)
-    return {"cmap": colours, "vmin": 0.0, "vmax": max(float(np.nanmax(values)), 1e-12)}
+    return {"cmap": colours, "vmin": 0.0, "vmax": float(np.nanmax(values)) or 1.0}
 
 
 def dimension(

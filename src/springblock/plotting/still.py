@@ -1,5 +1,7 @@
 """Pictures of one run and of one surface."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Rectangle
@@ -8,7 +10,17 @@ from numpy.typing import NDArray
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.maps import draw_sliding
-from springblock.plotting.style import DOUBLE, KILO, MICRO, MM, NANO, color_bar, journal
+from springblock.plotting.style import (
+    COLUMN,
+    DOUBLE,
+    KILO,
+    MICRO,
+    MM,
+    NANO,
+    ONE_AND_A_HALF,
+    color_bar,
+    journal,
+)
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
@@ -27,8 +39,10 @@ arrow shows where the slider goes."""
 
 _SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
-#: Of maps of stress and slip: width of one, height of the tallest, and of what is around two, mm.
-_MAP, _TALLEST, _AROUND = 38.0, 90.0, 34.0
+#: Width in mm of maps of stress and slip at so many times.
+_WIDTHS = {1: COLUMN, 2: COLUMN, 3: ONE_AND_A_HALF, 4: DOUBLE}
+#: What text takes beside the maps, the tallest map, and a letter of the title, mm.
+_TEXT, _TALLEST, _LETTER = 34.0, 90.0, 1.4
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 
@@ -87,11 +101,11 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     """Draw maps of shear stress, above, and slip, below, at up to four of the times."""
     chosen = _chosen(len(fields.time))
     count, (rows, columns) = len(chosen), fields.contact.shape
-    letters, empty = "abcdefgh"[: 2 * count], "." * (_SNAPSHOTS - count)
-    mosaic = f"{letters[:count]}{empty};{letters[count:]}{empty}"
-    height = _AROUND + 2.0 * min(_MAP * rows / columns, _TALLEST)
-    picture, panels = style.panels(DOUBLE, height, mosaic, sharex=True, sharey=True)
-    picture.suptitle(name, fontsize="medium")
+    letters, width = "abcdefgh"[: 2 * count], _WIDTHS[count]
+    height = _TEXT + 2.0 * min((width - _TEXT) / count * rows / columns, _TALLEST)
+    mosaic = f"{letters[:count]};{letters[count:]}"
+    picture, panels = style.panels(width, height, mosaic, sharex=True, sharey=True)
+    picture.suptitle(fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium")
     drawn = (fields.shear_stress, KILO, maps.STRESS), (fields.slip, NANO, maps.SLIP)
     for row, (values, factor, label) in enumerate(drawn):
         shown = factor * values[chosen]

@@ -8,9 +8,6 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Blocks times snapshots that a run keeps at most: 6 GB of fields.
-_MOST = 2**27
-
 
 class BlockState(IntEnum):
     """State of a block at one instant."""
@@ -56,12 +53,3 @@ class Fields:
 
 def _magnitude(vectors: Array) -> Array:
     return np.hypot(vectors[:, 0], vectors[:, 1])
-
-
-def check_size(snapshots: int, blocks: int) -> None:
-    """Refuse more snapshots of a surface than fit in memory."""
-    if snapshots * blocks > _MOST:
-        raise ValueError(
-            f"snapshot_times: {snapshots} snapshots of {blocks} blocks are too many; "
-            f"at most {_MOST // blocks} can be kept"
-        )

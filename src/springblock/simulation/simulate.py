@@ -13,9 +13,9 @@ from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.direction import heading
 from springblock.model.material import Material
 from springblock.simulation.checkpoint import Checkpoint, belonging
-from springblock.simulation.checks import checked_surface, count_samples, whole_multiple
+from springblock.simulation.checks import checked_surface, count_samples, snapshot_samples
 from springblock.simulation.energy import Energy, elastic_energy
-from springblock.simulation.fields import Fields, check_size
+from springblock.simulation.fields import Fields
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import PAPER, Setup
@@ -119,18 +119,10 @@ def simulate(
     contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
     setup = Setup(material, integrator, step, sample_interval)
     advance, towards = on_cores(integrator, cores), heading(direction)
-    stops = [
-        whole_multiple("snapshot_times", time, "sample_interval", sample_interval)
-        for time in snapshot_times
-    ]
-    if stops != sorted(set(stops)):
-        raise ValueError("snapshot_times must rise from one to the next")
-    check_size(len(stops), contact.size)
+    stops = snapshot_samples(snapshot_times, sample_interval, contact.size, duration)
     strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
     setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
     end = None if duration is None else count_samples(duration, sample_interval)
-    if end is not None and stops and stops[-1] > end:
-        raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
     limit = _LAST_RESORT * setup.loading_time(contact, strongest)
 
     surface = contact, mu_static, mu_dynamic

@@ -30,6 +30,7 @@ _PROFILES = [
 #: Types of files by their ending; all others are text.
 _TYPES = {
     ".md": "text/markdown",
+    ".nc": "application/x-netcdf",
     ".npz": "application/zip",
     ".parquet": "application/vnd.apache.parquet",
     ".pdf": "application/pdf",
