@@ -27,9 +27,9 @@ def _chosen(path: Path, seed: int | None) -> Record:
     return runs[seed]
 
 
-def _fields(files: tuple[Path, ...], seed: int | None, over: str | None) -> Figure:
-    """Draw the fields of one file, which holds one run."""
-    if len(files) > 1 or seed is not None or over is not None:
+def _fields(files: tuple[Path, ...], options: object) -> Figure:
+    """Draw the fields of one file, which holds one run: no options apply."""
+    if len(files) > 1 or options:
         raise ValueError(f"{files[0]} holds fields of one run: plot it alone, without an option")
     fields, attributes = read_fields(files[0])
     return still.plot_fields(fields, f"{attributes.get('scene')}, seed = {attributes.get('seed')}")
@@ -63,7 +63,8 @@ def plot(
     """
     with one_sentence():
         if files[0].suffix == ".nc":
-            picture, caption = _fields(files, seed, over), still.FIELDS_CAPTION
+            picture = _fields(files, seed is not None or over or observables)
+            caption = still.FIELDS_CAPTION
         elif over is None:
             if len(files) > 1:
                 raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")

@@ -105,7 +105,9 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     height = _TEXT + 2.0 * min((width - _TEXT) / count * rows / columns, _TALLEST)
     mosaic = f"{letters[:count]};{letters[count:]}"
     picture, panels = style.panels(width, height, mosaic, sharex=True, sharey=True)
-    picture.suptitle(fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium")
+    picture.suptitle(
+        fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium"
+    )
     drawn = (fields.shear_stress, KILO, maps.STRESS), (fields.slip, NANO, maps.SLIP)
     for row, (values, factor, label) in enumerate(drawn):
         shown = factor * values[chosen]
