@@ -83,7 +83,7 @@ def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> N
     if file.suffix == ".npz":
         version = Prelude.read(file).code_version
     elif file.suffix == ".nc":
-        version = str(read_fields(file)[1]["source"])
+        version = str(read_fields(file)[1].get("source", ""))
     else:
         table = load(file)
         version = origin_of(table).get("code_version", "")
