@@ -26,7 +26,7 @@ def fields():
 
 @pytest.fixture
 def file(fields, tmp_path):
-    write_fields(fields, tmp_path / "run.nc", scene="eight by four", gamma=5e3)
+    write_fields(fields, tmp_path / "run.nc", scene="eight by four, ü ≈ µ", gamma=5e3)
     return tmp_path / "run.nc"
 
 
@@ -37,7 +37,7 @@ def test_units_coordinates_and_numbers_are_as_scipy_reads_them(fields, file):
         described = found.variables["state"]
         assert described.flag_meanings == b"free stuck sliding"
         np.testing.assert_array_equal(described.flag_values, [0, 1, 2])
-        assert (found.scene, found.gamma) == (b"eight by four", 5e3)
+        assert (found.scene, found.gamma) == ("eight by four, ü ≈ µ".encode(), 5e3)
         assert found.Conventions.startswith(b"CF-")
     np.testing.assert_allclose(values["time"], TIMES, rtol=1e-15)
     np.testing.assert_allclose(values["x"], 1e-5 * (np.arange(8) + 0.5), rtol=1e-15)
@@ -65,14 +65,14 @@ def test_xarray_finds_coordinates_and_missing_values(fields, file, engine):
 
 def test_fields_are_read_back_to_the_bit(fields, file):
     again, attributes = read_fields(file)
-    assert attributes["scene"] == "eight by four"
+    assert attributes["scene"] == "eight by four, ü ≈ µ"
     for name in ("time", "displacement", "velocity", "stress", "slip", "state", "contact"):
         assert getattr(again, name).tobytes() == getattr(fields, name).tobytes()
     assert again.spacing == fields.spacing
 
 
 def test_the_same_fields_give_the_same_bytes(fields, file, tmp_path):
-    write_fields(fields, tmp_path / "again.nc", scene="eight by four", gamma=5e3)
+    write_fields(fields, tmp_path / "again.nc", scene="eight by four, ü ≈ µ", gamma=5e3)
     assert (tmp_path / "again.nc").read_bytes() == file.read_bytes()
 
 
@@ -98,6 +98,9 @@ def test_nothing_is_left_where_there_is_nothing_to_write_or_no_room(fields, tmp_
         write_fields(without, tmp_path / "run.nc")
     with pytest.raises(ValueError, match=r"to a file of type .nc, not to .*run.h5"):
         write_fields(fields, tmp_path / "run.h5")
+
+    with pytest.raises(ValueError, match="no attribute of a NetCDF file can be called 'mode'"):
+        write_fields(fields, tmp_path / "run.nc", mode="slow")
 
     def full(*arguments):
         raise OSError(28, os.strerror(28))

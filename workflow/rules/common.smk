@@ -104,9 +104,9 @@ def memory(wildcards, attempt):
 
 
 def memory_of_fields(wildcards, attempt):
-    """MB; a snapshot takes as much as two realisations."""
+    """MB; a snapshot takes as much as a realisation."""
     ensemble = ENSEMBLE[wildcards.scene]
-    return attempt * cost.memory(ensemble.scene, 1 + 2 * len(ensemble.snapshot_times))
+    return attempt * cost.memory(ensemble.scene, 1 + len(ensemble.snapshot_times))
 
 
 def minutes(wildcards, attempt):

@@ -58,8 +58,10 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
     columns = _columns(fields)
     with whole_file(Path(path)) as partial, netcdf_file(partial, "w", version=2) as file:
         for name, value in (_described() | attributes).items():
-            # of a plain float scipy would keep single precision
-            setattr(file, name, np.float64(value) if isinstance(value, float) else str(value))
+            if hasattr(file, name):  # what scipy itself keeps there
+                raise ValueError(f"no attribute of a NetCDF file can be called {name!r}")
+            # scipy keeps single precision of a plain float, and Latin-1 of text
+            setattr(file, name, np.float64(value) if isinstance(value, float) else _text(value))
         for name in _PLACED:
             file.createDimension(name, len(columns[name]))
         for name, (unit, meaning, dimensions) in VARIABLES.items():
@@ -67,6 +69,10 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
             variable[:] = columns[name]
             for key, value in _attributes(name, unit, meaning).items():
                 setattr(variable, key, value)
+
+
+def _text(value: object) -> bytes:
+    return str(value).encode()
 
 
 def check_name(path: Path) -> None:

@@ -32,7 +32,7 @@ class Fields:
 
     @property
     def slip(self) -> Array:
-        """Distance of blocks in contact from where they first stuck, (k, N_y, N_x) m.
+        """Distance of blocks in contact from their initial positions, (k, N_y, N_x) m.
 
         Zero until the first detachment; NaN without contact.
         """
