@@ -32,6 +32,7 @@ rule all:
     default_target: True
     input:
         rules.aggregate.output,
+        rules.fields.input,
         rules.correlations.input,
         rules.claims.output,
         rules.figures.input,

@@ -21,6 +21,7 @@ from nbformat.v4 import new_output
 
 from springblock import Material, read
 from springblock.cli import main
+from springblock.io.fields import read_fields
 from springblock.model.scene import Scene
 from springblock.plotting import film
 from studies import ROOT, Study
@@ -30,6 +31,8 @@ NOTEBOOK = ROOT / "docs/tour.ipynb"
 #: A box and its language; one that says `skip` needs what a test does not have.
 BOX = re.compile(r"^```(sh|python|yaml)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+#: Scene whose fields are kept.
+WATCHED = "n_blocks-24/level-1/n_p-4/n_s-4/direction-x"
 #: Single runs on patterned surfaces agree between processors to half a percent.
 SCATTER = 0.02
 
@@ -102,6 +105,8 @@ def test_the_howto_can_be_followed(study):
     assert max(names["early"]) < 0.5
     assert names["run"].static_friction > 0.5
     assert (study / "mine.pdf").exists()
+    for file in ("fields.nc", "own.nc", f"results/small/fields/{WATCHED}.nc"):
+        assert read_fields(study / file)[0].slip.shape == (2, 24, 24)
     assert not list(study.folder.glob("long*checkpoint"))
     assert not (study / "long.npz").exists()
 

@@ -19,9 +19,11 @@ __all__ = [
     "plot",
     "read",
     "simulate",
+    "write_fields",
 ]
 
 if TYPE_CHECKING:
+    from springblock.io.fields import write_fields
     from springblock.io.records import read
     from springblock.model.asperities import draw_friction
     from springblock.model.material import Material
@@ -44,6 +46,7 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "plot": "plotting.still",
         "read": "io.records",
         "simulate": "simulation.simulate",
+        "write_fields": "io.fields",
     }
 
     def __getattr__(name: str) -> object:

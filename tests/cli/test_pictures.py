@@ -29,6 +29,18 @@ def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
     assert refusal.endswith("0-1.parquet holds no run of seed 2; there are 0, 1")
 
 
+def test_fields_are_mapped_alone(springblock, tmp_path):
+    fields, picture = tmp_path / "run.nc", tmp_path / "run.svg"
+    short = ("--n-blocks", 6, "--duration", 4e-6, "--snapshot", 2e-6, "--fields", fields)
+    springblock("simulate", *short, "--output", tmp_path / "run")
+    springblock("plot", fields, "--output", picture)
+    assert "Magnitude of the shear stress" in picture.read_text(encoding="utf-8")
+    for words in ([fields], ["--seed", 0], ["--over", "n_p"], ["--of", "t_max"]):
+        said = springblock("plot", fields, *words, "--output", tmp_path / "a.png", refused=True)
+        assert said.endswith("run.nc holds fields of one run: plot it alone, without an option")
+    assert not (tmp_path / "a.png").exists()
+
+
 @pytest.mark.parametrize("suffix", [".gif", ".mp4"])
 def test_a_run_is_animated(springblock, batch, tmp_path, suffix):
     springblock("animate", batch(0, 1), "--seed", 1, "--output", tmp_path / f"run{suffix}")

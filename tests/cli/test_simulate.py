@@ -12,7 +12,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import Prelude, draw_friction
+from springblock import Prelude, draw_friction, read
+from springblock.io.fields import read_fields
 from springblock.simulation.prelude import HOLDING
 from springblock.solver.integrators import INTEGRATORS
 
@@ -99,6 +100,12 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
         (["--duration", 1e300], "for a duration of 1e+300 s: 5e+307 steps of 36 blocks"),
         (["--duration", 2e3], "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         (["--snapshot", 1e300], "for a loading time of 1e+300 s"),
+        (["--fields", "a.nc"], "--fields a.nc needs times: give one or more with --snapshot"),
+        (["--fields", "a.h5", "--snapshot", 2e-7], "to a file of type .nc, not to a.h5"),
+        (
+            ["--fields", "a.nc", "--snapshot", 2e-7, "--last-seed", 4],
+            "--fields a.nc takes one seed, not 2",
+        ),
         (["--integrator", "euler"], "'--integrator': 'euler' is not one of 'leapfrog', 'rk4'"),
         (["--material", "gama=3"], "unknown constant 'gama'; choose from youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
@@ -123,6 +130,22 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
 def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own, words, sentence):
     refusal = springblock("simulate", *own, *ONE, "--output", tmp_path / "a", *words, refused=True)
     assert re.search(sentence, refusal)
+
+
+def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_path):
+    """With checkpoints or without, to the bit; and into no file that the run itself takes."""
+    run, plain, kept = (tmp_path / name for name in ("run", "plain.nc", "kept.nc"))
+    asked = ("simulate", *FLAT, "--duration", 4e-6, "--snapshot", 2e-6, "--output")
+    springblock(*asked, run, "--fields", plain)
+    springblock(*asked, run, "--fields", kept, "--checkpoint", 1)
+    assert plain.read_bytes() == kept.read_bytes()
+    fields, about = read_fields(plain)
+    assert (about["seed"], about["scene"]) == ("0", "n_blocks = 6, level = 0, direction = x")
+    assert (about["gamma"], about["law"]) == (5e3, "coulomb")
+    np.testing.assert_array_equal(read(run)[0].snapshots, fields.displacement)
+    assert "stress_x (Pa): shear stress on the substrate along x" in springblock("info", plain)
+    said = springblock(*asked, kept, "--fields", kept, refused=True)
+    assert said.endswith(f"--fields and --output both name {kept}; choose two files")
 
 
 def test_one_run_needs_no_seeds_and_counts_samples_while_a_batch_counts_runs(springblock, tmp_path):

@@ -19,8 +19,10 @@ from faults.damages import (
     unsealed,
     with_constant,
 )
+from springblock import simulate, write_fields
 from springblock.files import read_sealed
 from springblock.model.blockmap import BlockMap
+from springblock.provenance import code_version
 from springblock.simulation.prelude import Prelude
 from springblock.study.audit import faults
 
@@ -75,6 +77,20 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert not file.exists()
     assert (study.results / "set-aside" / place).read_bytes() == content
     assert not list(faults(study.results))
+
+
+def test_fields_of_other_code_and_files_cut_short_are_set_aside(tmp_path):
+    fields = simulate(np.ones((2, 2), bool), 1.0, 0.6, duration=1e-6, snapshot_times=[1e-6]).fields
+    names = ("current", "older", "short")
+    files = {name: tmp_path / f"fields/{name}.nc" for name in names}
+    for name, file in files.items():
+        version = "1.0.0+0123" if name == "older" else code_version("simulate")
+        write_fields(fields, file, source=f"springblock {version}")
+    truncated(files["short"], None)
+    found = {fault.file: fault.reason for fault in faults(tmp_path)}
+    assert found.keys() == {files["older"], files["short"]}
+    assert "was made by other code, springblock 1.0.0+0123" in found[files["older"]]
+    assert "cut short" in found[files["short"]]
 
 
 def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_path):

@@ -10,8 +10,9 @@ from matplotlib.patches import FancyArrowPatch
 
 from springblock import Pattern, Realisation, draw_friction, plot, simulate
 from springblock.plotting.maps import painted, scale
-from springblock.plotting.still import show
+from springblock.plotting.still import plot_fields, show
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
+from springblock.simulation.fields import Fields
 
 PILLARS = Pattern.pillars(12, 4, 2)
 GROOVED = Pattern.pillars(60, 28, 32).grooved(8, 2)
@@ -39,10 +40,20 @@ def oblong() -> Realisation:
 
 run = pytest.fixture(made, scope="module")
 
+
+@cache
+def kept(count: int) -> Fields:
+    """Fields of the first so many of five times."""
+    scene = PILLARS.contact, *draw_friction(12, 1)
+    times = 1e-5 * np.arange(11, 16)
+    return simulate(*scene, duration=1.6e-4, snapshot_times=times[:count]).fields
+
+
 #: Drawn for `test_every_figure.py`.
 PICTURES = {
     "run": lambda: plot(made()),
     "oblong run": lambda: plot(oblong()),
+    **{f"fields {count}": lambda k=count: plot_fields(kept(k), "its name") for count in (1, 5)},
     **{name: lambda c=c: show(c, 30, "its name") for name, c in SURFACES.items()},
 }
 
@@ -96,6 +107,21 @@ def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
     many = replace(run, snapshot_times=times, snapshots=np.zeros((10, 2, 12, 12)))
     titles = [ax.get_title() for ax in plot(many).axes]
     assert [title for title in titles if title] == ["1 µs", "4 µs", "7 µs", "10 µs"]
+
+
+def test_stress_is_mapped_above_slip_in_units_that_the_bars_name():
+    """In the same colours at all times; blocks without contact have none."""
+    fields, chosen = kept(5), [0, 1, 3, 4]
+    panels = plot_fields(fields).axes
+    images = np.array([ax.images[0] for ax in panels]).reshape(2, 4)
+    for row, values in zip(images, (1e-3 * fields.shear_stress, 1e9 * fields.slip), strict=True):
+        assert len({image.get_clim() for image in row}) == 1
+        for image, i in zip(row, chosen, strict=True):
+            assert (image.get_array().mask == ~PILLARS.contact).all()
+            np.testing.assert_allclose(image.get_array().filled(np.nan), values[i])
+    assert [ax.get_title() for ax in panels[:4]] == ["110 µs", "120 µs", "140 µs", "150 µs"]
+    labels = [bar.get_ylabel() for ax in panels for bar in ax.child_axes]
+    assert [label[-5:] for label in labels] == ["(kPa)", " (nm)"]
 
 
 @pytest.mark.parametrize("name", SURFACES)

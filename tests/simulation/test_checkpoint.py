@@ -55,7 +55,8 @@ def pull(seed=1, pattern=PILLARS, **options) -> Realisation:
 
 def answer(run):
     """All bits of a run."""
-    fields = (value for value in vars(run).values() if isinstance(value, np.ndarray))
+    values = [*vars(run).values(), *vars(run.fields).values()]
+    fields = (value for value in values if isinstance(value, np.ndarray))
     return [field.tobytes() for field in fields], run.energy, run.steps
 
 

@@ -9,6 +9,7 @@ import pytest
 from springblock import Material, Pattern, Realisation, SimulationError, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
+from springblock.simulation.checks import snapshot_samples
 from springblock.simulation.run import first_minimum
 
 PAPER = Material()
@@ -90,9 +91,10 @@ def test_a_snapshot_is_the_end_of_a_shorter_run():
     long = simulate(*scene, duration=2e-4, snapshot_times=times)
     assert long.snapshots.shape == (3, 2, N, N)
     assert same(long, simulate(*scene, duration=2e-4))
-    for time, snapshot in zip(times, long.snapshots, strict=True):
+    for time, u, v in zip(times, long.snapshots, long.fields.velocity, strict=True):
         short = simulate(*scene, duration=time)
-        assert short.displacement.tobytes() == snapshot.tobytes()
+        assert short.displacement.tobytes() == u.tobytes()
+        assert short.velocity.tobytes() == v.tobytes()
         assert same(long, short, samples=len(short.time))
 
 
@@ -183,6 +185,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"direction": "z"}, "direction must be 'x', 'y' or an angle"),
         ({"step": "2e-8"}, "step must be a number of seconds"),
         ({"duration": True}, "duration must be a number of seconds"),
+        ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number of seconds"),
         ({"sample_interval": [2e-7]}, "sample_interval must be a number of seconds"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number of seconds"),
         ({"periodic": 1}, "periodic must be True or False, not 1"),
@@ -229,6 +232,12 @@ def test_arguments_of_the_wrong_kind_are_refused_by_name(change, message):
 def test_invalid_arguments_are_refused_by_name(change, message):
     with pytest.raises(ValueError, match=message):
         pull(**change)
+
+
+def test_so_are_more_snapshots_than_memory_holds():
+    times = 2e-7 * np.arange(1, 10)
+    with pytest.raises(ValueError, match="has 9 times; of 16777216 blocks at most 8 snapshots"):
+        snapshot_samples(times, 2e-7, 4096**2)
 
 
 def pull(**changes):

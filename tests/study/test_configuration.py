@@ -230,6 +230,17 @@ def test_one_realisation_suffices_without_scatter():
             check(changed(f"scenes.{group}", to=grid | changes), SCHEMA)
 
 
+def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
+    grid = PAPER["scenes"]["flat"]
+    for group, times in [("flat", [2e-4]), ("mine", [1e-4, 2e-4])]:
+        whole = changed(f"scenes.{group}", to=grid | {"snapshot_times": times})
+        whole["scenes"]["also"] = grid | {"snapshot_times": [1e-4]}
+        check(whole, SCHEMA)
+        (flat,) = ensembles(whole)["also"]
+        assert flat.snapshot_times == (1e-4, 2e-4)
+        assert ensembles(whole)[group] == [flat]
+
+
 def test_any_change_changes_the_digest():
     digests = {configuration_digest(PAPER), configuration_digest(changed("step", to=1e-8))}
     assert len(digests) == 2
@@ -250,6 +261,9 @@ def test_any_change_changes_the_digest():
         ("scenes.flat.direction", ["z"], "scenes.flat.direction.0 is not valid"),
         ("scenes.flat.direction", [float("nan")], "flat: direction must be .* finite"),
         ("scenes.flat.duration", 1e-8, "scenes.flat: duration must be at least one"),
+        ("scenes.flat.snapshot_times", [3e-7], "flat: snapshot_times must be a multiple of sample"),
+        ("scenes.flat.snapshot_times", [1.0], "flat: snapshot_times must lie within the duration"),
+        ("scenes.flat.snapshot_times", 1e-4, "scenes.flat.snapshot_times is not valid"),
         ("scenes.pillars.n_p", [7] * 7, "scenes.pillars.n_p is not valid"),
         ("scenes.pillars.seeds", [20, 60], "pillars: seeds must have one number per n_p, 7, not 2"),
         ("scenes.pillars.n_p", list(range(7, 14)), r"pillars: the period n_p \+ n_s = 7 \+ 7"),

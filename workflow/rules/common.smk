@@ -88,6 +88,11 @@ def duration(wildcards):
     return "" if seconds is None else f"--duration {seconds}"
 
 
+def snapshots(wildcards):
+    """Times of the fields of a scene, as options."""
+    return " ".join(f"--snapshot {time}" for time in ENSEMBLE[wildcards.scene].snapshot_times)
+
+
 def runs_of(wildcards):
     """Number of runs of a job; a prelude counts as one."""
     return len(seeds(wildcards)) if "batch" in wildcards.keys() else 1
@@ -96,6 +101,12 @@ def runs_of(wildcards):
 def memory(wildcards, attempt):
     """MB; more, if that was not enough."""
     return attempt * cost.memory(ENSEMBLE[wildcards.scene].scene, runs_of(wildcards))
+
+
+def memory_of_fields(wildcards, attempt):
+    """MB; a snapshot takes as much as a realisation."""
+    ensemble = ENSEMBLE[wildcards.scene]
+    return attempt * cost.memory(ensemble.scene, 1 + len(ensemble.snapshot_times))
 
 
 def minutes(wildcards, attempt):

@@ -136,6 +136,47 @@ rule simulate:
         "All realisations are simulated"
 
 
+rule fields_of_scene:
+    input:
+        own_files,
+        prelude=rules.prelude.output,
+    output:
+        fields=f"{RESULTS}/fields/{{scene}}.nc",
+        run=temp(f"{RESULTS}/fields/{{scene}}.parquet"),
+    log:
+        f"{RESULTS}/logs/{{scene}}/fields.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/{{scene}}/fields.tsv"
+    resources:
+        mem_mb=memory_of_fields,
+        runtime=minutes,
+    params:
+        code=code("simulate"),
+        scene=scene,
+        how=HOW,
+        duration=duration,
+        times=snapshots,
+        seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
+    message:
+        "Keeping fields of {wildcards.scene}, seed {params.seed}"
+    shell:
+        "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
+        "--prelude {input.prelude:q} --first-seed {params.seed} {params.times} "
+        "--fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
+
+
+rule fields:
+    input:
+        [
+            f"{RESULTS}/fields/{folder}.nc"
+            for folder, ensemble in ENSEMBLE.items()
+            if ensemble.snapshot_times
+        ],
+    localrule: True
+    message:
+        "All fields are kept"
+
+
 rule aggregate:
     input:
         batches(ENSEMBLE.values()),

@@ -8,6 +8,7 @@ import pyarrow as pa
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence
 from springblock.files import whole_file
+from springblock.io.fields import VARIABLES, read_fields
 from springblock.io.parquet import load, origin_of
 from springblock.model.scene import Scene
 from springblock.report.dictionary import columns, page, tables
@@ -19,10 +20,21 @@ _SHOWN = 12  #: scenes that are named
 @click.command("info")
 @click.argument("file", type=INPUT)
 def info(file: Path) -> None:
-    """Say what FILE holds, a table or a prelude: rows, scenes, origin, columns with their units."""
+    """Say what FILE holds, with its origin: a table, a prelude or fields, columns with units."""
     with one_sentence():
-        for line in _prelude(file) if zipfile.is_zipfile(file) else _table(file):
+        describe = _fields if file.suffix == ".nc" else _table
+        for line in _prelude(file) if zipfile.is_zipfile(file) else describe(file):
             click.echo(line)
+
+
+def _fields(file: Path) -> list[str]:
+    fields, attributes = read_fields(file)
+    rows, columns = fields.contact.shape
+    return [
+        f"{file}: fields of {columns} x {rows} blocks at {len(fields.time)} times",
+        *(f"{key}: {value}" for key, value in attributes.items()),
+        *(f"{name} ({unit}): {meaning}" for name, (unit, meaning, _) in VARIABLES.items()),
+    ]
 
 
 def _prelude(file: Path) -> list[str]:

@@ -3,8 +3,10 @@
 from pathlib import Path
 
 import click
+from matplotlib.figure import Figure
 
 from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options
+from springblock.io.fields import read_fields
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
@@ -23,6 +25,14 @@ def _chosen(path: Path, seed: int | None) -> Record:
         held = ", ".join(map(str, runs))
         raise ValueError(f"{path} holds no run of seed {seed}; there are {held}")
     return runs[seed]
+
+
+def _fields(files: tuple[Path, ...], options: object) -> Figure:
+    """Draw the fields of one file, which holds one run: no options apply."""
+    if len(files) > 1 or options:
+        raise ValueError(f"{files[0]} holds fields of one run: plot it alone, without an option")
+    fields, attributes = read_fields(files[0])
+    return still.plot_fields(fields, f"{attributes.get('scene')}, seed = {attributes.get('seed')}")
 
 
 @click.command("plot")
@@ -48,10 +58,14 @@ def plot(
 ) -> None:
     """Draw one run: force, detachments, their map, and snapshots if any.
 
-    With --over all runs of FILES, which may be tables of realisations, over what tells them apart.
+    Of a file of fields (.nc) maps of shear stress and slip. With --over all runs of FILES, which
+    may be tables of realisations, over what tells them apart.
     """
     with one_sentence():
-        if over is None:
+        if files[0].suffix == ".nc":
+            picture = _fields(files, seed is not None or over or observables)
+            caption = still.FIELDS_CAPTION
+        elif over is None:
             if len(files) > 1:
                 raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
             picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION

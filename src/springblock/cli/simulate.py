@@ -26,6 +26,7 @@ from springblock.cli.options import (
     with_options,
 )
 from springblock.files import MENDING
+from springblock.io.fields import check_name, write_fields
 from springblock.io.parquet import load, rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
@@ -161,6 +162,13 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     multiple=True,
     help="Time at which displacements are kept, s. May be given several times.",
 )
+@click.option(
+    "--fields",
+    "field_file",
+    type=OUTPUT,
+    help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of the blocks at the "
+    "times of --snapshot, of one seed.",
+)
 @click.option("--prelude", type=INPUT, help="Written by `springblock prelude`; saves time.")
 @_CORES
 @click.option(
@@ -178,6 +186,7 @@ def simulate_batch(
     last_seed: int | None,
     duration: float | None,
     snapshot_times: tuple[float, ...],
+    field_file: Path | None,
     prelude: Path | None,
     cores: int,
     minutes: float | None,
@@ -194,12 +203,15 @@ def simulate_batch(
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
     with one_sentence():
+        _check_fields(field_file, output, snapshot_times, seeds)
         begun = None if prelude is None else _prelude(prelude)
         row = partial(realised, scene, setup, prelude=begun, cores=cores, progress=single, **asked)
+        row = partial(row, field_file=field_file)
         metadata = metadata_of(setup.constants | asked)
         folder = output.with_name(f"{output.name}.checkpoint")
         if minutes is not None:
             belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
+            belongs |= {"fields": str(field_file)} if field_file else {}
             row = partial(row, checkpoint_interval=60.0 * minutes)
             row = partial(_kept_row, folder, belongs, row)
         counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
@@ -234,14 +246,34 @@ def _in_words(rows: list[Row]) -> str:
     return ", ".join(told) + runs
 
 
-def realised(scene: Scene, setup: Setup, seed: int, **options: Any) -> Row:
-    """Run one realisation."""
+def _check_fields(
+    field_file: Path | None, output: Path, snapshot_times: tuple[float, ...], seeds: range
+) -> None:
+    """Refuse --fields where there is nothing to write, or no place for it."""
+    if field_file is None:
+        return
+    check_name(field_file)
+    if not snapshot_times:
+        raise ValueError(f"--fields {field_file} needs times: give one or more with --snapshot")
+    if len(seeds) > 1:
+        raise ValueError(f"--fields {field_file} takes one seed, not {len(seeds)}")
+    if field_file.absolute() == output.absolute():
+        raise ValueError(f"--fields and --output both name {output}; choose two files")
+
+
+def realised(
+    scene: Scene, setup: Setup, seed: int, field_file: Path | None = None, **options: Any
+) -> Row:
+    """Run one realisation, and write its fields if a file is given."""
     drawn = coefficients(scene, seed, setup.material)
     options |= {"direction": scene.direction, "periodic": scene.is_periodic, **vars(setup)}
     try:
         run = simulate(scene.contact, *drawn, **options)
     except SimulationError as error:
         raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
+    if field_file is not None:
+        made_by = {"source": f"springblock {code_version('simulate')}", "seed": str(seed)}
+        write_fields(run.fields, field_file, **made_by, scene=str(scene), **setup.constants)
     return batch_row(scene, setup, seed, run)
 
 

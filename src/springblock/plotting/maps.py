@@ -4,6 +4,7 @@ import math
 from typing import Any, Literal
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, TwoSlopeNorm, to_rgb
@@ -30,6 +31,8 @@ _KEY = {
     "not in contact": NO_CONTACT,
 }
 DISPLACEMENT = r"displacement $|u|$ (nm)"
+STRESS = r"shear stress $|\tau|$ (kPa)"
+SLIP = "slip (nm)"
 _LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 
 
@@ -123,9 +126,15 @@ def draw_key(ax: Axes, *names: str) -> None:
 def displacements(snapshots: Array) -> tuple[Array, Look]:
     """Return |u| in nm of snapshots, (k, 2, N, N) m, and the look of their maps."""
     sizes = style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
+    return sizes, sequential(sizes)
+
+
+def sequential(values: Array) -> Look:
+    """Return the look of maps of values from zero on; NaN are blocks without contact."""
     # The same for all colour vision (Nuñez, Anderton & Renslow 2018,
     # doi:10.1371/journal.pone.0199239).
-    return sizes, {"cmap": "cividis", "vmin": 0.0, "vmax": max(float(sizes.max()), 1e-12)}
+    colours = colormaps["cividis"].with_extremes(bad=NO_CONTACT)
+    return {"cmap": colours, "vmin": 0.0, "vmax": float(np.nanmax(values)) or 1.0}
 
 
 def dimension(

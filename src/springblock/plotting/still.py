@@ -1,5 +1,7 @@
 """Pictures of one run and of one surface."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Rectangle
@@ -8,7 +10,18 @@ from numpy.typing import NDArray
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.maps import draw_sliding
-from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
+from springblock.plotting.style import (
+    COLUMN,
+    DOUBLE,
+    KILO,
+    MICRO,
+    MM,
+    NANO,
+    ONE_AND_A_HALF,
+    color_bar,
+    journal,
+)
+from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
 RUN_CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
@@ -16,12 +29,20 @@ maximum (dotted), and t_avg, the mean first detachment time (solid); share of bl
 each sample interval; first detachment times t_det over t_max, block by block; displacements, where
 the run has kept snapshots."""
 
+FIELDS_CAPTION = """Fields of one run. Magnitude of the shear stress of the blocks on the substrate,
+top, and slip since the first detachment, bottom, at the times above the columns; all columns of a
+row have the same colours. Blocks in grey are not in contact."""
+
 SURFACE_CAPTION = """A surface: blocks in contact with the substrate, dark, and others, light, as
 the solver takes them; a) all of it, b) single blocks from the first corner of the contact on. The
 arrow shows where the slider goes."""
 
 _SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
+#: Width in mm of maps of stress and slip at so many times.
+_WIDTHS = {1: COLUMN, 2: COLUMN, 3: ONE_AND_A_HALF, 4: DOUBLE}
+#: What text takes beside the maps, the tallest map, and a letter of the title, mm.
+_TEXT, _TALLEST, _LETTER = 34.0, 90.0, 1.4
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 
@@ -56,8 +77,7 @@ def plot(run: Run) -> Figure:
 
 def _draw_snapshots(part: SubFigure, run: Run) -> None:
     """Map displacements at up to four times, in the same colours."""
-    count = len(run.snapshots)
-    chosen = np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
+    chosen = _chosen(len(run.snapshots))
     fields, look = maps.displacements(run.snapshots[chosen])
     panels = part.subplots(1, _SNAPSHOTS)
     for ax in panels[len(chosen) :]:
@@ -69,6 +89,36 @@ def _draw_snapshots(part: SubFigure, run: Run) -> None:
             ax.set_ylabel("")
             ax.tick_params(labelleft=False)
     color_bar(panels[len(chosen) - 1], image, maps.DISPLACEMENT)
+
+
+def _chosen(count: int) -> NDArray[np.int_]:
+    """Places of up to four of so many snapshots, from the first to the last."""
+    return np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
+
+
+@journal
+def plot_fields(fields: Fields, name: str = "") -> Figure:
+    """Draw maps of shear stress, above, and slip, below, at up to four of the times."""
+    chosen = _chosen(len(fields.time))
+    count, (rows, columns) = len(chosen), fields.contact.shape
+    letters, width = "abcdefgh"[: 2 * count], _WIDTHS[count]
+    height = _TEXT + 2.0 * min((width - _TEXT) / count * rows / columns, _TALLEST)
+    mosaic = f"{letters[:count]};{letters[count:]}"
+    picture, panels = style.panels(width, height, mosaic, sharex=True, sharey=True)
+    picture.suptitle(
+        fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium"
+    )
+    drawn = (fields.shear_stress, KILO, maps.STRESS), (fields.slip, NANO, maps.SLIP)
+    for row, (values, factor, label) in enumerate(drawn):
+        shown = factor * values[chosen]
+        look = maps.sequential(shown)
+        for ax, one, time in zip(panels[row * count :], shown, fields.time[chosen], strict=False):
+            image = maps.draw_map(ax, one, **look)
+            if not row:
+                ax.set_title(f"{MICRO * time:.4g} µs")
+            ax.label_outer()
+        color_bar(ax, image, label)
+    return picture
 
 
 @journal

@@ -24,6 +24,7 @@ Look = dict[str, Any]  #: of a line, of markers or of text
 
 MM = 1.0 / 25.4  #: one millimetre in inches, matplotlib's unit
 MICRO, NANO = 1e6, 1e9  #: µs and ns per s; nm per m
+KILO = 1e-3  #: kPa per Pa
 PERCENT = 100.0
 FORCE = r"friction force $F_\mathrm{fr}/F_n$"
 COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's columns, mm

@@ -1,6 +1,7 @@
 """Checks of surfaces and times."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,8 @@ Array = NDArray[np.float64]
 #: Least number of blocks per side with periodic edges: with fewer, a block would be its own
 #: neighbour, or a neighbour of another one twice.
 _SHORTEST_PERIOD = 3
+#: Blocks times snapshots that a run keeps at most: 6 GB of fields.
+_MOST_IN_SNAPSHOTS = 2**27
 
 
 def checked_surface(
@@ -99,3 +102,30 @@ def count_samples(duration: float, sample_interval: float) -> int:
             f"not {duration!r} s"
         )
     return int(duration / sample_interval + 1e-6)
+
+
+def snapshot_samples(
+    times: Sequence[float], sample_interval: float, blocks: int, duration: float | None = None
+) -> list[int]:
+    """Sample intervals until each of the snapshots in s, of a surface of so many blocks.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Where a time is no multiple of the sample interval, not later than the one before, or
+        beyond the duration in s; or where so many snapshots do not fit in memory.
+    """
+    name = "snapshot_times"
+    samples = [whole_multiple(name, time, "sample_interval", sample_interval) for time in times]
+    if samples != sorted(set(samples)):
+        raise ValueError(f"{name} must rise from one to the next")
+    if duration is not None:
+        check_positive("duration", duration)
+        if samples and samples[-1] > count_samples(duration, sample_interval):
+            raise ValueError(f"{name} must lie within the duration of {duration!r} s")
+    if len(times) * blocks > _MOST_IN_SNAPSHOTS:
+        raise ValueError(
+            f"{name} has {len(times)} times; of {blocks} blocks at most "
+            f"{_MOST_IN_SNAPSHOTS // blocks} snapshots can be kept"
+        )
+    return samples

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.simulation.energy import Energy
+from springblock.simulation.fields import Fields
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.integer]
@@ -84,6 +85,7 @@ class Realisation(Run):
     steps: int  #: number of integration steps
     displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
     velocity: Array  #: (2, N_y, N_x) m/s, at the end
+    fields: Fields  #: velocity, stress, slip and state of the blocks at `snapshot_times`
 
 
 def friction(run: Run) -> Array:

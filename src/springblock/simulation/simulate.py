@@ -13,8 +13,9 @@ from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.direction import heading
 from springblock.model.material import Material
 from springblock.simulation.checkpoint import Checkpoint, belonging
-from springblock.simulation.checks import checked_surface, count_samples, whole_multiple
+from springblock.simulation.checks import checked_surface, count_samples, snapshot_samples
 from springblock.simulation.energy import Energy, elastic_energy
+from springblock.simulation.fields import Fields
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import PAPER, Setup
@@ -30,6 +31,7 @@ from springblock.solver.lattice import (
     unpadded,
 )
 from springblock.solver.law_file import FromFile
+from springblock.solver.shear import shear_forces
 
 Array = NDArray[np.float64]
 
@@ -88,8 +90,8 @@ def simulate(
     sample_interval : s
         Time between samples of the force; a multiple of the step.
     snapshot_times : s
-        Times at which displacements are stored, in ascending order; multiples of the sample
-        interval. A run without duration lasts at least until the last of them.
+        Times at which `Realisation.fields` are stored, in ascending order; multiples of the
+        sample interval. A run without duration lasts at least until the last of them.
     prelude : Prelude
         States of the same scene before its first detachment, see `compute_prelude`. They save
         time; results are the same.
@@ -118,17 +120,10 @@ def simulate(
     contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
     setup = Setup(material, integrator, step, sample_interval)
     advance, towards = on_cores(integrator, cores), heading(direction)
-    stops = [
-        whole_multiple("snapshot_times", time, "sample_interval", sample_interval)
-        for time in snapshot_times
-    ]
-    if stops != sorted(set(stops)):
-        raise ValueError("snapshot_times must be in ascending order, without repetition")
+    stops = snapshot_samples(snapshot_times, sample_interval, contact.size, duration)
     strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
     setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
     end = None if duration is None else count_samples(duration, sample_interval)
-    if end is not None and stops and stops[-1] > end:
-        raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
     limit = _LATEST * setup.loading_time(contact, strongest)
 
     surface = contact, mu_static, mu_dynamic
@@ -150,7 +145,7 @@ def simulate(
             pause = pause if end is None else min(pause, end)
             for stop in [stop for stop in stops if motion.samples < stop <= pause]:
                 motion.proceed(stop)
-                snapshots.append(motion.displacement())
+                snapshots.append(motion.snapshot())
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
             if kept is not None and kept.is_due:
@@ -246,9 +241,20 @@ class _Motion:
 
     def displacement(self) -> Array:
         """(2, N_y, N_x) m."""
-        blocks, grid = self.state.blocks, self.constants.grid
-        u = np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
-        return self.setup.material.spacing * u
+        blocks = self.state.blocks
+        return self.setup.material.spacing * self._vectors(blocks.ux, blocks.uy)
+
+    def snapshot(self) -> Array:
+        """Displacement, velocity and stress of `Fields`, (3, 2, N_y, N_x)."""
+        state, constants, material = self.state, self.constants, self.setup.material
+        own, _ = INTEGRATORS[self.setup.integrator].at_step(state, constants, self.steps)
+        force = self._newton() * self._vectors(*shear_forces(state, constants, self.steps, own))
+        velocity = self._vectors(*own) * material.spacing / self.setup.step
+        return np.stack([self.displacement(), velocity, force / material.spacing**2])
+
+    def _vectors(self, x: Array, y: Array) -> Array:
+        """Two components without their border, (2, N_y, N_x)."""
+        return np.stack([unpadded(field, self.constants.grid) for field in (x, y)])
 
     def result(self, snapshots: list[Array], stops: list[int]) -> Realisation:
         """Return the results in SI units."""
@@ -260,11 +266,12 @@ class _Motion:
         velocity, heat = INTEGRATORS[self.setup.integrator].at_step(
             self.state, self.constants, self.steps
         )
-        velocity = np.stack([unpadded(w, grid) for w in velocity]) * material.spacing / step
+        velocity = self._vectors(*velocity) * material.spacing / step
         force = self._newton() * self.force()
         energy = self._energy(velocity, heat)
         if not math.isfinite(energy.relative_residual):
             raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
+        fields = self._fields(snapshots, stops)
         return Realisation(
             time=time,
             force=force,
@@ -276,9 +283,22 @@ class _Motion:
             steps=self.steps,
             displacement=self.displacement(),
             velocity=velocity,
-            snapshots=np.array(snapshots).reshape(-1, *velocity.shape),
-            snapshot_times=self.setup.sample_interval * np.array(stops, float),
+            snapshots=fields.displacement,
+            snapshot_times=fields.time,
+            fields=fields,
+            contact=fields.contact,
+        )
+
+    def _fields(self, snapshots: list[Array], stops: list[int]) -> Fields:
+        grid, setup = self.constants.grid, self.setup
+        kept = np.array(snapshots).reshape(-1, 3, 2, *grid.shape)
+        return Fields(
+            time=setup.sample_interval * np.array(stops, float),
+            displacement=kept[:, 0],
+            velocity=kept[:, 1],
+            stress=kept[:, 2],
             contact=unpadded(self.state.blocks.static, grid) > 0.0,
+            spacing=setup.material.spacing,
         )
 
     def _newton(self) -> float:

@@ -30,6 +30,7 @@ _PROFILES = [
 #: Media types by file name extension; all other files are text.
 _TYPES = {
     ".md": "text/markdown",
+    ".nc": "application/x-netcdf",
     ".npz": "application/zip",
     ".parquet": "application/vnd.apache.parquet",
     ".pdf": "application/pdf",

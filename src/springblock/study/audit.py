@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from springblock.files import MENDING
+from springblock.io.fields import read_fields
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row
 from springblock.model.blockmap import BlockMap
@@ -17,7 +18,12 @@ from springblock.study.record import read
 
 #: Files with metadata on their origin, by the step that makes them.
 _MADE_BY = {
-    "simulate": ("realisations/**/*.parquet", "preludes/**/*.npz", "tables/realisations.parquet"),
+    "simulate": (
+        "realisations/**/*.parquet",
+        "preludes/**/*.npz",
+        "fields/**/*.nc",
+        "tables/realisations.parquet",
+    ),
     "mask": ("surfaces/*.npy",),
     "analyse": ("correlations/**/*.parquet", "tables/correlation*.parquet"),
     "accuracy": (
@@ -76,6 +82,8 @@ def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> N
         return
     if file.suffix == ".npz":
         version = Prelude.read(file).code_version
+    elif file.suffix == ".nc":
+        version = str(read_fields(file)[1].get("source", ""))
     else:
         table = load(file)
         version = origin_of(table).get("code_version", "")

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, product
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.scene import LENGTHS, MAPS, TEXTS, Scene, Varied
-from springblock.simulation.checks import checked_surface, count_samples
+from springblock.simulation.checks import checked_surface, count_samples, snapshot_samples
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
 
@@ -41,6 +41,7 @@ class Ensemble:
     scene: Scene
     seeds: range
     duration: float | None  #: s; None to end after the peak, see `simulate`
+    snapshot_times: tuple[float, ...] = ()  #: s, of the fields stored for the first seed
 
     def batches(self, size: int) -> dict[int, range]:
         """Return the seeds of each batch, by number: batch i begins with seed i·size.
@@ -148,9 +149,12 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     own = setup.vary(dict(scene.varied))
     _check_draws(ensemble, own.material)
     for duration in (None, ensemble.duration):  # its prelude and its realisations
-        own.check_length(scene.contact, _threshold(scene, own.material), duration)
+        until = max(ensemble.snapshot_times, default=0.0)
+        own.check_length(scene.contact, _threshold(scene, own.material), duration, until)
     if ensemble.duration is not None:
         count_samples(ensemble.duration, own.sample_interval)
+    blocks, times = scene.contact.size, ensemble.snapshot_times
+    snapshot_samples(times, own.sample_interval, blocks, ensemble.duration)
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "surfaces in this group must be square, with free edges and without files, as in the "
@@ -249,13 +253,16 @@ def _keep_largest(largest: dict[Scene, Ensemble], ensemble: Ensemble) -> None:
             raise ValueError(f"{one.file} and {other.file} have the same name {one}; rename one")
     if known.duration != ensemble.duration:
         raise ValueError(f"duration must be the same wherever {scene} occurs")
-    largest[scene] = max(known, ensemble, key=lambda either: len(either.seeds))
+    kept = tuple(sorted({*known.snapshot_times, *ensemble.snapshot_times}))
+    larger = max(known, ensemble, key=lambda either: len(either.seeds))
+    largest[scene] = replace(larger, snapshot_times=kept)
 
 
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
     if not grid:
         return
     first, duration = configuration["first_seed"], grid.get("duration")
+    kept = tuple(grid.get("snapshot_times", ()))
     n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
     seeds = grid.get("seeds", 1)
     counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
@@ -271,7 +278,7 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
         how |= {"direction": direction, "varied": constants, "n_rows": rows}
         for own in maps[constants]:
             scene = Scene(n, **lengths, **how, **own)
-            yield Ensemble(scene, range(first, first + count), duration)
+            yield Ensemble(scene, range(first, first + count), duration, kept)
 
 
 def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:

@@ -1,0 +1,148 @@
+"""Fields of one run as a NetCDF file that follows the CF conventions.
+
+The classic format, with 64-bit offsets: xarray, netCDF4, ncdump and ParaView open it.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.files import whole_file
+from springblock.simulation.fields import BlockState, Fields
+
+#: Dimensions of a field.
+_PLACED = ("time", "y", "x")
+_DOI = "https://doi.org/10.1016/j.ijsolstr.2022.111525"
+#: What scipy raises of a file that is cut short or of another format.
+_TORN = AttributeError, IndexError, KeyError, OSError, TypeError, ValueError
+
+#: Units, meaning and dimensions of each variable. Coordinates have no attribute `axis`: ParaView
+#: would take X and Y for longitude and latitude.
+VARIABLES: dict[str, tuple[str, str, tuple[str, ...]]] = {
+    "time": ("s", "time since the slider began to move", ("time",)),
+    "y": ("m", "position of the block centre along y, free of strain", ("y",)),
+    "x": ("m", "position of the block centre along x, free of strain", ("x",)),
+    "displacement_x": ("m", "displacement along x", _PLACED),
+    "displacement_y": ("m", "displacement along y", _PLACED),
+    "velocity_x": ("m s-1", "velocity along x", _PLACED),
+    "velocity_y": ("m s-1", "velocity along y", _PLACED),
+    "slip": ("m", "distance from the initial position on the substrate", _PLACED),
+    "stress_x": ("Pa", "shear stress on the substrate along x", _PLACED),
+    "stress_y": ("Pa", "shear stress on the substrate along y", _PLACED),
+    "state": ("1", "state of the block", _PLACED),
+}
+_COMMENTS = {
+    "stress": "force per l^2: the motive force of a stuck block, the friction force of a sliding "
+    "one; none where the block is free",
+    "slip": "zero until the first detachment; none where the block is free",
+}
+
+
+def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None:
+    """Write fields whole or not at all, as a NetCDF file.
+
+    Coordinates and vectors are in SI units; `attributes` describe the run, as numbers or text.
+
+    Raises
+    ------
+    ValueError
+        Where there are no fields, or the file is not of type .nc.
+    """
+    from scipy.io import netcdf_file  # slow to load
+
+    check_name(Path(path))
+    if not len(fields.time):
+        raise ValueError("there are no fields to write: the run was given no snapshot_times")
+    columns = _columns(fields)
+    with whole_file(Path(path)) as partial, netcdf_file(partial, "w", version=2) as file:
+        for name, value in (_described() | attributes).items():
+            if hasattr(file, name):  # what scipy itself keeps there
+                raise ValueError(f"no attribute of a NetCDF file can be called {name!r}")
+            # scipy keeps single precision of a plain float, and Latin-1 of text
+            setattr(file, name, np.float64(value) if isinstance(value, float) else _text(value))
+        for name in _PLACED:
+            file.createDimension(name, len(columns[name]))
+        for name, (unit, meaning, dimensions) in VARIABLES.items():
+            variable = file.createVariable(name, columns[name].dtype, dimensions)
+            variable[:] = columns[name]
+            for key, value in _attributes(name, unit, meaning).items():
+                setattr(variable, key, value)
+
+
+def _text(value: object) -> bytes:
+    return str(value).encode()
+
+
+def check_name(path: Path) -> None:
+    """Refuse a file whose type is not .nc."""
+    if path.suffix != ".nc":
+        raise ValueError(f"fields are written to a file of type .nc, not to {path}")
+
+
+def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
+    """Values of each variable."""
+    rows, columns = fields.contact.shape
+    in_contact = np.where(fields.contact, 0.0, np.nan)
+    return {
+        "time": fields.time,
+        "y": fields.spacing * (np.arange(rows) + 0.5),
+        "x": fields.spacing * (np.arange(columns) + 0.5),
+        "displacement_x": fields.displacement[:, 0],
+        "displacement_y": fields.displacement[:, 1],
+        "velocity_x": fields.velocity[:, 0],
+        "velocity_y": fields.velocity[:, 1],
+        "slip": fields.slip,
+        "stress_x": fields.stress[:, 0] + in_contact,
+        "stress_y": fields.stress[:, 1] + in_contact,
+        "state": fields.state,
+    }
+
+
+def _described() -> dict[str, str]:
+    return {
+        "Conventions": "CF-1.11",
+        "title": "Fields of a spring-block model of the onset of frictional sliding",
+        "references": _DOI,
+    }
+
+
+def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:
+    """Attributes of a variable, of the types that CF asks for."""
+    known: dict[str, Any] = {"long_name": meaning, "units": unit}
+    if name == "state":
+        values = np.array([each.value for each in BlockState], np.int8)
+        names = " ".join(each.name.lower() for each in BlockState)
+        return known | {"flag_values": values, "flag_meanings": names}
+    comment = _COMMENTS.get(name.partition("_")[0])
+    return known | ({"comment": comment, "_FillValue": np.float64(np.nan)} if comment else {})
+
+
+def read_fields(path: Path) -> tuple[Fields, dict[str, Any]]:
+    """Read what `write_fields` wrote, and its attributes.
+
+    Raises
+    ------
+    ValueError
+        Where it is no such file, or cut short.
+    """
+    from scipy.io import netcdf_file
+
+    try:
+        with netcdf_file(path, "r", mmap=False) as file:
+            values = {name: np.array(file.variables[name].data, float) for name in VARIABLES}
+            attributes = {
+                name: value.decode() if isinstance(value, bytes) else value
+                for name, value in file._attributes.items()
+            }
+        vectors = {
+            name: np.stack([values[f"{name}_x"], values[f"{name}_y"]], axis=1)
+            for name in ("displacement", "velocity", "stress")
+        }
+        contact = values["state"][0] != BlockState.FREE
+        spacing = float(values["x"][0]) * 2.0
+    except _TORN as error:
+        raise ValueError(f"{path} holds no fields of springblock, or is cut short") from error
+    vectors["stress"] = np.where(contact, vectors["stress"], 0.0)
+    return Fields(time=values["time"], contact=contact, spacing=spacing, **vectors), attributes

@@ -1,0 +1,119 @@
+"""Stress, slip and state of blocks at chosen times, from equations solved by hand."""
+
+import numpy as np
+import pytest
+
+from springblock import Material, Pattern, draw_friction, simulate
+from springblock.simulation.fields import BlockState
+
+PAPER = Material()
+ONE = Pattern.flat(1).contact
+LOADING = 400e-6 / 3  #: s, mu_s F_n/(K_s v) with mu_s = 1
+STEP = 2e-8
+#: s, three times while the block slides, which it does for half of 2π/√(K_s/m) = 0.8 µs.
+SAMPLE = 4e-8
+SLIDING = SAMPLE * (LOADING // SAMPLE + np.array([2, 4, 6]))
+
+
+def threshold(material=PAPER, mu=1.0):
+    """mu F_n/l² of a block of a flat surface, Pa."""
+    return mu * material.block_load / material.spacing**2
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_a_block_bears_what_the_slider_pulls_until_it_slides(integrator):
+    """To rounding: at rest τ l² = K_s v t, which is what F_mot is without neighbours."""
+    times = np.array([2e-5, 1e-4, LOADING // 2e-7 * 2e-7])
+    run = simulate(ONE, 1.0, 0.6, integrator=integrator, duration=2e-4, snapshot_times=times)
+    pull = PAPER.k_s * PAPER.slider_velocity * times / PAPER.spacing**2
+    np.testing.assert_allclose(run.fields.stress[:, 0, 0, 0], pull, rtol=1e-12)
+    assert not run.fields.stress[:, 1].any()
+    assert not run.fields.slip.any()
+    assert (run.fields.state == BlockState.STUCK).all()
+
+
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+@pytest.mark.parametrize(
+    ("law", "mu"),
+    [
+        ({}, lambda slip, speed: 0.6),
+        (
+            {"law": "slip_weakening", "slip_distance": 1e-7},
+            lambda slip, speed: 0.6 + 0.4 * np.maximum(1.0 - slip / 1e-7, 0.0),
+        ),
+        (
+            {"law": "velocity_weakening", "speed_scale": 0.1},
+            lambda slip, speed: 0.6 + 0.4 / (1.0 + speed / 0.1),
+        ),
+    ],
+    ids=["coulomb", "slip_weakening", "velocity_weakening"],
+)
+def test_a_block_that_slides_bears_the_friction_of_its_law(integrator, law, mu):
+    """To rounding; where friction weakens with slip, to that of half a step at most."""
+    material = Material(**law)
+    how = {"integrator": integrator, "duration": 1.4e-4, "sample_interval": SAMPLE}
+    how |= {"snapshot_times": SLIDING, "direction": "y"}
+    fields = simulate(ONE, 1.0, 0.6, material, **how).fields
+    assert (fields.state == BlockState.SLIDING).all()
+    slip, speed = fields.displacement[:, 1, 0, 0], fields.velocity[:, 1, 0, 0]
+    assert (np.diff(slip) > 0.0).all()
+    np.testing.assert_array_equal(fields.slip[:, 0, 0], slip)
+    expected = threshold(material) * mu(slip, speed)
+    half_a_step = 0.5 * STEP * speed.max() / 1e-7 if law.get("slip_distance") else 1e-9
+    np.testing.assert_allclose(fields.stress[:, 1, 0, 0], expected, rtol=half_a_step)
+
+
+def test_a_law_from_a_file_is_that_of_the_sliding_block():
+    """Friction falls exponentially with slip; the slip may be off by that of half a step."""
+    law = Material(law="config/examples/exponential_weakening.py")
+    how = {"duration": 1.4e-4, "sample_interval": SAMPLE, "snapshot_times": SLIDING}
+    fields = simulate(ONE, 1.0, 0.6, law, **how).fields
+    expected = threshold() * (0.6 + 0.4 * np.exp(-fields.slip / 2e-8))
+    half_a_step = 0.5 * STEP * fields.velocity.max() / 2e-8
+    np.testing.assert_allclose(fields.shear_stress, expected, rtol=half_a_step)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
+def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodic):
+    """At rest up to mu_s F_n/l², sliding mu_d F_n/l² along v.
+
+    Runge-Kutta finds a block to have let go one step later, when neighbours have added to F_mot.
+    """
+    surface = Pattern.pillars(24, 4, 4).contact
+    mu_static, mu_dynamic = draw_friction(24, seed=1)
+    how = {"integrator": integrator, "periodic": periodic, "direction": 30}
+    fast = Material(slider_velocity=5e-2)
+    how |= {"duration": 1e-5, "snapshot_times": 2e-7 * np.arange(12, 16)}
+    fields = simulate(surface, mu_static, mu_dynamic, fast, **how).fields
+    load = threshold(fast) * surface.size / np.count_nonzero(surface)
+    stuck, sliding = (fields.state == each for each in (BlockState.STUCK, BlockState.SLIDING))
+    assert min(np.count_nonzero(stuck), np.count_nonzero(sliding)) > 50
+    strength = load * np.maximum(mu_static, mu_dynamic)
+    moved = np.abs(fields.velocity).max() * STEP  # in one step, at most
+    later = (fast.k_s + 6.0 * fast.k_int) * moved / fast.spacing**2
+    late = later if integrator == "rk4" else 1e-9 * load
+    assert (fields.shear_stress - strength)[stuck].max() < late
+    velocity, stress = (np.moveaxis(field, 1, -1) for field in (fields.velocity, fields.stress))
+    way = velocity[sliding] / np.linalg.norm(velocity[sliding], axis=-1, keepdims=True)
+    friction = (load * np.broadcast_to(mu_dynamic, sliding.shape))[sliding]
+    np.testing.assert_allclose(stress[sliding], friction[:, None] * way, rtol=1e-12)
+    assert not fields.stress[..., ~surface].any()
+    assert np.isnan(fields.slip[:, ~surface]).all()
+    assert (fields.state[:, ~surface] == BlockState.FREE).all()
+
+
+def test_what_the_slider_pulls_with_goes_into_stress_damping_and_inertia():
+    """ΣF_s = Σ τ l² + m Σ (dv/dt + γ v); central differences are off by (ω h)²/6 of dv/dt."""
+    surface = Pattern.pillars(12, 4, 2).contact
+    how = {"sample_interval": STEP, "duration": 3e-5}
+    times = 2e-5 + STEP * np.arange(-1, 2)
+    run = simulate(surface, *draw_friction(12, seed=0), snapshot_times=times, **how)
+    pull = run.force[round(2e-5 / STEP)]
+    before, now, after = run.fields.velocity[:, 0].sum(axis=(1, 2))
+    acceleration = (after - before) / (2.0 * STEP)
+    borne = run.fields.stress[1, 0].sum() * PAPER.spacing**2
+    moved = PAPER.mass * (acceleration + PAPER.gamma * now)
+    coarse = (PAPER.omega_max * STEP) ** 2 / 6.0
+    assert abs(pull - borne) > 1e-4 * pull  # blocks without contact do move
+    assert pull - borne == pytest.approx(moved, rel=coarse)
