@@ -36,19 +36,19 @@ by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standar
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
 """
 
-_WITHOUT = """With `production: true` in its configuration a study measures errors with its own
-number of blocks, in a quarter of an hour; this page was written without that table.
+_WITHOUT = """This study was run without `production: true`, which measures errors with the study's own
+number of blocks in a quarter of an hour.
 """
 
 _OPENING = """At full size the default step biases means over seeds by at most {biases}, at the far
-ends of 95 % intervals. Scatter from seed to seed dominates: the standard error of a mean over
-{ensemble} seeds, of the decay length over {length_ensemble}, is up to {errors}, and exceeds the
-estimated bias in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias
-where hundreds of realisations are pooled, and compare ensembles: on patterned surfaces single runs
-part before the force peak, at any step.
+ends of 95 % intervals. The standard error of a mean exceeds the estimated bias in
+{larger} of {n} cases: over {ensemble} seeds, {length_ensemble} for the decay length, it is up to
+{errors}. Quote means with their intervals over seeds, add the bias where hundreds of realisations
+are pooled, and compare ensembles only: on patterned surfaces single runs diverge before the force
+peak, at any step.
 """
 
-#: Of what is not called by its symbol.
+#: Names of quantities that are not called by their symbol.
 _NAMES = {
     "force": "force before t_max, largest",
     "static_friction": "static friction",
@@ -180,8 +180,8 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         fine_seconds=seconds[_FINE],
         seconds=seconds[STEP],
         change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
-        budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        excess=_excesses({"of those above": cases, "of t_max and t_avg": means.values()}),
+        budgets=markdown_table([*_BUDGETS, "CPU time to halve"], map(_budget, cases)),
+        excess=_excesses({"cases above": cases, "t_max and t_avg": means.values()}),
     )
 
 

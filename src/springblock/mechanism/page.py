@@ -136,9 +136,9 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
     *simpler, _ = found.values()
     agree = [full in each.alike and len(each.alike) < len(sizes) for each in simpler]
     words = (
-        "the models agree from uneven stress on",
-        "the models agree from load transfer on",
-        "the models agree from overshoot on",
+        "all simpler models agree",
+        "the models with load transfer and with overshoot agree",
+        "the model with overshoot agrees",
         "none of the simpler models agrees",
     )
     first = next(i for i in range(len(words)) if all(agree[i:]))
@@ -148,7 +148,7 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
     return fill(
         f"- **{name}**: friction is lowest at n_p = {full}{bound}; {words[first]}. At this "
         f"size load transfer changes friction by {changes[0]} %, overshoot by {changes[1]} %, and "
-        f"the step from there to the full model by {changes[2]} %.",
+        f"the other effects of the full model by {changes[2]} %.",
         width=100,
         subsequent_indent="  ",
     )
@@ -162,11 +162,12 @@ def _of_budget(table: pd.DataFrame) -> Fields:
         runs = np.array([_milestones(run) for _, run in rows.groupby("seed")])
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[direction], NAMES[model], *cells])
-    header = ["grooves", "model", "edges, at most", "at (µs)", "edges later", "core, at most"]
+    header = ["grooves", "model", "edges, largest", "at (µs)", "edges, at core's largest"]
+    header += ["core, largest", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
         "edge_share": table["edge_share"].iloc[0],
-        "budget": markdown_table([*header, "at (µs)", "load falls by (%)"], lines),
+        "budget": markdown_table(header, lines),
     }
 
 
@@ -251,8 +252,8 @@ def _confusion(tested: pd.DataFrame) -> str:
     for name, part in {**kinds, "all": tested}.items():
         both = list(zip(part["should_have_two"], part["has_two"], strict=True))
         lines.append([name, *(str(both.count(it)) for it in ways)])
-    header = ["constants, direction", "two: predicted and measured", "predicted alone"]
-    return markdown_table([*header, "measured alone", "one: predicted and measured"], lines)
+    header = ["constants, direction", "two: predicted and measured", "only predicted"]
+    return markdown_table([*header, "only measured", "one: predicted and measured"], lines)
 
 
 def _prominences(tested: pd.DataFrame) -> str:
