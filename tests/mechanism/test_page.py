@@ -28,7 +28,11 @@ def test_each_model_has_its_minimum(written):
 
 def test_steps_are_paired_by_seed(written):
     """What all models share from seed to seed leaves no interval of their differences."""
-    line = next(line for line in written.split("## The effect of each step")[1].splitlines() if "| 6 " in line)
+    line = next(
+        line
+        for line in written.split("## The effect of each step")[1].splitlines()
+        if "| 6 " in line
+    )
     assert line == "| 6 | -8.3 [-8.3, -8.3] | -8.3 [-8.3, -8.3] | 0.2 [0.2, 0.2] |"
 
 

@@ -36,7 +36,7 @@ by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standar
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
 """
 
-_WITHOUT = """This study was run without `production: true`, which measures errors with the study's own
+_WITHOUT = """This study was run without `production: true`, which measures errors with its own
 number of blocks in a quarter of an hour.
 """
 

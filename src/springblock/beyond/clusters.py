@@ -85,13 +85,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
-        f"**Precursors come in larger clusters than chance would make, on {in_place} of "
-        f"{len(found)} surfaces with blocks of the same places and on {anywhere} with as many "
-        f"blocks anywhere; the largest are {number(found[most].ratio_mixed)} times as large, in "
-        f"the same places, on this surface: {name(most)}.**"
+        f"**Precursors form larger clusters than by chance**: on {in_place} of {len(found)} "
+        f"surfaces compared with blocks in the same places, and on {anywhere} compared with as "
+        "many blocks anywhere. The largest ratio, with blocks in the same places, is "
+        f"{number(found[most].ratio_mixed)} (surface: {name(most)})."
     )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
-    header += ["over anywhere", "over same places"]
+    header += ["ratio to anywhere", "ratio to same places"]
     lines = [
         [name(scene), number(share, " %", 100.0), *map(number, sizes)]
         for scene, (share, *sizes) in found.items()

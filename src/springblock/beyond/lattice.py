@@ -1,4 +1,4 @@
-"""Lattice or layer: what changes with the spacing l, and what with the layer's thickness l_z?"""
+"""Quantities that change with the lattice spacing l, and those that change with the layer l_z."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
@@ -55,7 +55,7 @@ class Quantity(NamedTuple):
 
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Told = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
+Changes = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
 
 
 class Comparison(NamedTuple):
@@ -97,11 +97,11 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     common = usual(surfaces)
     product = common.spacing * common.scatter
     words = {
-        "block": "where blocks scatter alike on all lattices",
-        "area": "at the same disorder per area",
-        "length": "with disorder of one correlation length",
-        "none": "without disorder",
-        "layer": f"with l = {common.spacing:g} µm",
+        "block": "Same scatter on every lattice",
+        "area": "Same disorder per area",
+        "length": "Disorder of a fixed correlation length",
+        "none": "No disorder",
+        "layer": f"Thicker layers, l = {common.spacing:g} µm",
     }
     ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
     thick = [at for at in ordered if at.thickness == common.thickness]
@@ -140,7 +140,7 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Qua
     found = {}
     if best in sizes:
         runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
-        stress = Quantity(f"the largest over the mean elastic stress {name}")
+        stress = Quantity(f"the stress concentration {name}")
         found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
         found[Quantity(f"static friction {name}")] = mean_interval(force[best])
         shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
@@ -170,14 +170,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         at: measures(sizes, best.place, larger[0], larger[-1]) for at, sizes in surfaces.items()
     }
     quantities = list(dict.fromkeys(chain.from_iterable(found.values())))
-    told = {each: changes(compared, found, each) for each in quantities}
-    for kind in {"area", "length", "none"} & set(compared):  # stress knows of no disorder
-        told[quantities[0]].pop(kind, None)
-    told[Quantity("the friction-minimising size")] = _moves(compared)
-    yield from _conclusions(told)
-    for (name, _), said in told.items():
-        how = "; ".join(words for _, words in said.values())
-        yield f"**{name[0].upper()}{name[1:]}** {how}."
+    changed = {each: changes(compared, found, each) for each in quantities}
+    for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
+        changed[quantities[0]].pop(kind, None)
+    changed[Quantity("the friction-minimising size")] = _moves(compared)
+    yield _conclusion(changed)
+    for (name, _), by_comparison in changed.items():
+        bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
+        yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
     header = ["scatter", "l (µm)", "l_z (µm)", *map(str, quantities)]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
@@ -198,8 +198,8 @@ def changes(
     compared: Mapping[str, Comparison],
     found: Mapping[Lattice, Mapping[Quantity, Interval]],
     quantity: Quantity,
-) -> Told:
-    """How a value changes from the first to the last surface of each comparison."""
+) -> Changes:
+    """Say how a value changes from the first to the last surface of each comparison."""
     said = {}
     unit = quantity.unit and f" {quantity.unit}"
     for kind, (words, axis, surfaces) in compared.items():
@@ -208,12 +208,12 @@ def changes(
             ends = known[0], known[-1]
             verb = direction(*(value for _, value in ends))
             values = [f"{number(value, unit)} at {_place(at, axis)}" for at, value in ends]
-            said[kind] = verb != UNCHANGED, f"{verb} from {' to '.join(values)} {words}"
+            said[kind] = verb != UNCHANGED, f"{words}: {verb} from {' to '.join(values)}."
     return said
 
 
-def _moves(compared: Mapping[str, Comparison]) -> Told:
-    """How the size with the lowest friction changes, where l <= l_z, among sizes that all have."""
+def _moves(compared: Mapping[str, Comparison]) -> Changes:
+    """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
     said = {}
     for kind, (words, axis, surfaces) in compared.items():
         fine = {
@@ -228,19 +228,32 @@ def _moves(compared: Mapping[str, Comparison]) -> Told:
             }
             moves = are_apart(best.values())
             places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
-            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {places}"
+            said[kind] = moves, f"{words}: {'changes' if moves else UNCHANGED} ({places})."
     return said
 
 
-def _conclusions(told: Mapping[Quantity, Told]) -> Iterator[str]:
-    """Say what changes with l, however the lattice is refined or in some ways, and with l_z."""
-    lattice: dict[str, list[str]] = {"in every refinement below": [], "in some": [], "in none": []}
-    for (name, unit), said in told.items():
-        changes = [changed for kind, (changed, _) in said.items() if kind != "layer"]
-        if changes and unit != "blocks":
+def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
+    """Say what changes with l, in all refinements of the lattice or in some, and with l_z."""
+    lattice: dict[str, list[str]] = {
+        how: [] for how in ("in every case below", "in some cases", "in no case")
+    }
+    for (name, unit), by_comparison in changed.items():
+        refined = [moves for kind, (moves, _) in by_comparison.items() if kind != "layer"]
+        if refined and unit != "blocks":
             every, some, none = lattice.values()
-            (every if all(changes) else some if any(changes) else none).append(name)
-    layer = [name for (name, _), said in told.items() if said.get("layer", (False, ""))[0]]
-    parts = [f"{listed(names)} {how}" for how, names in lattice.items() if names]
-    yield f"**The spacing l of the lattice changes {'; '.join(parts)}.**"
-    yield f"**The thickness l_z of the layer changes {listed(layer) or 'none of these'}.**"
+            (every if all(refined) else some if any(refined) else none).append(name)
+    layer = [name for (name, _), each in changed.items() if each.get("layer", (False,))[0]]
+    of_lattice = "; ".join(f"{_grouped(names)} {how}" for how, names in lattice.items() if names)
+    return (
+        f"**Refining the lattice changes** {of_lattice}. **A thicker layer changes** "
+        f"{_grouped(layer) or 'none of these'}."
+    )
+
+
+def _grouped(names: Sequence[str]) -> str:
+    """List names, those on the same pillars together."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        what, on, where = name.partition(" on pillars")
+        found.setdefault(on + where, []).append(what)
+    return listed([listed(whats) + where for where, whats in found.items()])

@@ -11,7 +11,7 @@ from springblock.io.records import Record
 from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most
-UNCHANGED = "shows no significant change"
+UNCHANGED = "does not change significantly"
 
 T = TypeVar("T")
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
@@ -69,15 +69,15 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
 
 
 def change(first: Interval, last: Interval) -> str:
-    """Say how a value changes and from what to what."""
+    """Say how a value changes, from its first value to its last."""
     return f"{direction(first, last)} from {number(first)} to {number(last)}"
 
 
 def direction(first: Interval, last: Interval) -> str:
-    """Say whether a value changes, by whether both 95 % intervals are apart."""
+    """Say whether a value changes significantly: its 95 % intervals do not overlap."""
     if last.high < first.low:
-        return "falls"
-    return "grows" if last.low > first.high else UNCHANGED
+        return "decreases"
+    return "increases" if last.low > first.high else UNCHANGED
 
 
 def listed(names: Sequence[str]) -> str:

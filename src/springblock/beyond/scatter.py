@@ -74,6 +74,6 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     stays = f"{UNCHANGED}: {minima[0]}"
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
-        f"**From a scatter of {least:g} to {most:g} the decay length {listed(said)}; "
-        f"the friction-minimising n_p {then}.**"
+        f"**When the scatter of the thresholds increases from {least:g} to {most:g}**, the decay "
+        f"length {listed(said)}; the friction-minimising n_p {then}."
     )
