@@ -85,7 +85,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
-        f"**Precursors form larger clusters than by chance**: on {in_place} of {len(found)} "
+        f"**Precursors form larger clusters than expected by chance**: on {in_place} of {len(found)} "
         f"surfaces compared with blocks in the same places, and on {anywhere} compared with as "
         "many blocks anywhere. The largest ratio, with blocks in the same places, is "
         f"{number(found[most].ratio_mixed)} (surface: {name(most)})."

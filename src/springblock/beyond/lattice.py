@@ -14,6 +14,7 @@ from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
+    change,
     direction,
     is_even,
     listed,
@@ -182,7 +183,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
-        scatter = f"{at.scatter:g}" + (f", alike over {at.length:g} µm" if at.length else "")
+        scatter = f"{at.scatter:g}" + (f", correlated over {at.length:g} µm" if at.length else "")
         values = [number(found[at][each]) if each in found[at] else "" for each in quantities]
         own = [str(minimum(sizes) or ""), ", ".join(f"{size:g}" for size in sizes)]
         fewest = min(len({run.seed for run in runs}) for runs in sizes.values())
@@ -205,10 +206,10 @@ def changes(
     for kind, (words, axis, surfaces) in compared.items():
         known = [(at, found[at][quantity]) for at in surfaces if quantity in found[at]]
         if len(known) >= 2:
-            ends = known[0], known[-1]
-            verb = direction(*(value for _, value in ends))
-            values = [f"{number(value, unit)} at {_place(at, axis)}" for at, value in ends]
-            said[kind] = verb != UNCHANGED, f"{words}: {verb} from {' to '.join(values)}."
+            (first, before), (last, after) = known[0], known[-1]
+            places = f" at {_place(first, axis)}", f" at {_place(last, axis)}"
+            has_moved = direction(before, after) != UNCHANGED
+            said[kind] = has_moved, f"{words}: {change(before, after, unit, places)}."
     return said
 
 
@@ -234,18 +235,19 @@ def _moves(compared: Mapping[str, Comparison]) -> Changes:
 
 def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
     """Say what changes with l, in all refinements of the lattice or in some, and with l_z."""
-    lattice: dict[str, list[str]] = {
-        how: [] for how in ("in every case below", "in some cases", "in no case")
-    }
+    every, some, none, layer = (list[str]() for _ in range(4))
     for (name, unit), by_comparison in changed.items():
-        refined = [moves for kind, (moves, _) in by_comparison.items() if kind != "layer"]
-        if refined and unit != "blocks":
-            every, some, none = lattice.values()
-            (every if all(refined) else some if any(refined) else none).append(name)
-    layer = [name for (name, _), each in changed.items() if each.get("layer", (False,))[0]]
-    of_lattice = "; ".join(f"{_grouped(names)} {how}" for how, names in lattice.items() if names)
+        moves = {kind: has_moved for kind, (has_moved, _) in by_comparison.items()}
+        if unit != "blocks":  # the same in µm is among them
+            if moves.pop("layer", False):
+                layer.append(name)
+            if moves:
+                place = every if all(moves.values()) else some if any(moves.values()) else none
+                place.append(name)
+    cases = {"in every case below": every, "in some cases": some, "in no case": none}
+    of_lattice = "; ".join(f"{how}, {_grouped(names)}" for how, names in cases.items() if names)
     return (
-        f"**Refining the lattice changes** {of_lattice}. **A thicker layer changes** "
+        f"**Refining the lattice changes**, {of_lattice}. **A thicker layer changes** "
         f"{_grouped(layer) or 'none of these'}."
     )
 
@@ -256,4 +258,5 @@ def _grouped(names: Sequence[str]) -> str:
     for name in names:
         what, on, where = name.partition(" on pillars")
         found.setdefault(on + where, []).append(what)
-    return listed([listed(whats) + where for where, whats in found.items()])
+    parts = [listed(group) + where for where, group in found.items()]
+    return ", and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))

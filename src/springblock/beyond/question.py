@@ -68,9 +68,12 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
-def change(first: Interval, last: Interval) -> str:
-    """Say how a value changes, from its first value to its last."""
-    return f"{direction(first, last)} from {number(first)} to {number(last)}"
+def change(first: Interval, last: Interval, unit: str = "", at: tuple[str, str] = ("", "")) -> str:
+    """Say how a value changes, from the first to the last place, which `at` names."""
+    before, after = f"{number(first, unit)}{at[0]}", f"{number(last, unit)}{at[1]}"
+    verb = direction(first, last)
+    values = f"({before}, {after})" if verb == UNCHANGED else f"from {before} to {after}"
+    return f"{verb} {values}"
 
 
 def direction(first: Interval, last: Interval) -> str:

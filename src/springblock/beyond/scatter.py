@@ -70,7 +70,7 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     said = []
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()
-        said.append(f"{change(first, last)} blocks on pillars of n_p = {n_p}")
+        said.append(f"{change(first, last, ' blocks')} on pillars of n_p = {n_p}")
     stays = f"{UNCHANGED}: {minima[0]}"
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
