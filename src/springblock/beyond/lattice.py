@@ -85,7 +85,7 @@ def by_lattice(ensembles: Ensembles) -> Surfaces:
 
 
 def usual(surfaces: Surfaces) -> Lattice:
-    """What most surfaces have."""
+    """Return the lattice, layer and disorder that most surfaces have."""
     return Lattice(*map(mode, zip(*surfaces, strict=True)))
 
 
@@ -137,7 +137,7 @@ def minimum(sizes: Sizes) -> Lowest | None:
 
 
 def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Quantity, Interval]:
-    """What is compared: on pillars of the best size and on larger ones, µm."""
+    """Return the quantities compared, on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
         runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)

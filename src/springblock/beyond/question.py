@@ -1,4 +1,4 @@
-"""Realisations that questions are about, and how numbers are written."""
+"""Realisations by scene, and the format of numbers, for questions beyond the paper."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from operator import attrgetter, itemgetter

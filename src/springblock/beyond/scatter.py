@@ -1,4 +1,4 @@
-"""What the scatter of thresholds does to the decay of correlation and to the lowest friction."""
+"""Decay of correlation and lowest friction by the scatter of thresholds."""
 
 from collections.abc import Iterator, Mapping, Sequence
 

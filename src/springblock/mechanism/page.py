@@ -17,7 +17,7 @@ from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
 from springblock.model.material import Material
 
-#: What models are called, in the order of what they contain.
+#: Names of the models on the page, each with one effect more than the last.
 NAMES = {
     "independent": "stress alone",
     "quasi_static": "load transfer",
@@ -48,13 +48,13 @@ def page(
 
 
 def written(values: ArrayLike, digits: int) -> str:
-    """Return the mean of values with its 95 % interval, as pages have it."""
+    """Format the mean of values with its 95 % interval."""
     mean, low, high = (f"{value:.{digits}f}" for value in mean_interval(values))
     return f"{mean} [{low}, {high}]"
 
 
 def _of_friction(table: pd.DataFrame) -> Fields:
-    """Return what the page says of static friction by size."""
+    """Return the fields on static friction by size of pillars."""
     sizes = table.groupby("n_p")
     means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
     error = (means["overshooting"] / means["simulation"] - 1.0).abs()
@@ -84,7 +84,7 @@ def _of_friction(table: pd.DataFrame) -> Fields:
 
 
 def _of_variants(table: pd.DataFrame) -> Fields:
-    """Return what it says of flat surfaces, other gaps, layers and scatter."""
+    """Return the fields on flat surfaces and on other gaps, layers and scatter."""
     flat = table[table["n_p"] == 0]
     pillars = table.drop(flat.index)
     cases = dict(iter(pillars.groupby(pillars.apply(_case, axis=1), sort=False)))
@@ -155,7 +155,7 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
 
 
 def _of_budget(table: pd.DataFrame) -> Fields:
-    """Return what it says of the forces on edges and core."""
+    """Return the fields on the forces on edges and core."""
     lines = []
     for direction, model in product(_ALONG, ("simulation", "overshooting")):
         rows = table[(table["direction"] == direction) & (table["model"] == model)]
@@ -186,7 +186,7 @@ def _milestones(run: pd.DataFrame) -> Array:
 
 
 def _of_pawls() -> Fields:
-    """Return what it says of the elasticity of the paper's pawls and grooves."""
+    """Return the fields on the elasticity of the paper's pawls and grooves."""
     paper = Material()
     along, across = (pawl(8, 2, is_across, paper) for is_across in (False, True))
     # stress on the rows next to edges that have overshot, over F_n
@@ -198,7 +198,7 @@ def _of_pawls() -> Fields:
 
 
 def _of_peaks(table: pd.DataFrame) -> Fields:
-    """Return what it says of predicted and measured load peaks."""
+    """Return the fields on predicted and measured load peaks."""
     tested = _surfaces(table[~table["trained"]])
     has_two, is_papers = tested["has_two"], tested["varied"] == ""
     papers, is_wide = tested[is_papers], tested["n_p2"].between(*_WIDE)
@@ -224,7 +224,7 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
 
 
 def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a row per surface and direction: its prediction and what is measured, over seeds."""
+    """Return a row per surface and direction: its prediction and the measured mean over seeds."""
     by_surface = table.groupby(_SURFACE, sort=False)
     found = by_surface["predicted"].first().reset_index()
     samples = [values for _, values in by_surface["measured"]]
@@ -241,7 +241,7 @@ def _score(surfaces: pd.DataFrame) -> str:
 
 
 def _confusion(tested: pd.DataFrame) -> str:
-    """Count what is predicted and measured, by constants and direction."""
+    """Tabulate predictions against measurements, by constants and direction."""
     words = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
     constant = tested["varied"].str.partition("=")[0]
     kinds = {
