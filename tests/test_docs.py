@@ -28,6 +28,9 @@ PAGES = {
     for file in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/*.md")]
 }
 
+LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
+LINKING += [f"docs/{file.name}" for file in sorted(ROOT.glob("docs/*.md"))]
+
 
 def numberless(text):
     """Lines of the page on errors, which numbers and nothing else may tell apart.
@@ -58,7 +61,8 @@ def test_the_page_on_statements_is_what_the_code_writes():
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
     text = beyond_page({})
-    assert unmeasured(PAGES["beyond"], ("|", "**")) == unmeasured(text, ("|", "**"))
+    measured = ("|", "**", "- ", *(f"{i}. " for i in range(1, 8)), "The sum of", "Hierarchy: ")
+    assert unmeasured(PAGES["beyond"], measured) == unmeasured(text, measured)
     assert "**Not answered**" not in PAGES["beyond"]
 
 
@@ -96,7 +100,7 @@ def test_findings_that_are_quoted_stand_in_a_page_of_results():
     rows = re.findall(r"^\|.*\(`(?:beyond|accuracy)\.md`(?:, \d)?\) \|$", PAGES["model"], re.M)
     rows = [row for row in rows if "tables `realisations`" not in row]
     quoted = re.findall(r"-?[\d.]+ \[-?[\d.]+, +-?[\d.]+\]", "".join([PAGES["README"], *rows]))
-    assert len(quoted) > 20
+    assert len(quoted) > 10
     assert [value for value in quoted if value not in computed] == []
 
 
@@ -107,6 +111,33 @@ def test_verdicts_are_as_many_as_the_readme_says():
     names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
     expected = [counts.total(), *(counts[name] for name in names)]
     assert [int(number) for number in re.findall(r"\d+", sentence)] == expected
+
+
+def anchors(text):
+    """Places of a page that a link may name: its headings, as GitHub writes them, and its terms."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    words = (re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings)
+    return {*words, *re.findall(r'<a id="([^"]+)">', text)}
+
+
+@pytest.mark.parametrize("page", LINKING, ids=str)
+def test_links_between_pages_lead_to_files_and_headings(page):
+    text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.S | re.M)
+    for link in re.findall(r'(?:\]\(|href="|src=")([^)"\s]+)', text):
+        if not link.startswith("https://"):
+            name, _, anchor = link.partition("#")
+            target = (ROOT / page).parent / name if name else ROOT / page
+            assert target.exists(), link
+            assert not anchor or anchor in anchors(target.read_text(encoding="utf-8")), link
+
+
+def test_the_glossary_defines_each_term_once_in_its_place():
+    rows = re.findall(r'^\| <a id="([^"]+)"></a>([^|]+) \|', PAGES["glossary"], re.MULTILINE)
+    terms = [term.strip() for _, each in rows for term in each.split(",")]
+    assert len(rows) >= 30
+    assert max(Counter(terms).values()) == 1
+    for anchor, term in rows:
+        assert term.lower().replace(" ", "-").replace("_", "-").startswith(anchor)
 
 
 def test_commands_that_pages_show_are_known_with_their_options():

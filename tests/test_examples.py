@@ -10,7 +10,6 @@ import io
 import os
 import re
 import shlex
-import textwrap
 from contextlib import redirect_stdout
 
 import nbformat
@@ -26,7 +25,6 @@ from springblock.model.scene import Scene
 from springblock.plotting import film
 from studies import ROOT, Study
 
-README = (ROOT / "README.md").read_text(encoding="utf-8")
 NOTEBOOK = ROOT / "docs/tour.ipynb"
 #: A box and its language; one that says `skip` needs what a test does not have.
 BOX = re.compile(r"^```(sh|python|yaml)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -72,31 +70,28 @@ def follow(page, study):
 
 
 def test_the_readme_can_be_followed(study):
-    commands = re.findall(r"^    (springblock (?:.* --output \S+|info .*))$", README, re.MULTILINE)
-    for line in commands:
+    """Its run in Python and that of its commands are the same surface and seed."""
+    readme, names = (ROOT / "README.md").read_text(encoding="utf-8"), {}
+    for line in re.findall(r"^    (springblock .*)$", readme, re.MULTILINE):
         run_line(line, study)
-    names = {}
-    for example in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
+    for example in re.findall(r"```python\n(.*?)```", readme, re.DOTALL):
         exec(example, names)
-    assert names["stored"].scene == Scene(60, 10, 10)
-    for file in ("surface.png", "run.parquet", "run.png", "run.gif", "fast.csv"):
-        assert (study / file).exists()
-    assert 0.5 < names["run"].static_friction < 1.0
-    assert abs(names["run"].energy.relative_residual) < 5e-4
+    assert (study / "run.gif").exists()
+    assert (study / "run.png").exists()
+    [stored] = read("run.parquet")
+    assert stored.static_friction == pytest.approx(names["run"].static_friction, rel=1e-12)
 
 
-def test_what_the_readme_plans_can_be_planned(study):
-    grid = re.search(r"^    results: .*\n(    .*\n)+", README, re.MULTILINE)[0]
-    (study / "mine.yaml").write_text(textwrap.dedent(grid))
-    planned = re.findall(r"snakemake -n (\w+)", README)
-    assert planned
-    assert study.planned("--", *planned, configuration=("config/config.yaml",))
-    (line,) = re.findall(r"`snakemake (--configfile mine\.yaml) -- (\w+)`", README)
-    assert study.planned("--", line[1], configuration=("mine.yaml",))
+def test_what_the_page_on_the_workflow_plans_can_be_planned(study):
+    page = (ROOT / "docs/workflow.md").read_text(encoding="utf-8")
+    (step,) = re.findall(r"snakemake -n (\w+)", page)
+    assert study.planned("--", step, configuration=("config/config.yaml",))
 
 
 def test_the_howto_can_be_followed(study):
     names = follow("howto.md", study)
+    assert names["stored"].scene == Scene(24, 4, 4)
+    assert (study / "surface.png").exists()
     made = {file.name for file in (study / "results/small/figures").iterdir()}
     assert {"figure_6.png", "surfaces.png", "sweep_speed.pdf"} <= made
     assert set(names["table"].n_p) == {0, 4, 10, 12}

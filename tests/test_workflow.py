@@ -66,7 +66,7 @@ def test_the_configuration_offers_what_the_package_has():
 def test_every_step_can_be_planned_and_the_configuration_decides_which_are(study):
     """The paper's study, and with config/full.yaml all that the package can do.
 
-    README names the steps that are neither figures nor films.
+    docs/workflow.md lists the steps that are neither figures nor films.
     """
     elsewhere = ("--config", "results=elsewhere")
     listed = study.run("--list-target-rules", *elsewhere, **FULL)
@@ -82,7 +82,7 @@ def test_every_step_can_be_planned_and_the_configuration_decides_which_are(study
     assert set(papers) | further | steps <= set(full)  # surfaces are a user's own
     assert {"sweep_pressure", "sweep_scatter"} <= set(full)
     assert full["simulate_batch"] > 4 * papers["simulate_batch"]
-    named = set(re.findall(r"`(\w+)`", (ROOT / "README.md").read_text()))
+    named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
     assert {step for step in steps if not step.startswith(drawn)} <= named
 

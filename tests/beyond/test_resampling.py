@@ -55,7 +55,7 @@ def test_exact_numbers_have_no_interval():
 
 @pytest.mark.parametrize(
     ("last", "meaning"),
-    [((0.2, 0.9), "falls"), ((2.1, 3.0), "grows"), ((0.5, 1.0), UNCHANGED)],
+    [((0.2, 0.9), "decreases"), ((2.1, 3.0), "increases"), ((0.5, 1.0), UNCHANGED)],
 )
 def test_values_change_where_their_intervals_are_apart(last, meaning):
     low, high = map(np.array, last)

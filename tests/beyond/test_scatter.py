@@ -5,6 +5,7 @@ import pytest
 
 from beyond.made_up import T_MAX, ensemble, lean, record
 from springblock.beyond import clusters, scatter, sliding, variance
+from springblock.beyond.question import UNCHANGED
 from springblock.model.scene import Scene
 
 FLAT = Scene(40)
@@ -47,8 +48,8 @@ def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_c
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
     made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
     conclusion, table = clusters.answers(made)
-    assert "on 1 of 1 surfaces with blocks of the same places and on 1 with" in conclusion
-    assert conclusion.endswith("on this surface: flat.**")
+    assert "on 1 of 1 surfaces compared with blocks in the same places, and on 1 " in conclusion
+    assert conclusion.endswith("(surface: flat).")
     assert "| flat |" in table
 
 
@@ -73,10 +74,10 @@ def test_correlation_is_found_by_direction():
 
 def test_the_page_tells_along_from_across():
     conclusion, table = sliding.answers(along_grooves({"x": 5.0, "45": 2.0, "y": 0.3}))
-    assert conclusion.count("falls from") == 2
+    assert conclusion.count("decreases from") == 2
     assert len(table.splitlines()) == 8
     same = along_grooves({"x": 2.0, "45": 2.0, "y": 2.0})
-    assert next(sliding.answers(same)).count("shows no significant change") == 2
+    assert next(sliding.answers(same)).count(UNCHANGED) == 2
 
 
 def scattered(length, best=lambda std: 10.0):
@@ -91,19 +92,19 @@ def scattered(length, best=lambda std: 10.0):
     return found
 
 
-@pytest.mark.parametrize(("exponent", "words"), [(-1.0, "falls"), (0.0, "shows no")])
+@pytest.mark.parametrize(("exponent", "words"), [(-1.0, "decreases"), (0.0, UNCHANGED)])
 def test_the_page_says_what_scatter_changes(exponent, words):
     made = scattered(lambda std: 2.0 * (std / 0.1) ** exponent, lambda std: 10.0 * std / 0.1)
     conclusion, table = scatter.answers(made)
-    assert "to 0.2 the decay length" in conclusion
+    assert "from 0.05 to 0.2**, the decay length" in conclusion
     assert f"length {words}" in conclusion or f"and {words}" in conclusion
-    assert conclusion.endswith("the friction-minimising n_p changes from 4 to 20.**")
+    assert conclusion.endswith("the friction-minimising n_p changes from 4 to 20.")
     assert [line.split("|")[4].strip() for line in table.splitlines()[2:]] == ["4", "10", "20"]
 
 
 def test_a_minimum_that_stays_is_said_to_stay():
     conclusion = next(scatter.answers(scattered(lambda std: 3.0)))
-    assert conclusion.endswith("the friction-minimising n_p shows no significant change: 10.**")
+    assert conclusion.endswith(f"the friction-minimising n_p {UNCHANGED}: 10.")
 
 
 def of_sizes(power, runs=200):
@@ -125,8 +126,8 @@ def test_the_exponent_of_the_variance_is_found_again(power):
 
 
 def test_the_page_says_whether_blocks_are_independent():
-    assert ", as independent blocks" in next(variance.answers(of_sizes(1.0)))
-    assert ", unlike independent blocks" in next(variance.answers(of_sizes(0.4)))
+    assert "on flat surfaces (not significantly" in next(variance.answers(of_sizes(1.0)))
+    assert "on flat surfaces (significantly" in next(variance.answers(of_sizes(0.4)))
     assert not list(variance.answers({Scene(10): lean(Scene(10), 0.7)}))
 
 
@@ -135,4 +136,4 @@ def test_a_variance_that_stays_at_last_goes_by_no_power():
     made = of_sizes(1.0)
     made[Scene(40)] = lean(Scene(40), 0.7, 200, 0.1 / 10)
     made[Scene(20)] = lean(Scene(20), 0.7, 200, 0.1 / 40)
-    assert "flat: no power law" in next(variance.answers(made))
+    assert "no power law on flat surfaces" in next(variance.answers(made))

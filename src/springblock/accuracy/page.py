@@ -1,4 +1,4 @@
-"""The page that says what a reader may trust; every number in it comes from the tables."""
+"""The page on numerical errors; every number in it comes from the tables."""
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import product
@@ -30,25 +30,25 @@ from springblock.model.material import Material
 _PAGE = Path(__file__).with_name("page.md")
 _FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the study's own ensembles
 
-#: The same section, and how the page begins, of a study that has not measured these.
+#: The opening and the same section for a study without errors at full size.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
 by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standard error of a mean
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
 """
 
-_WITHOUT = """With `production: true` in its configuration a study measures errors with its own
-number of blocks, in a quarter of an hour; this page was written without that table.
+_WITHOUT = """This study was run without `production: true`, which measures errors with its own
+number of blocks in a quarter of an hour.
 """
 
 _OPENING = """At full size the default step biases means over seeds by at most {biases}, at the far
-ends of 95 % intervals. Scatter from seed to seed dominates: the standard error of a mean over
-{ensemble} seeds, of the decay length over {length_ensemble}, is up to {errors}, and exceeds the
-estimated bias in {larger} of {n} cases. Quote means with their intervals over seeds, add the bias
-where hundreds of realisations are pooled, and compare ensembles: on patterned surfaces single runs
-part before the force peak, at any step.
+ends of 95 % intervals. The standard error of a mean exceeds the estimated bias in
+{larger} of {n} cases: over {ensemble} seeds, {length_ensemble} for the decay length, it is up to
+{errors}. Quote means with their intervals over seeds, add the bias where hundreds of realisations
+are pooled, and compare ensembles only: on patterned surfaces single runs diverge before the force
+peak, at any step.
 """
 
-#: Of what is not called by its symbol.
+#: Names of quantities that are not called by their symbol.
 _NAMES = {
     "force": "force before t_max, largest",
     "static_friction": "static friction",
@@ -63,7 +63,7 @@ _SINGLE = (*_PLAIN, "order", "resolution")
 _LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
 _COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: what else the default might be
 _SPANS = {PAPER_STEP: f"{PAPER_STEP:.0e} s and finer", STEP: f"{STEP:.0e} to {_FINE:.0e} s"}
-_FOLD = 20  #: how many times the study's seeds are pooled, up to
+_FOLD = 20  #: largest number of pooled ensembles, over the study's seeds
 #: What all tables share.
 _KNOWN = {"step": STEP, "coarse": _COARSE, "fine": _FINE, "paper": PAPER_STEP, "limit": _LIMIT}
 _KNOWN |= {"coarse_margin": _LIMIT / _COARSE, "margin": _LIMIT / STEP, "nudge": HORIZON_NUDGE}
@@ -79,7 +79,7 @@ def page(
     realisations: list[Row],
     production: Sequence[Row] = (),
 ) -> str:
-    """Fill the page in from the rows of the tables, of which `production` may be absent."""
+    """Fill in the page from the rows of the tables, of which `production` may be absent."""
     single = select(precision, comparison="reference")
     leapfrog = select(single, integrator="leapfrog")
     default = select(leapfrog, step=STEP)
@@ -147,7 +147,7 @@ def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
 
 
 def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
-    """Fill the section in from the rows of the table `production`; without them say so."""
+    """Fill in the section from the rows of the table `production`, or state their absence."""
     if not rows:
         return _WITHOUT
     cases = list(measured(rows, STUDY_SEEDS).values())
@@ -180,15 +180,15 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         fine_seconds=seconds[_FINE],
         seconds=seconds[STEP],
         change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
-        budgets=markdown_table([*_BUDGETS, "halving costs"], map(_budget, cases)),
-        excess=_excesses({"of those above": cases, "of t_max and t_avg": means.values()}),
+        budgets=markdown_table([*_BUDGETS, "CPU time to halve"], map(_budget, cases)),
+        excess=_excesses({"cases above": cases, "t_max and t_avg": means.values()}),
     )
 
 
 def _by_scene(
     heading: str, quantities: Iterable[str], rows: Sequence[Row], text: Callable[..., str]
 ) -> str:
-    """Lay out what `text` says of the rows of a quantity, in a line, and a scene, in a column."""
+    """Return a table with `text` of the rows of each quantity (lines) and scene (columns)."""
     lines = []
     for quantity in quantities:
         cells = [select(rows, scene=scene, quantity=quantity) for scene in SCENES]
@@ -208,7 +208,7 @@ def _at(step: float, rows: Iterable[Row]) -> Row:
 
 
 def _error(row: Row) -> str:
-    """Return an error; where runs agree to every digit, say so."""
+    """Format an error, or "none" where runs agree to every digit."""
     return f"{row['error']:.1e}" if row["error"] else "none"
 
 
@@ -264,7 +264,7 @@ def _bias(*rows: Row) -> str:
 
 
 def _budget(rows: list[Row]) -> list[str]:
-    """Say what the study's CPU time buys in one scene, at the default step and at the best."""
+    """Return a row: errors for the study's CPU time, at the default step and at the best."""
     seconds, cases = budget.study_budget(rows), [choices(rows, bias) for bias in Bias._fields]
     chosen = budget.best(cases[0], seconds)
 
@@ -290,7 +290,7 @@ def _worst(cases: Iterable[list[Row]], fold: int = 1, bias: str = "estimate") ->
 
 
 def _excesses(groups: dict[str, Iterable[list[Row]]]) -> str:
-    """Lay out the largest excess of each step in each group of cases."""
+    """Return a table of the largest excess of each step in each group of cases."""
     lines = []
     for (name, cases), fold in product(groups.items(), (1, _FOLD)):
         found = [_worst(cases, fold, bias) for bias in Bias._fields]
@@ -300,7 +300,7 @@ def _excesses(groups: dict[str, Iterable[list[Row]]]) -> str:
 
 
 def _between(digits: str, numbers: Sequence[float]) -> str:
-    """Return the first number, and in brackets the smallest and the largest; all finite or none."""
+    """Format the first number, and in brackets the smallest and the largest."""
     if not isfinite(numbers[0]):
         return "no seed"
     return f"{numbers[0]:{digits}} [{min(numbers):{digits}}, {max(numbers):{digits}}]"

@@ -1,4 +1,4 @@
-"""Clusters of precursors: what has let go together before the force maximum."""
+"""Clusters of precursors: neighbours that detach before the force maximum."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -30,14 +30,14 @@ def precursors(run: Record) -> Mask:
 
 
 def shuffled(detached: Mask, contact: Mask, rng: np.random.Generator) -> Mask:
-    """As many blocks in contact, anywhere."""
+    """Return as many blocks, drawn at random from those in contact, (N, N)."""
     drawn = np.zeros_like(detached)
     drawn[contact] = rng.permutation(detached[contact])
     return drawn
 
 
 def mixed(masks: Sequence[Mask], rng: np.random.Generator) -> list[Mask]:
-    """Each block's states dealt anew to the realisations: places stay, company does not."""
+    """Permute the states of each block over the realisations, so that blocks are independent."""
     return list(rng.permuted(np.stack(masks), axis=0))
 
 
@@ -51,7 +51,7 @@ class Clusters(NamedTuple):
 
 
 def clusters(runs: Sequence[Record]) -> Clusters:
-    """Sizes of clusters of precursors, and of what chance would make of them."""
+    """Return the sizes of clusters of precursors, and their ratios to random arrangements."""
     rng, contact = np.random.default_rng(0), runs[0].scene.contact
     masks = [precursors(run) for run in runs]
     share = [mask[contact].mean() for mask in masks]
@@ -85,13 +85,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
-        f"**Precursors come in larger clusters than chance would make, on {in_place} of "
-        f"{len(found)} surfaces with blocks of the same places and on {anywhere} with as many "
-        f"blocks anywhere; the largest are {number(found[most].ratio_mixed)} times as large, in "
-        f"the same places, on this surface: {name(most)}.**"
+        "**Precursors form larger clusters than expected by chance**: on "
+        f"{in_place} of {len(found)} surfaces compared with blocks in the same places, and on "
+        f"{anywhere} compared with as many blocks anywhere. The largest ratio, with blocks in the "
+        f"same places, is {number(found[most].ratio_mixed)} (surface: {name(most)})."
     )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
-    header += ["over anywhere", "over same places"]
+    header += ["ratio to anywhere", "ratio to same places"]
     lines = [
         [name(scene), number(share, " %", 100.0), *map(number, sizes)]
         for scene, (share, *sizes) in found.items()

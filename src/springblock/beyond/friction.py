@@ -115,16 +115,17 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     size, contact, both = (number(share, " %", 100.0) for share in shares.values())
     more = direction(shares["contact"], shares["size"])
     words = {
-        "grows": "Size, more than contact fraction, sets static friction",
-        "falls": "Contact fraction, more than size, sets static friction",
-    }.get(more, "Size and contact fraction cannot be told apart in what they do to friction")
+        "increases": "Static friction depends on the size of pillars more than on contact fraction",
+        "decreases": "Static friction depends on contact fraction more than on the size of pillars",
+    }.get(more, "Size and contact fraction explain static friction equally well")
     yield (
-        f"**{words}: size alone explains {size} of its variance over {len(found)} surfaces, "
-        f"contact fraction alone {contact}.**"
+        f"**{words}**: size alone explains {size} of its variance over {len(found)} surfaces, and "
+        f"contact fraction alone {contact}."
     )
     yield (
-        f"**Together**, added, they explain {both}, and leave {rms:.4f} root mean square "
-        f"(over {freedom} degrees of freedom), where means have a standard error of {scatter:.4f}."
+        f"The sum of both factors explains {both}. Its residuals have a root mean square of "
+        f"{rms:.4f} (over {freedom} degrees of freedom); the standard error of the means is "
+        f"{scatter:.4f}."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
     lines = []

@@ -1,4 +1,4 @@
-"""Lattice or layer: what changes with the spacing l, and what with the layer's thickness l_z?"""
+"""Quantities that change with the lattice spacing l, and those that change with the layer l_z."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
@@ -14,6 +14,7 @@ from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
+    change,
     direction,
     is_even,
     listed,
@@ -55,7 +56,7 @@ class Quantity(NamedTuple):
 
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Told = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
+Changes = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
 
 
 class Comparison(NamedTuple):
@@ -84,7 +85,7 @@ def by_lattice(ensembles: Ensembles) -> Surfaces:
 
 
 def usual(surfaces: Surfaces) -> Lattice:
-    """What most surfaces have."""
+    """Return the lattice, layer and disorder that most surfaces have."""
     return Lattice(*map(mode, zip(*surfaces, strict=True)))
 
 
@@ -97,11 +98,11 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     common = usual(surfaces)
     product = common.spacing * common.scatter
     words = {
-        "block": "where blocks scatter alike on all lattices",
-        "area": "at the same disorder per area",
-        "length": "with disorder of one correlation length",
-        "none": "without disorder",
-        "layer": f"with l = {common.spacing:g} µm",
+        "block": "Same scatter on every lattice",
+        "area": "Same disorder per area",
+        "length": "Disorder of a fixed correlation length",
+        "none": "No disorder",
+        "layer": f"Thicker layers, l = {common.spacing:g} µm",
     }
     ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
     thick = [at for at in ordered if at.thickness == common.thickness]
@@ -136,11 +137,11 @@ def minimum(sizes: Sizes) -> Lowest | None:
 
 
 def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Quantity, Interval]:
-    """What is compared: on pillars of the best size and on larger ones, µm."""
+    """Return the quantities compared, on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
         runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
-        stress = Quantity(f"the largest over the mean elastic stress {name}")
+        stress = Quantity(f"the stress concentration {name}")
         found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
         found[Quantity(f"static friction {name}")] = mean_interval(force[best])
         shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
@@ -170,19 +171,19 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         at: measures(sizes, best.place, larger[0], larger[-1]) for at, sizes in surfaces.items()
     }
     quantities = list(dict.fromkeys(chain.from_iterable(found.values())))
-    told = {each: changes(compared, found, each) for each in quantities}
-    for kind in {"area", "length", "none"} & set(compared):  # stress knows of no disorder
-        told[quantities[0]].pop(kind, None)
-    told[Quantity("the friction-minimising size")] = _moves(compared)
-    yield from _conclusions(told)
-    for (name, _), said in told.items():
-        how = "; ".join(words for _, words in said.values())
-        yield f"**{name[0].upper()}{name[1:]}** {how}."
+    changed = {each: changes(compared, found, each) for each in quantities}
+    for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
+        changed[quantities[0]].pop(kind, None)
+    changed[Quantity("the friction-minimising size")] = _moves(compared)
+    yield _conclusion(changed)
+    for (name, _), by_comparison in changed.items():
+        bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
+        yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
     header = ["scatter", "l (µm)", "l_z (µm)", *map(str, quantities)]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
-        scatter = f"{at.scatter:g}" + (f", alike over {at.length:g} µm" if at.length else "")
+        scatter = f"{at.scatter:g}" + (f", correlated over {at.length:g} µm" if at.length else "")
         values = [number(found[at][each]) if each in found[at] else "" for each in quantities]
         own = [str(minimum(sizes) or ""), ", ".join(f"{size:g}" for size in sizes)]
         fewest = min(len({run.seed for run in runs}) for runs in sizes.values())
@@ -198,22 +199,22 @@ def changes(
     compared: Mapping[str, Comparison],
     found: Mapping[Lattice, Mapping[Quantity, Interval]],
     quantity: Quantity,
-) -> Told:
-    """How a value changes from the first to the last surface of each comparison."""
+) -> Changes:
+    """Say how a value changes from the first to the last surface of each comparison."""
     said = {}
     unit = quantity.unit and f" {quantity.unit}"
     for kind, (words, axis, surfaces) in compared.items():
         known = [(at, found[at][quantity]) for at in surfaces if quantity in found[at]]
         if len(known) >= 2:
-            ends = known[0], known[-1]
-            verb = direction(*(value for _, value in ends))
-            values = [f"{number(value, unit)} at {_place(at, axis)}" for at, value in ends]
-            said[kind] = verb != UNCHANGED, f"{verb} from {' to '.join(values)} {words}"
+            (first, before), (last, after) = known[0], known[-1]
+            places = f" at {_place(first, axis)}", f" at {_place(last, axis)}"
+            has_moved = direction(before, after) != UNCHANGED
+            said[kind] = has_moved, f"{words}: {change(before, after, unit, places)}."
     return said
 
 
-def _moves(compared: Mapping[str, Comparison]) -> Told:
-    """How the size with the lowest friction changes, where l <= l_z, among sizes that all have."""
+def _moves(compared: Mapping[str, Comparison]) -> Changes:
+    """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
     said = {}
     for kind, (words, axis, surfaces) in compared.items():
         fine = {
@@ -228,19 +229,34 @@ def _moves(compared: Mapping[str, Comparison]) -> Told:
             }
             moves = are_apart(best.values())
             places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
-            said[kind] = moves, f"{'changes' if moves else UNCHANGED} {words}: {places}"
+            said[kind] = moves, f"{words}: {'changes' if moves else UNCHANGED} ({places})."
     return said
 
 
-def _conclusions(told: Mapping[Quantity, Told]) -> Iterator[str]:
-    """Say what changes with l, however the lattice is refined or in some ways, and with l_z."""
-    lattice: dict[str, list[str]] = {"in every refinement below": [], "in some": [], "in none": []}
-    for (name, unit), said in told.items():
-        changes = [changed for kind, (changed, _) in said.items() if kind != "layer"]
-        if changes and unit != "blocks":
-            every, some, none = lattice.values()
-            (every if all(changes) else some if any(changes) else none).append(name)
-    layer = [name for (name, _), said in told.items() if said.get("layer", (False, ""))[0]]
-    parts = [f"{listed(names)} {how}" for how, names in lattice.items() if names]
-    yield f"**The spacing l of the lattice changes {'; '.join(parts)}.**"
-    yield f"**The thickness l_z of the layer changes {listed(layer) or 'none of these'}.**"
+def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
+    """Say what changes with l, in all refinements of the lattice or in some, and with l_z."""
+    every, some, none, layer = (list[str]() for _ in range(4))
+    for (name, unit), by_comparison in changed.items():
+        moves = {kind: has_moved for kind, (has_moved, _) in by_comparison.items()}
+        if unit != "blocks":  # the same in µm is among them
+            if moves.pop("layer", False):
+                layer.append(name)
+            if moves:
+                place = every if all(moves.values()) else some if any(moves.values()) else none
+                place.append(name)
+    cases = {"in every case below": every, "in some cases": some, "in no case": none}
+    of_lattice = "; ".join(f"{how}, {_grouped(names)}" for how, names in cases.items() if names)
+    return (
+        f"**Refining the lattice changes**, {of_lattice}. **A thicker layer changes** "
+        f"{_grouped(layer) or 'none of these'}."
+    )
+
+
+def _grouped(names: Sequence[str]) -> str:
+    """List names, those on the same pillars together."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        what, on, where = name.partition(" on pillars")
+        found.setdefault(on + where, []).append(what)
+    parts = [listed(group) + where for where, group in found.items()]
+    return ", and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))

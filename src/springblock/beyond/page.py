@@ -6,7 +6,7 @@ from springblock.analysis.correlation import LAST
 from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
 from springblock.beyond.question import Ensembles
 
-#: A module per question; the page has its answer at the place of the module's name.
+#: A module per question, in the order of the page's sections.
 QUESTIONS = {
     "lattice": lattice,
     "peaks": peaks,
@@ -20,12 +20,14 @@ _PAGE = Path(__file__).with_name("page.md")
 
 
 def page(ensembles: Ensembles) -> str:
-    """Write the page: each question, its answer, and the numbers behind it."""
-    answers = {}
-    for name, module in QUESTIONS.items():
-        conclusion, *rest = [*module.answers(ensembles)] or [
+    """Write the page: first the answers, then how each was obtained and the values behind it."""
+    answers, values = [], {}
+    for i, (name, module) in enumerate(QUESTIONS.items(), 1):
+        answer, *rest = [*module.answers(ensembles)] or [
             f"**Not answered**: this needs the {module.NEEDS}."
         ]
-        answers[name] = conclusion, "\n\n".join(rest)
+        answers.append(f"{i}. {answer}")
+        values[name] = "\n\n".join(rest)
     text = _PAGE.read_text(encoding="utf-8")
-    return text.format(last=LAST, shuffles=clusters.SHUFFLES, far=variance.FAR, **answers)
+    constants = {"last": LAST, "shuffles": clusters.SHUFFLES, "far": variance.FAR}
+    return text.format(answers="\n".join(answers), **constants, **values)

@@ -48,21 +48,22 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         return
     shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
     contrasts = {key: difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
-    more, less = _told_apart(list(contrasts.values()))
+    more, less = _significant(list(contrasts.values()))
     most = max(found, key=lambda key: float(found[key][0.0].mean()))
     yield (
-        f"**The lesser load peak is more prominent when sliding along the grooves than across them "
-        f"on {more} of {len(found)} surfaces, less on {less}; it is most prominent with "
-        f"n_p2 = {most.n_p2} and n_s2 = {most.n_s2}: "
-        f"{number(mean_interval(found[most][0.0]), ' %')} of the largest force.**"
+        f"**The lesser load peak is more prominent when sliding along the grooves than across "
+        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. It is most "
+        f"prominent with pawls of {most.n_p2} and grooves of {most.n_s2} blocks: "
+        f"{number(mean_interval(found[most][0.0]), ' %')} of the largest force."
     )
     pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
     on_pillars = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
     if on_pillars:
-        more, less = _told_apart(on_pillars)
+        more, less = _significant(on_pillars)
         yield (
-            "**Hierarchy**: along the same grooves it is more prominent on pillars than over the "
-            f"whole surface in {more} of {len(on_pillars)} cases, less in {less}."
+            "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
+            f"over the whole surface in {more} of {len(on_pillars)} cases, and less prominent in "
+            f"{less}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
@@ -72,7 +73,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield markdown_table(header, lines)
 
 
-def _told_apart(differences: Sequence[Interval]) -> tuple[int, int]:
+def _significant(differences: Sequence[Interval]) -> tuple[int, int]:
     """Count differences above zero and below it, by their intervals."""
     above = [bool(each.low > 0.0) for each in differences]
     below = [bool(each.high < 0.0) for each in differences]

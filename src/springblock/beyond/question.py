@@ -1,4 +1,4 @@
-"""Realisations that questions are about, and how numbers are written."""
+"""Realisations by scene, and the format of numbers, for questions beyond the paper."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from operator import attrgetter, itemgetter
@@ -11,7 +11,7 @@ from springblock.io.records import Record
 from springblock.model.scene import Scene
 
 _DIGITS = 5  #: after the point, at most
-UNCHANGED = "shows no significant change"
+UNCHANGED = "does not change significantly"
 
 T = TypeVar("T")
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
@@ -68,16 +68,19 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
-def change(first: Interval, last: Interval) -> str:
-    """Say how a value changes and from what to what."""
-    return f"{direction(first, last)} from {number(first)} to {number(last)}"
+def change(first: Interval, last: Interval, unit: str = "", at: tuple[str, str] = ("", "")) -> str:
+    """Say how a value changes, from the first to the last place, which `at` names."""
+    before, after = f"{number(first, unit)}{at[0]}", f"{number(last, unit)}{at[1]}"
+    verb = direction(first, last)
+    values = f"({before}, {after})" if verb == UNCHANGED else f"from {before} to {after}"
+    return f"{verb} {values}"
 
 
 def direction(first: Interval, last: Interval) -> str:
-    """Say whether a value changes, by whether both 95 % intervals are apart."""
+    """Say whether a value changes significantly: its 95 % intervals do not overlap."""
     if last.high < first.low:
-        return "falls"
-    return "grows" if last.low > first.high else UNCHANGED
+        return "decreases"
+    return "increases" if last.low > first.high else UNCHANGED
 
 
 def listed(names: Sequence[str]) -> str:

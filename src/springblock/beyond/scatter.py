@@ -1,4 +1,4 @@
-"""What the scatter of thresholds does to the decay of correlation and to the lowest friction."""
+"""Decay of correlation and lowest friction by the scatter of thresholds."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -70,10 +70,10 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     said = []
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()
-        said.append(f"{change(first, last)} blocks on pillars of n_p = {n_p}")
+        said.append(f"{change(first, last, ' blocks')} on pillars of n_p = {n_p}")
     stays = f"{UNCHANGED}: {minima[0]}"
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
-        f"**From a scatter of {least:g} to {most:g} the decay length {listed(said)}; "
-        f"the friction-minimising n_p {then}.**"
+        f"**When the scatter of the thresholds increases from {least:g} to {most:g}**, the decay "
+        f"length {listed(said)}; the friction-minimising n_p {then}."
     )

@@ -14,6 +14,7 @@ from springblock.simulation.run import Array
 
 NEEDS = "groups grooves and angles"
 _FAR = 3  #: blocks, the paper's lower bound of l_c
+_EDGES = {"sides": "sides of pillars", "grooves": "edges of grooves"}
 
 
 def by_angle(ensembles: Ensembles) -> dict[float, Sequence[Record]]:
@@ -45,15 +46,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header = ["edge", "angle", "c(1)", f"c({_FAR})", "decay length (blocks)", "realisations"]
     places = {angle: edges(runs) for angle, runs in found.items()}
     said, lines = [], []
-    for edge in ("sides", "grooves"):
+    for edge in _EDGES:
         for angle, times in places.items():
             close, far = (number(at(times[edge], r)) for r in (1, _FAR))
             length = number(decay_length(times[edge], LAST))
-            lines.append([edge, f"{angle:g}°", close, far, length, str(len(found[angle]))])
+            lines.append([_EDGES[edge], f"{angle:g}°", close, far, length, str(len(found[angle]))])
         first, last = (at(places[angle][edge], _FAR) for angle in (min(places), max(places)))
-        said.append(f"{change(first, last)} along {edge}")
+        said.append(f"{change(first, last)} along {_EDGES[edge]}")
     yield (
-        "**As sliding turns from along an edge to across it, the correlation of detachments "
-        f"{_FAR} blocks apart along the edge {listed(said)}.**"
+        "**When the sliding direction turns from along an edge to across it**, the correlation of "
+        f"detachments {_FAR} blocks apart along the edge {listed(said)}."
     )
     yield markdown_table(header, lines)

@@ -7,7 +7,7 @@ import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
+from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, listed, number
 from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
 from springblock.model.scene import Scene
@@ -64,21 +64,22 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     """Sentences and a table in Markdown; none without what `NEEDS` names."""
     found = by_pattern(ensembles)
     if found:
-        told = "; ".join(f"{name(pattern)}: {_law(sizes)}" for pattern, sizes in found.items())
+        laws = listed([_law(*each) for each in found.items()])
         yield (
-            "**The variance of static friction between realisations goes with n^-x, n = N² blocks; "
-            f"independent blocks have x = 1. {told}.**"
+            "**The variance of static friction between realisations is proportional to n^-x**, "
+            f"where n = N² blocks and x = 1 for independent blocks. We find {laws}."
         )
         header = ["surface", "N", "static friction", "variance / 1e-6", "realisations"]
         yield markdown_table(header, [line for each in found.items() for line in _lines(*each)])
 
 
-def _law(sizes: Mapping[int, Array]) -> str:
+def _law(pattern: Pattern, sizes: Mapping[int, Array]) -> str:
+    where = f"on pillars with {name(pattern)}" if any(pattern) else "on flat surfaces"
     if misfit(sizes) > FAR:
-        return "no power law"
+        return f"no power law {where}"
     power = exponent(sizes)
-    alike = "as" if power.low <= 1.0 <= power.high else "unlike"
-    return f"x = {number(power)}, {alike} independent blocks"
+    differs = "not " if power.low <= 1.0 <= power.high else ""
+    return f"x = {number(power)} {where} ({differs}significantly different from 1)"
 
 
 def _lines(pattern: Pattern, sizes: Mapping[int, Array]) -> Iterator[Sequence[str]]:

@@ -17,7 +17,7 @@ from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
 from springblock.model.material import Material
 
-#: What models are called, in the order of what they contain.
+#: Names of the models on the page, each with one effect more than the last.
 NAMES = {
     "independent": "stress alone",
     "quasi_static": "load transfer",
@@ -48,13 +48,13 @@ def page(
 
 
 def written(values: ArrayLike, digits: int) -> str:
-    """Return the mean of values with its 95 % interval, as pages have it."""
+    """Format the mean of values with its 95 % interval."""
     mean, low, high = (f"{value:.{digits}f}" for value in mean_interval(values))
     return f"{mean} [{low}, {high}]"
 
 
 def _of_friction(table: pd.DataFrame) -> Fields:
-    """Return what the page says of static friction by size."""
+    """Return the fields on static friction by size of pillars."""
     sizes = table.groupby("n_p")
     means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
     error = (means["overshooting"] / means["simulation"] - 1.0).abs()
@@ -84,7 +84,7 @@ def _of_friction(table: pd.DataFrame) -> Fields:
 
 
 def _of_variants(table: pd.DataFrame) -> Fields:
-    """Return what it says of flat surfaces, other gaps, layers and scatter."""
+    """Return the fields on flat surfaces and on other gaps, layers and scatter."""
     flat = table[table["n_p"] == 0]
     pillars = table.drop(flat.index)
     cases = dict(iter(pillars.groupby(pillars.apply(_case, axis=1), sort=False)))
@@ -136,9 +136,9 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
     *simpler, _ = found.values()
     agree = [full in each.alike and len(each.alike) < len(sizes) for each in simpler]
     words = (
-        "the models agree from uneven stress on",
-        "the models agree from load transfer on",
-        "the models agree from overshoot on",
+        "all simpler models agree",
+        "the models with load transfer and with overshoot agree",
+        "the model with overshoot agrees",
         "none of the simpler models agrees",
     )
     first = next(i for i in range(len(words)) if all(agree[i:]))
@@ -148,25 +148,26 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
     return fill(
         f"- **{name}**: friction is lowest at n_p = {full}{bound}; {words[first]}. At this "
         f"size load transfer changes friction by {changes[0]} %, overshoot by {changes[1]} %, and "
-        f"the step from there to the full model by {changes[2]} %.",
+        f"the other effects of the full model by {changes[2]} %.",
         width=100,
         subsequent_indent="  ",
     )
 
 
 def _of_budget(table: pd.DataFrame) -> Fields:
-    """Return what it says of the forces on edges and core."""
+    """Return the fields on the forces on edges and core."""
     lines = []
     for direction, model in product(_ALONG, ("simulation", "overshooting")):
         rows = table[(table["direction"] == direction) & (table["model"] == model)]
         runs = np.array([_milestones(run) for _, run in rows.groupby("seed")])
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[direction], NAMES[model], *cells])
-    header = ["grooves", "model", "edges, at most", "at (µs)", "edges later", "core, at most"]
+    header = ["grooves", "model", "edges, largest", "at (µs)", "edges, at core's largest"]
+    header += ["core, largest", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
         "edge_share": table["edge_share"].iloc[0],
-        "budget": markdown_table([*header, "at (µs)", "load falls by (%)"], lines),
+        "budget": markdown_table(header, lines),
     }
 
 
@@ -185,7 +186,7 @@ def _milestones(run: pd.DataFrame) -> Array:
 
 
 def _of_pawls() -> Fields:
-    """Return what it says of the elasticity of the paper's pawls and grooves."""
+    """Return the fields on the elasticity of the paper's pawls and grooves."""
     paper = Material()
     along, across = (pawl(8, 2, is_across, paper) for is_across in (False, True))
     # stress on the rows next to edges that have overshot, over F_n
@@ -197,7 +198,7 @@ def _of_pawls() -> Fields:
 
 
 def _of_peaks(table: pd.DataFrame) -> Fields:
-    """Return what it says of predicted and measured load peaks."""
+    """Return the fields on predicted and measured load peaks."""
     tested = _surfaces(table[~table["trained"]])
     has_two, is_papers = tested["has_two"], tested["varied"] == ""
     papers, is_wide = tested[is_papers], tested["n_p2"].between(*_WIDE)
@@ -223,7 +224,7 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
 
 
 def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a row per surface and direction: its prediction and what is measured, over seeds."""
+    """Return a row per surface and direction: its prediction and the measured mean over seeds."""
     by_surface = table.groupby(_SURFACE, sort=False)
     found = by_surface["predicted"].first().reset_index()
     samples = [values for _, values in by_surface["measured"]]
@@ -240,7 +241,7 @@ def _score(surfaces: pd.DataFrame) -> str:
 
 
 def _confusion(tested: pd.DataFrame) -> str:
-    """Count what is predicted and measured, by constants and direction."""
+    """Tabulate predictions against measurements, by constants and direction."""
     words = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
     constant = tested["varied"].str.partition("=")[0]
     kinds = {
@@ -251,8 +252,8 @@ def _confusion(tested: pd.DataFrame) -> str:
     for name, part in {**kinds, "all": tested}.items():
         both = list(zip(part["should_have_two"], part["has_two"], strict=True))
         lines.append([name, *(str(both.count(it)) for it in ways)])
-    header = ["constants, direction", "two: predicted and measured", "predicted alone"]
-    return markdown_table([*header, "measured alone", "one: predicted and measured"], lines)
+    header = ["constants, direction", "two: predicted and measured", "only predicted"]
+    return markdown_table([*header, "only measured", "one: predicted and measured"], lines)
 
 
 def _prominences(tested: pd.DataFrame) -> str:

@@ -1,4 +1,4 @@
-"""Laws of friction from files: see `docs/howto.md`, "A law of one's own"."""
+"""Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
 
 import hashlib
 import inspect
