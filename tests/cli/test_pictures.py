@@ -49,8 +49,8 @@ def test_a_surface_is_shown(springblock, tmp_path):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["plot"], "figures are saved as .pdf, .png, .svg, not as '.avi'"),
-        (["animate"], "films are written as .gif or .mp4, not as '.avi'"),
+        (["plot"], "unknown type of figure; choose one of .pdf, .png, .svg"),
+        (["animate"], "unknown type of film; choose .gif or .mp4"),
     ],
 )
 def test_other_formats_are_refused(springblock, batch, tmp_path, words, sentence):

@@ -157,7 +157,7 @@ def test_a_caption_follows_the_grid():
     }
     source = FIGURES["figure_6"].source
     assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
-        "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
+        "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
         "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
@@ -165,7 +165,7 @@ def test_a_caption_follows_the_grid():
         "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
     )
     one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
-    assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."
+    assert one == "N = 120, sliding direction x. Flat surface (seed 7). Material of the paper."
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
     assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "

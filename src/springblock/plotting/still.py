@@ -11,23 +11,23 @@ from springblock.plotting.maps import draw_sliding
 from springblock.plotting.style import DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.run import Run
 
-RUN_CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
-maximum (dotted), and t_avg, the mean first detachment time (solid); share of blocks that detach in
-each sample interval; first detachment times t_det over t_max, block by block; displacements, where
-the run has kept snapshots."""
+RUN_CAPTION = """Friction force over the normal force and share of blocks that detach in each sample
+interval, against time; first detachment time t_det over t_max of each block; displacements, if the
+run has snapshots. One run. Dotted line: t_max, the time of the force maximum; solid line: t_avg,
+the mean first detachment time."""
 
-SURFACE_CAPTION = """A surface: blocks in contact with the substrate, dark, and others, light, as
-the solver takes them; a) all of it, b) single blocks from the first corner of the contact on. The
-arrow shows where the slider goes."""
+SURFACE_CAPTION = """Blocks in contact with the substrate (dark) and out of contact (light), from
+the mask used by the solver: a) the whole surface; b) single blocks from the first corner of the
+contact on. Arrow: sliding direction."""
 
-_SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
+_SNAPSHOTS = 4  #: largest number shown: the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 
 @journal
 def plot(run: Run) -> Figure:
-    """Draw what a run holds: force, detachments, the map of t_det, and snapshots if any.
+    """Draw force, detachments, the map of t_det and any snapshots of a run.
 
     A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
     `%matplotlib inline`.
