@@ -16,7 +16,7 @@ def quicker(monkeypatch):
 def test_a_run_is_plotted_with_its_caption(springblock, batch, tmp_path, suffix):
     picture = tmp_path / f"run{suffix}"
     springblock("plot", batch(0, 1), "--output", picture)
-    assert b"One run. Friction force over the normal force" in picture.read_bytes()
+    assert b"Friction force over the normal force" in picture.read_bytes()
 
 
 def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
@@ -26,7 +26,7 @@ def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
     first, zero, one = (picture.read_text() for picture in pictures)
     assert first == zero != one
     refusal = springblock("plot", batch(0, 1), "--seed", 2, "--output", "a.png", refused=True)
-    assert refusal.endswith("0-1.parquet holds no run of seed 2; there are 0, 1")
+    assert refusal.endswith("0-1.parquet has no run with seed 2; choose one of 0, 1")
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".mp4"])
