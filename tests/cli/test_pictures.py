@@ -65,4 +65,4 @@ def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path)
     words = ("--over", "slider_velocity", "--output", tmp_path / "a.svg")
     assert springblock("plot", slow, fast, *words) == ""
     told = springblock("plot", slow, fast, batch(0, 2, "--n-p", 6, "--n-s", 6), *words)
-    assert told == "Left out: 3 realisations of surfaces with one slider_velocity alone\n"
+    assert told == "Left out: 3 realisations of surfaces with a single slider_velocity\n"

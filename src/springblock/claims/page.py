@@ -159,26 +159,26 @@ def _section(number: int, part: Sequence[Row]) -> str:
 
 
 def _opened(part: Sequence[Row]) -> list[str]:
-    """List the findings, if there are several, and the data, below a line that opens them."""
-    statistics = {row["statistic"] for row in part}
-    if not part[1:]:
-        title, table = "Data", []
-    else:
-        shared = f": {part[0]['statistic']}" if len(statistics) == 1 else ""
-        value = f"value [95 % interval together, {100.0 - 5.0 / len(part):.4g} % alone]"
-        header = ["case", *([] if shared else ["statistic"]), value, "claimed", "outcome"]
-        cells = [
-            [row["case"], *([] if shared else [row["statistic"]]), *_cells(row)] for row in part
-        ]
-        title, table = f"{len(part)} findings{shared}", [markdown_table(header, cells)]
+    """Name the data and, if there are several findings, list these, in a part that opens."""
     sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
     data = f"Data: {', '.join(f'`{source}`' for source in sources)}"
-    return [f"<details><summary>{title}</summary>", *table, data, "</details>"]
+    if not part[1:]:
+        return [data]
+    shared = len({row["statistic"] for row in part}) == 1
+    title = f"{len(part)} findings" + (f": {part[0]['statistic']}" if shared else "")
+    value = f"value [95 % interval together, {100.0 - 5.0 / len(part):.4g} % alone]"
+    header = ["case", "statistic", value, "claimed", "outcome"]
+    lines = [header, *map(_cells, part)]
+    if shared:  # by the title
+        lines = [[first, *rest] for first, _, *rest in lines]
+    table = markdown_table(lines[0], lines[1:])
+    return [f"<details><summary>{title}</summary>", table, data, "</details>"]
 
 
 def _cells(row: Row) -> list[str]:
     needed = f": {_needed(row)}" if row["outcome"] == "open" else ""
-    return [_value(row), _range(row), f"{row['outcome']}{needed}"]
+    outcome = f"{row['outcome']}{needed}"
+    return [row["case"], row["statistic"], _value(row), _range(row), outcome]
 
 
 def _value(row: Row) -> str:
