@@ -61,7 +61,13 @@ SURFACE = [
     click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
     click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
     click.option("--along-3", type=click.Choice("xy"), help="Axis of these grooves; y by default."),
-    click.option("--edges", type=click.Choice(EDGES), default="free", show_default=True),
+    click.option(
+        "--edges",
+        type=click.Choice(EDGES),
+        default="free",
+        show_default=True,
+        help="Edges of the surface.",
+    ),
     click.option(
         "--mask",
         type=INPUT,
