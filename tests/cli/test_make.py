@@ -25,7 +25,9 @@ def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
     (text := tmp_path / "text").write_text("text")
     for name, files in (("stability", [text]), ("accuracy", [text]), ("collect", [])):
         words = ("make", name, *files, "--output", tmp_path / "output")
-        assert f"Error: {name} takes " in springblock(*words, refused=True)
+        assert f"Error: {name}: {len(files)} files given; give " in springblock(
+            *words, refused=True
+        )
 
 
 @pytest.mark.parametrize("word", ["agrees", "drifts"])

@@ -16,7 +16,7 @@ def quicker(monkeypatch):
 def test_a_run_is_plotted_with_its_caption(springblock, batch, tmp_path, suffix):
     picture = tmp_path / f"run{suffix}"
     springblock("plot", batch(0, 1), "--output", picture)
-    assert b"One run. Friction force over the normal force" in picture.read_bytes()
+    assert b"Friction force over the normal force" in picture.read_bytes()
 
 
 def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
@@ -26,7 +26,7 @@ def test_the_seed_chooses_the_run(springblock, batch, tmp_path):
     first, zero, one = (picture.read_text() for picture in pictures)
     assert first == zero != one
     refusal = springblock("plot", batch(0, 1), "--seed", 2, "--output", "a.png", refused=True)
-    assert refusal.endswith("0-1.parquet holds no run of seed 2; there are 0, 1")
+    assert refusal.endswith("0-1.parquet has no run with seed 2; choose one of 0, 1")
 
 
 def test_fields_are_mapped_alone(springblock, tmp_path):
@@ -61,8 +61,8 @@ def test_a_surface_is_shown(springblock, tmp_path):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["plot"], "figures are saved as .pdf, .png, .svg, not as '.avi'"),
-        (["animate"], "films are written as .gif or .mp4, not as '.avi'"),
+        (["plot"], "unknown type of figure; choose one of .pdf, .png, .svg"),
+        (["animate"], "unknown type of film; choose .gif or .mp4"),
     ],
 )
 def test_other_formats_are_refused(springblock, batch, tmp_path, words, sentence):
@@ -77,4 +77,4 @@ def test_what_has_nothing_to_be_drawn_over_is_told(springblock, batch, tmp_path)
     words = ("--over", "slider_velocity", "--output", tmp_path / "a.svg")
     assert springblock("plot", slow, fast, *words) == ""
     told = springblock("plot", slow, fast, batch(0, 2, "--n-p", 6, "--n-s", 6), *words)
-    assert told == "Left out: 3 realisations of surfaces with one slider_velocity alone\n"
+    assert told == "Left out: 3 realisations of surfaces with a single slider_velocity\n"

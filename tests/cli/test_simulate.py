@@ -24,7 +24,7 @@ ONE = ("--first-seed", 3, "--last-seed", 3)
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_integrator_is_compiled(springblock, integrator):
     said = springblock("compile", "--integrator", integrator, "--law", "slip_weakening")
-    assert said == f"{integrator} is compiled with the law slip_weakening\n"
+    assert said == f"compiled: {integrator} with the friction law slip_weakening\n"
 
 
 @pytest.fixture
@@ -87,10 +87,10 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
     ("words", "sentence"),
     [
         (["--first-seed", -1], "'--first-seed': -1 is not in the range 0<=x<=10"),
-        (["--last-seed", 2], "2 comes before --first-seed 3"),
+        (["--last-seed", 2], "--last-seed 2 is below --first-seed 3"),
         (["--step", 1e-6], "step = 1e-06 s is unstable: leapfrog needs less than 9.561e-08 s"),
         (["--first-seed", 2**63], "'--first-seed': 9223372036854775808 is not in the range 0<=x"),
-        (["--last-seed", 10**7], "a batch may have up to 1000000 seeds, not 9999998"),
+        (["--last-seed", 10**7], "9999998 seeds in a batch; choose up to 1000000"),
         (
             ["--step", 1e-30],
             "step = 1e-30 s is too short for a loading time of 0.0001656 s",

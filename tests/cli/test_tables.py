@@ -38,7 +38,7 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     folder, output = tmp_path / "files", tmp_path / "by.parquet"
     folder.mkdir()
     pq.write_table(pq.read_table(batch(0, 2)).select(["seed"]), folder / "other.parquet")
-    assert "no realisations in there" in springblock("table", folder, refused=True)
+    assert "no realisations found" in springblock("table", folder, refused=True)
     for i, file in enumerate((batch(0, 2), batch(0, 2), batch(0, 2, "--vary", "gamma=0"))):
         (folder / f"{i}.parquet").write_bytes(file.read_bytes())
     springblock("table", folder, "--by", "direction", "--of", "t_avg", "--output", output)
@@ -83,5 +83,5 @@ def test_ensembles_of_one_side_alone_are_named(springblock, batch, tmp_path):
 
 def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
     said = springblock("table", batch(0, 2), "--output", tmp_path / "a.txt", refused=True)
-    assert "a.txt must end in .csv or .parquet" in said
+    assert "a.txt: unknown type of file; choose .csv or .parquet" in said
     assert not (tmp_path / "a.txt").exists()

@@ -96,7 +96,7 @@ def test_fields_of_other_code_and_files_cut_short_are_set_aside(tmp_path):
 def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_path):
     words = ("aggregate", study.results / BATCH, "--configuration", "0", "--realisations", "3")
     said = springblock(*words, "--output", tmp_path / "a", refused=True)
-    assert said == "Error: the batches hold 2 realisations, not 3"
+    assert said == "Error: 2 realisations in the batches; expected 3"
 
 
 def test_each_flipped_bit_of_a_batch_is_noticed(study, rng):

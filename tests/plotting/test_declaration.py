@@ -157,7 +157,7 @@ def test_a_caption_follows_the_grid():
     }
     source = FIGURES["figure_6"].source
     assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
-        "N = 120, sliding direction x. Flat (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
+        "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
         "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
@@ -165,7 +165,7 @@ def test_a_caption_follows_the_grid():
         "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
     )
     one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
-    assert one == "N = 120, sliding direction x. Flat (seed 7). Material of the paper."
+    assert one == "N = 120, sliding direction x. Flat surface (seed 7). Material of the paper."
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
     assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
@@ -201,7 +201,9 @@ def refusal(*arguments: str) -> str:
 
 def test_a_name_that_is_no_figure_is_refused_with_those_that_are():
     sentence = refusal("figure_0", "--output", "figure.png")
-    assert sentence == f"Error: 'figure_0' is no figure; there are {', '.join(sorted(FIGURES))}"
+    assert (
+        sentence == f"Error: unknown figure 'figure_0'; choose one of {', '.join(sorted(FIGURES))}"
+    )
 
 
 def test_the_help_lists_figures_by_name_and_title():
@@ -216,14 +218,14 @@ def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
     found = ensembles(batches, "n_p", "n_s")
     assert set(found) == {(SIZE, SIZE), (SIZE, 2)}
     assert found[SIZE, 2][0].normal_force == NORMAL_FORCE
-    with pytest.raises(ValueError, match="several scenes have n_p, direction = "):
+    with pytest.raises(ValueError, match=r"n_p, direction = .* is not unique"):
         ensembles(batches, "n_p", "direction")
-    with pytest.raises(ValueError, match="several scenes have n_p = 6"):
+    with pytest.raises(ValueError, match="n_p = 6 is not unique"):
         ensembles(batches, "n_p")
     by_n_s = ensembles(batches, "n_s").items()
     assert [(n_s, len(group)) for n_s, group in by_n_s] == [(6, 1), (2, 1)]
     sentence = refusal("figure_5", *map(str, batches), "--output", "figure.png")
-    assert sentence.startswith("Error: one scene is drawn, not n_blocks-24/level-1/n_p-6/n_s-2/")
+    assert sentence.startswith("Error: several scenes: n_blocks-24/level-1/n_p-6/n_s-2/")
 
 
 def test_a_pattern_is_drawn_from_options(tmp_path):

@@ -185,9 +185,9 @@ def test_its_caption_names_what_is_ones_own():
     said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
     assert said == (
         "Sliding direction x. "
-        "Surface islands-1a2b3c4d n_rows = 6, periodic edges, N = 9 "
+        "Surface islands-1a2b3c4d, n_rows = 6, periodic edges, N = 9 "
         "(3 realisations, seeds 0 to 2). "
-        "Flat distribution=weibull, n_rows = 2, N = 4 (3 realisations, seeds 0 to 2); "
+        "Flat surface, distribution=weibull, n_rows = 2, N = 4 (3 realisations, seeds 0 to 2); "
         "mu_static from strong-00000000, N = 4 (3 realisations, seeds 0 to 2). "
         "Material of the paper, but distribution = uniform."
     )

@@ -57,8 +57,7 @@ def test_coulombs_law_is_where_weakening_takes_no_way():
 def test_the_caption_names_surfaces_and_seeds():
     runs = [row for speed in SPEEDS[:2] for row in rows(at(speed), 0.8, seeds=3)]
     said = sweep.caption(sweep.lines(runs, "slider_velocity"))
-    assert said.startswith("Means over realisations with their 95 % t intervals")
-    assert "N = 120, sliding direction x. Flat" in said
+    assert "N = 120, sliding direction x. Flat surface, " in said
     assert "slider_velocity=0.00025 (3 realisations, seeds 0 to 2)" in said
 
 
@@ -127,7 +126,8 @@ def test_a_direction_is_an_angle():
 
 
 @pytest.mark.parametrize(
-    ("over", "sentence"), [("speed", "'speed' is no axis; there are"), ("pressure", "is the same")]
+    ("over", "sentence"),
+    [("speed", "unknown axis 'speed'; choose one of"), ("pressure", "has the same value")],
 )
 def test_what_cannot_be_drawn_is_refused(two_lines, over, sentence):
     with pytest.raises(ValueError, match=sentence):

@@ -108,6 +108,15 @@ def test_links_headings_and_symbols_of_a_page_are_set():
     assert "<th><var>l<sub>c</sub></var></th>" in body
 
 
+def test_folded_parts_are_the_only_html_of_a_page():
+    text = "<details><summary>n_p <= 3</summary>\n\nb\n\n</details>\n\n<details><b>\n"
+    _, body = markup.rendered("a", text.replace("<=", "and"))
+    assert "<details><summary><var>n<sub>p</sub></var> and 3</summary>" in body
+    assert body.count("<details>") == body.count("</details>") == 1
+    _, body = markup.rendered("a", text)  # not a plain title
+    assert "<summary>" not in body
+
+
 def test_symbols_are_set_and_nothing_but_symbols():
     assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
     assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"

@@ -1,7 +1,7 @@
-"""The claims of the paper that the study can test, each with the statistic that tests it.
+"""The statements of the paper that the study can test, each with its statistics.
 
 Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the paper compares in
-words ("similar", "uniform", "the same"), the claimed range says how close is close enough.
+words ("similar", "uniform", "the same"), the claimed range gives the tolerance.
 """
 
 from operator import attrgetter
@@ -12,5 +12,5 @@ from springblock.claims.rule import Claim
 _CHAPTERS = stress, flat, pillars, sides, grooves, load_peaks
 _MADE = [made for chapter in _CHAPTERS for made in vars(chapter).values()]
 
-#: By the section of the paper that makes them, in the order of the chapters.
+#: In the order of the paper's sections and, within a section, of the chapters.
 CLAIMS = sorted((made for made in _MADE if isinstance(made, Claim)), key=attrgetter("section"))

@@ -1,7 +1,7 @@
-"""Grooved pillars: when sliding has two load peaks (section 3.3 of the paper).
+"""Grooved pillars: conditions for two load peaks (section 3.3 of the paper).
 
-t_det is taken over t_avg: where two load peaks are about as high, t_max is that of the one or of
-the other, and a share of it would mix two populations.
+t_det is divided by t_avg: where two load peaks are about equally high, t_max belongs to either, and
+t_det/t_max would mix two populations.
 """
 
 from collections.abc import Iterator
@@ -19,23 +19,23 @@ from springblock.claims.surfaces import ALONG, across, slid_both_ways
 from springblock.model.direction import degrees
 from springblock.model.scene import Scene
 
-_STANDS_OUT = 0.01  #: prominence of a load peak over the largest force, as in figure 9
+_STANDS_OUT = 0.01  #: smallest prominence of a load peak over the largest force, as in figure 9
 _TWO_PEAKS, _ONE_PEAK = (_STANDS_OUT, ranges.INF), (-ranges.INF, _STANDS_OUT)
-_LESSER = "prominence of the lesser load peak over the largest force"
-_MANIPULATED = (0.01, ranges.INF)  #: change over static friction
+_LESSER = "the prominence of the lesser peak over the largest force"
+_MANIPULATED = (0.01, ranges.INF)  #: relative change of static friction
 _ALONG_X = "surfaces with grooves of several lengths along the sliding direction"
 _GROOVES = "realisations of a grooved surface"
 _NO_HIERARCHY = "realisations of pillars with n_p of 4 or more, or of grooves without pillars"
 _WAYS = f"{_GROOVES} that slides along and across its grooves"
 _THREE_LEVELS = f"{_WAYS}, with a third level"
 _WITH_AND_WITHOUT = "pillars with grooves and without"
-_SUPPORTED = "time with a force above 95 % of its maximum"
-_LASTING = "time between a tenth and nine tenths of the detachments"
+_SUPPORTED = "the time above 95 % of the largest force"
+_LASTING = "the time from 10 to 90 % of detachments"
 _BARE_WAYS = "realisations of grooves without pillars that slide along and across them"
 
 
 def _bare_both_ways(evidence: Evidence) -> list[Scene]:
-    """Grooves without pillars that were slid along and across."""
+    """Return grooves without pillars that were slid along and across."""
     found = surfaces.bare_grooves(evidence.records)
     return [scene for scene in found if across(scene) in evidence.records]
 
@@ -48,18 +48,18 @@ def prominent(
     statistic: str = _LESSER,
     rank: int = 2,
 ) -> Finding:
-    """Mean prominence of the second most prominent load peak, or of another, in proportion."""
+    """Return the mean prominence of the load peak of a rank over the largest force."""
     found = samples.share([prominence(run.force, rank) for run in evidence.records[scene]])
     return found_on(scene, statistic, found, claimed, case=case)
 
 
 @claim("Two load peaks along grooves", "3.3", 9, _WAYS)
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """The transition from static to dynamic friction is characterized by two load peaks, if the
-    grooves are aligned with the sliding direction.
+    """“[...] the transition from static to dynamic friction is characterized by two load peaks
+    [...].”
 
-    Tested: in the mean realisation, the lesser peak stands out by more than 1 % of the largest
-    force.
+    Tested: when sliding along the grooves, the mean prominence of the lesser peak exceeds 1 % of
+    the largest force.
     """
     for scene in slid_both_ways(evidence.records):
         yield prominent(evidence, scene, _TWO_PEAKS)
@@ -67,27 +67,31 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Two load peaks only along grooves", "3.3", 9, _WAYS, "universal")
 def only_along(evidence: Evidence) -> Iterator[Finding]:
-    """The two load peaks appear only if the second level grooves are aligned with the sliding
-    direction.
+    """“The two load peaks appear only if the second level grooves are aligned with the sliding
+    directions.”
 
-    Tested: at any angle to them, the lesser peak stands out by less than 1 %.
+    Tested: at any angle to the grooves, the mean prominence of the lesser peak is below 1 % of the
+    largest force.
     """
     along = slid_both_ways(evidence.records)
     turned = [
         s for s in evidence.records if replace(s, direction=ALONG) in along and s not in along
     ]
     for scene in sorted(turned, key=lambda s: (degrees(s.direction), s.n_p2)):
-        case, name = {"degrees": degrees(scene.direction)}, f"{_LESSER}, with pawls of {scene.n_p2}"
+        case, name = (
+            {"degrees": degrees(scene.direction)},
+            f"{_LESSER}, pawls of {scene.n_p2} blocks",
+        )
         yield prominent(evidence, scene, _ONE_PEAK, case, name)
 
 
 @claim("Without hierarchy one load peak", "3.3", 9, _NO_HIERARCHY, "universal")
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
-    """Two load peaks need the concurrent presence of multiple length scales: hierarchy is
-    necessary.
+    """“[...] this effect is due to [...] the concurrent presence of multiple characteristic length
+    scales [...]. Hierarchy is necessary [...].”
 
-    Tested: on pillars without grooves, and on grooves without pillars, a lesser peak stands out by
-    less than 1 % of the largest force.
+    Tested: on pillars without grooves and on grooves without pillars, the mean prominence of the
+    lesser peak is below 1 % of the largest force.
     """
     for scene in surfaces.pillars(evidence.records):
         case = {"surface": f"pillars of {scene.n_p} blocks"}
@@ -98,12 +102,12 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Square pawls have one load peak", "3.3", 9, "realisations of square pawls", "universal")
 def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
-    """Hierarchy is necessary but not sufficient: an anisotropic shape of the second level is
-    another fundamental factor.
+    """“Hierarchy is necessary but not sufficient [...]. An anisotropic shape, similar to that of
+    the second-level patterns considered here, is another fundamental factor [...].”
 
-    Tested: on pillars cut by equal grooves in both directions, a lesser peak stands out by less
-    than 1 % of the largest force. The same for any bound below 1.3 %; with one above 2.1 %, which
-    grooves in one direction exceed with 2.8 %, it would hold.
+    Tested: on pillars cut by equal grooves in both directions, the mean prominence of the lesser
+    peak is below 1 % of the largest force. The verdict is the same for any bound below 1.3 %; with
+    one above 2.1 %, which grooves in one direction exceed with 2.8 %, the statement would hold.
     """
     for scene in surfaces.grooved(evidence.records, 3):
         if (scene.n_p2, scene.n_s2) == (scene.n_p3, scene.n_s3):
@@ -112,7 +116,11 @@ def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Edges detach before the core of grooved pillars", "3.3", 9, _WAYS)
 def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
-    """Edge regions and internal core have distinct dynamics; the boundary regions detach first."""
+    """“[...] two parts [...] with distinct dynamics: the edge regions where slip precursors
+    originate, and the internal core of the contact structures.”
+
+    Tested: the edges detach before the core.
+    """
     name = "t_det/t_avg of the core minus that of the edges"
     for along in slid_both_ways(evidence.records):
         inside, edges = surfaces.core(along.contact), surfaces.edge(along.contact)
@@ -127,8 +135,10 @@ def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Order of detachment on a grooved pillar", "3.3", 8, _GROOVES)
 def grooved_order(evidence: Evidence) -> Iterator[Finding]:
-    """Transversal sides detach first, then the external longitudinal ones, then the internal ones
-    along the grooves, then the internal regions of the pawls.
+    """“[...] starting from blocks located on the transversal side of the pillar, followed by those
+    on the longitudinal external one. Shortly after these, there is the detachment of the blocks
+    located along the longitudinal internal sides [...]. The last stage of detachment takes place in
+    the internal regions of the pawls.”
     """
     for scene, runs in slid_both_ways(evidence.records).items():
         scale = np.array([run.t_max / run.t_avg for run in runs])
@@ -139,7 +149,7 @@ def grooved_order(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
-    """Surfaces of three levels that were slid both ways, along x, with their case."""
+    """Yield surfaces of three levels that slide along x and were slid along y, with their case."""
     for scene in slid_both_ways(evidence.records, 3):
         way = "across" if scene.along_3 == "y" else "along"
         yield scene, {"third level": f"grooves {way} those of the second"}
@@ -162,22 +172,24 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("A load peak for every level", "5", 9, _THREE_LEVELS, "universal")
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
-    """In the presence of multiple scale levels, the effect is replicated at all size scales,
-    leading to multiple distinct peaks.
+    """“In the presence of multiple scale levels in the patterning, the effect is replicated at all
+    size scales, leading to a detachment phase characterized by multiple distinct peaks [...].”
 
-    Tested: on three levels the third most prominent peak stands out by more than 1 %.
+    Tested: with three levels, the mean prominence of the third most prominent peak exceeds 1 % of
+    the largest force.
     """
-    name = "prominence of the third most prominent load peak over the largest force"
+    name = "the prominence of the third peak over the largest force"
     for scene, case in _third_levels(evidence):
         yield prominent(evidence, scene, _TWO_PEAKS, case, name, rank=3)
 
 
 @claim("Hierarchy makes the transition rapid but smooth", "5", 9, _WITH_AND_WITHOUT)
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
-    """Multiple scale levels allow a rapid but smooth transition to sliding.
+    """“[...] multiple distinct peaks between which the surface is in a static friction condition
+    but also in a stressed state, allowing a rapid but smooth transition to sliding.”
 
-    Tested: against the same pillars without grooves, the force stays above 95 % of its maximum for
-    longer, and the blocks detach in less time.
+    Tested: compared with the same pillars without grooves, the force stays above 95 % of its
+    maximum for longer (smooth), and blocks detach in less time (rapid).
     """
     pairs = [(s, replace(s, n_p2=0, n_s2=0)) for s in slid_both_ways(evidence.records)]
     pairs = [pair for pair in pairs if pair[1] in evidence.records]
@@ -206,12 +218,12 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Fronts run faster along grooves", "1", 9, _BARE_WAYS)
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
-    """When the motion begins, grooves aligned with the sliding direction favor the rupture front
-    propagation. A result of the same paper of 2018.
+    """“When the motion begins, grooves aligned with the sliding direction favor the rupture front
+    propagation [...].” A result of the same paper of 2018.
 
-    Tested: from a tenth to nine tenths of the detachments it takes less time along the grooves.
+    Tested: the time from a tenth to nine tenths of the detachments is shorter along the grooves.
     """
-    name = f"{_LASTING}, along minus across, over t_max"
+    name = f"{_LASTING} over t_max, along minus across"
     for along in _bare_both_ways(evidence):
         scenes = along, across(along)
         yield samples.paired(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)
@@ -219,7 +231,7 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("The length of pillars changes static friction", "3.3", 9, f"two {_ALONG_X}", "existential")
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
-    """The global static friction can be manipulated by modifying the pillar length.
+    """“The global static friction [...] can be manipulated by modifying the pillar length [...].”
 
     Tested: it changes by more than 1 % from the shortest to the longest pillars.
     """
@@ -230,5 +242,6 @@ def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
             continue
         first, last = (samples.friction(evidence, scene) for scene in (shortest, longest))
         change = samples.magnitude(samples.relative(last, first, first))
-        name = f"static friction from n_p = {shortest.n_p} to {longest.n_p}, over the first"
-        yield found_on(shortest, f"change of {name}", change, _MANIPULATED, beside=[longest])
+        sizes = f"from n_p = {shortest.n_p} to {longest.n_p}"
+        name = f"the relative change of static friction {sizes}"
+        yield found_on(shortest, name, change, _MANIPULATED, beside=[longest])

@@ -1,7 +1,7 @@
 """Between two load peaks: grooved pillars that slide along their grooves (sections 3.3 and 4).
 
-Times are taken over t_avg: where two load peaks are about as high, t_max is that of the one or of
-the other, and a share of it would mix two populations.
+Statistics are over the runs with two load peaks, on surfaces where most runs have two. Times are
+divided by t_avg: where the peaks are about equally high, t_max belongs to either.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,42 +20,41 @@ from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
 _AT_VALLEY = "at the lowest force between the load peaks"
-_IN_SUCH_RUNS = " (runs with two load peaks)"
-_FEWEST = 4  #: surfaces that a trend with two lengths needs
+_FEWEST = 4  #: surfaces needed for a trend with two lengths
 _PEAKS = "realisations of a grooved surface, slid along and across, with two load peaks"
 _LENGTHS = "four surfaces with pawls and pillars of several lengths along the sliding direction"
 
 
 @dataclass(frozen=True)
 class Peaks:
-    """A run with two load peaks, the most prominent ones, by samples of its force."""
+    """The two most prominent load peaks of a run, as indices of its force curve."""
 
     run: Record
     first: int
-    valley: int  #: where the force between them is lowest
+    valley: int  #: of the lowest force between them
     second: int
 
     @property
     def lowest(self) -> float:
-        """Lowest force between the peaks, N."""
+        """Return the lowest force between the peaks, N."""
         return float(self.run.force[self.valley])
 
     @property
     def sliding(self) -> float:
-        """Force under which all blocks slide: the mean of mu_dynamic times the normal force, N."""
+        """Return the force when all blocks slide: mean mu_dynamic times the normal force, N."""
         return self.run.material.mu_dynamic * self.run.normal_force
 
     @property
     def additional(self) -> float:
-        """Growth of the force from the lowest until nine tenths of the blocks have detached, N."""
+        """Return the growth of the force from its lowest value to 90 % detachment, N."""
         detached = np.searchsorted(self.run.time, np.nanquantile(self.run.t_det, 0.9))
         return float(self.run.force[self.valley : detached + 1].max()) - self.lowest
 
 
 def both_peaks(run: Record) -> Peaks | None:
-    """Find the two most prominent load peaks; None with less than two.
+    """Find the two most prominent load peaks; None with fewer than two.
 
-    Both stand out by 1 % of the largest force or more.
+    Both have a prominence of 1 % of the largest force or more.
     """
     from scipy.signal import peak_prominences  # slow to load
 
@@ -71,7 +70,7 @@ Quantity = Callable[[Peaks], float]
 
 
 def with_both_peaks(records: Records, quantity: Quantity) -> Iterator[tuple[Scene, Array]]:
-    """A quantity of the runs that have two load peaks, (k,), on scenes where most runs have."""
+    """Yield a quantity of the runs with two load peaks, (k,), where most runs have two."""
     for scene, runs in records.items():
         found = [peaks for run in runs if (peaks := both_peaks(run))]
         sample = np.array([quantity(peaks) for peaks in found])
@@ -87,10 +86,10 @@ def _means(
     claimed: Range,
     reading: Case | None = None,
 ) -> Iterator[Finding]:
-    """Mean of a quantity over the runs with two load peaks, for one reading of the statement."""
+    """Yield the mean of a quantity over the runs with two load peaks, for one reading."""
     for scene, sample in with_both_peaks(slid_both_ways(evidence.records), quantity):
-        case, name = {**(reading or {}), **surfaces.case_of(scene)}, f"{statistic}{_IN_SUCH_RUNS}"
-        yield samples.found_on(scene, name, samples.mean(sample), claimed, case=case)
+        case = {**(reading or {}), **surfaces.case_of(scene)}
+        yield samples.found_on(scene, statistic, samples.mean(sample), claimed, case=case)
 
 
 def mean_between(statistic: str, claimed: Range) -> Callable[[Quantity], Test]:
@@ -104,34 +103,35 @@ def mean_between(statistic: str, claimed: Range) -> Callable[[Quantity], Test]:
 
 @claim("The second load peak sets static friction", "3.3", 9, _PEAKS)
 def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
-    """The global static friction is determined by the force reached at the second load peak.
+    """“The global static friction [...] is determined by the force reached at the second load peak
+    [...].”
 
-    Tested: it is the higher one in most realisations.
+    Tested: the second peak is the higher one in most realisations.
     """
 
     def higher(peaks: Peaks) -> float:
         return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
     for scene, sample in with_both_peaks(slid_both_ways(evidence.records), higher):
-        statistic = f"share of runs in which the second load peak is higher{_IN_SUCH_RUNS}"
+        statistic = "the share of runs with two load peaks in which the second is higher"
         yield samples.found_on(scene, statistic, samples.proportion(sample > 0.0), ranges.MOST)
 
 
 def mean_rate(run: Run) -> float:
-    """Detachments per second from the first to the last."""
+    """Return the mean detachment rate from the first detachment to the last, 1/s."""
     lasting = np.nanmax(run.t_det) - np.nanmin(run.t_det)
     return float(np.count_nonzero(np.isfinite(run.t_det)) / lasting)
 
 
 def quietest_rate(peaks: Peaks, share: float) -> float:
-    """Least rate of detachments between the load peaks, in a share of t_avg, over the mean rate."""
+    """Return the lowest detachment rate between the peaks over the mean one; window over t_avg."""
     width = share * peaks.run.t_avg
     counts = samples.rates(peaks.run, width)[peaks.first : peaks.second]
     return float(counts.min()) / (mean_rate(peaks.run) * width)
 
 
 def rate_between(peaks: Peaks) -> float:
-    """Rate of detachments between the load peaks over the mean rate."""
+    """Return the detachment rate between the load peaks over the mean rate."""
     run, first, second = peaks.run, peaks.first, peaks.second
     detached = run.detachments[first:second].sum()
     return float(detached / (mean_rate(run) * (run.time[second] - run.time[first])))
@@ -139,52 +139,54 @@ def rate_between(peaks: Peaks) -> float:
 
 @claim("A quiet phase between the load peaks", "3.3", 9, _PEAKS)
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """The transition is characterized by two load peaks separated by an intermediate quasi-static
-    phase.
+    """“[...] two load peaks separated by an intermediate quasi-static phase [...].”
 
-    Tested: detachments fall below half of their mean rate: in the quietest 5 % of t_avg between
-    the peaks, or from one peak to the other. In the quietest 1 % they also do so on surfaces
+    Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
+    peaks or from one peak to the other. In the quietest 0.01 t_avg it also does so on surfaces
     without two load peaks.
     """
-    name = "rate of detachments between the load peaks over the mean rate"
+    name = "the detachment rate between the load peaks over the mean rate"
     for part, quantity in (
-        ("its quietest 5 % of t_avg", partial(quietest_rate, share=0.05)),
-        ("all of it", rate_between),
+        ("the quietest 0.05 t_avg", partial(quietest_rate, share=0.05)),
+        ("the whole phase", rate_between),
     ):
-        reading = {"part of the phase": part}
+        reading = {"interval": part}
         yield from _means(evidence, name, quantity, ranges.FEWER_THAN_HALF, reading)
 
 
 def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
-    """Share of some contact blocks that have detached at the lowest force between load peaks."""
+    """Return the share of some contact blocks detached by the lowest force between the peaks."""
     times = peaks.run.t_det[blocks(peaks.run.scene.contact)]
     return float(np.mean(times <= peaks.run.time[peaks.valley]))  # NaN: never
 
 
 @claim("The edges make the first load peak", "3.3", 9, _PEAKS)
-@mean_between(f"share of the edges detached {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_between(f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
-    """Slip precursors lead to a faster detachment of the boundary regions and, consequently, to the
-    first load peak.
+    """Slip precursors lead “to a faster detachment of the boundary regions and, consequently, to
+    the first load peak.”
 
-    Tested: more than nine tenths of the edges have detached between the peaks. With a bound below
-    0.84 it would hold with pawls of 8 and of 10 blocks, with one above 0.92 with neither.
+    Tested: more than nine tenths of the edge blocks have detached at the lowest force between the
+    peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks, with
+    one above 0.92 with neither.
     """
     return share_detached(peaks, edge)
 
 
 @claim("The core rests between the load peaks", "4", 9, _PEAKS)
-@mean_between(f"share of the blocks off the edges yet to detach {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_between(f"the share of blocks off the edges at rest {_AT_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
-    """In the phase between load peaks the internal regions are still at rest.
+    """“In the phase between load peaks [...] the internal regions of the patterning are still at
+    rest [...].”
 
-    Tested: more than nine tenths of the blocks off the edges.
+    Tested: at the lowest force between the peaks more than nine tenths of the blocks off the edges
+    have yet to detach.
     """
     return 1.0 - share_detached(peaks, core)
 
 
 def slips_again(peaks: Peaks) -> float:
-    """Slips after the first, between the load peaks, of each block detached before their end."""
+    """Return the number of further slips between the load peaks per block detached by then."""
     run, between = peaks.run, slice(peaks.first, peaks.second)
     repeated = run.switches[between] - run.detachments[between]
     return float(repeated.sum() / np.count_nonzero(run.t_det <= run.time[peaks.valley]))
@@ -192,25 +194,24 @@ def slips_again(peaks: Peaks) -> float:
 
 @claim("What has detached slips again between the load peaks", "4", 9, _PEAKS)
 def stick_slip(evidence: Evidence) -> Iterator[Finding]:
-    """The regions involved by precursor events undergo a stick-slip motion after the first
-    detachment.
+    """“[...] the regions involved by precursors events undergo a stick-slip motion after the first
+    detachment.”
 
-    Tested: more than one further slip for every ten of their blocks, or for every two. Slips are
-    counted, not blocks, of which one may slip again several times.
+    Tested: between the load peaks there is more than one further slip per ten of the blocks that
+    have detached, or per two. One block may slip several times.
     """
-    name = "further slips between the load peaks per block detached at the lowest force"
-    for number, claimed in (("ten", ranges.MORE_THAN_NEGLIGIBLE), ("two", ranges.MOST)):
-        reading = {"further slips": f"more than one slip for every {number} blocks"}
-        yield from _means(evidence, name, slips_again, claimed, reading)
+    name = "the number of further slips between the load peaks per block detached by then"
+    for claimed in (ranges.MORE_THAN_NEGLIGIBLE, ranges.MOST):
+        yield from _means(evidence, name, slips_again, claimed, {"bound": claimed[0]})
 
 
 @claim("The surface stays stressed between the load peaks", "4", 9, _PEAKS)
 @mean_between(
-    "lowest force between the load peaks minus the mean mu_dynamic, over the normal force",
+    "the lowest force between the load peaks over the normal force, minus the mean mu_dynamic",
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Between the load peaks the whole contact surface is in a stressed state.
+    """Between the load peaks “the whole contact surface is in a stressed state [...].”
 
     Tested: it bears more than if all blocks slid; after the second peak it bears less.
     """
@@ -219,11 +220,11 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 
 @claim("A small additional force detaches the surface", "4", 9, _PEAKS)
 def small_force_suffices(evidence: Evidence) -> Iterator[Finding]:
-    """The stressed state can lead to full detachment in the presence of a small additional force.
+    """The stressed state “can lead to full detachment in the presence of a small additional force.”
 
-    Tested: from the lowest force between the load peaks until nine tenths of the blocks have
-    detached, it grows by less than a tenth of itself, or of the excess of static friction over the
-    mean mu_dynamic.
+    Tested: from its lowest value between the load peaks until nine tenths of the blocks have
+    detached, the force grows by less than a tenth of itself, or of the excess of static friction
+    over the mean mu_dynamic.
     """
 
     def over_lowest(peaks: Peaks) -> float:
@@ -232,17 +233,17 @@ def small_force_suffices(evidence: Evidence) -> Iterator[Finding]:
     def over_excess(peaks: Peaks) -> float:
         return peaks.additional / (float(peaks.run.force.max()) - peaks.sliding)
 
-    name = "growth of the force from the lowest between the load peaks until 90 % have detached"
+    name = "the growth of the force from between the peaks to 90 % detachment"
     for against, quantity in (
         ("the force itself", over_lowest),
         ("static minus dynamic friction", over_excess),
     ):
         reading = {"small against": against}
-        yield from _means(evidence, f"{name}, over {against}", quantity, ranges.NEGLIGIBLE, reading)
+        yield from _means(evidence, f"{name} over {against}", quantity, ranges.NEGLIGIBLE, reading)
 
 
 def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
-    """Slope of y with x beside that with another quantity; points, (k,), are drawn anew; BCa."""
+    """Return the slope of y with x at a fixed value of `beside`; points, (k,), resampled; BCa."""
     columns = np.stack([np.ones(len(x)), beside, x], axis=1)
 
     def of_points(weights: Array) -> Array:
@@ -255,11 +256,11 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
 
 @claim("The lengths control the interval between the load peaks", "3.3", 9, _LENGTHS)
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """The time interval between the first and the second peak is controlled by the difference
-    between the length scales.
+    """“The time interval between the first and the second peak is controlled by the difference
+    between the length scales.”
 
-    Tested: among pillars as long it is shorter with wider pawls, on surfaces where most runs have
-    two peaks. That it is longer on longer pillars does not need the difference.
+    Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs have
+    two peaks. Its growth with pillar length would not require the difference.
     """
 
     def apart(peaks: Peaks) -> float:
@@ -272,9 +273,8 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
         return
     y = np.array([sample.mean() for sample in found.values()])
     statistic = (
-        "change of the time between the load peaks over t_avg, mean of each surface, with n_p2 "
-        f"beside that with n_p; the interval is that over {len(found)} surfaces, which count as "
-        "realisations"
+        "the slope with n_p2, at fixed n_p, of the mean time between the load peaks over t_avg "
+        f"(interval over {len(found)} surfaces)"
     )
     change = partial_slope(n_p, n_p2, y) if min(map(len, found.values())) > 1 else UNKNOWN
     yield Finding({}, statistic, change, ranges.NEGATIVE, surfaces.in_files(*found), "1/block")

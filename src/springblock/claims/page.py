@@ -1,4 +1,4 @@
-"""The page of claims, written from their table."""
+"""The page of statements, written from the table `claims`."""
 
 import math
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from springblock.claims import register
+from springblock.claims.rule import capitalised, phrase
 from springblock.io.rows import Row, markdown_table
 
 _SECTIONS = {
@@ -23,7 +24,7 @@ _SECTIONS = {
 
 Part = tuple[int, list[Row]]  #: a statement's number, and its rows
 
-#: The rule, what the intervals are, and what is not tested.
+#: The rule, the intervals, and the statements that are not tested.
 _PAGE = Path(__file__).with_name("page.md")
 
 
@@ -38,7 +39,7 @@ def page(table: Sequence[Row]) -> str:
 
 
 def numbered_parts(table: Sequence[Row]) -> list[Part]:
-    """Rows of each statement, beside its number on the page."""
+    """Return the rows of each statement with its number on the page."""
     parts = groupby(table, key=itemgetter("claim"))
     return [(number, list(part)) for number, (_, part) in enumerate(parts, 1)]
 
@@ -46,7 +47,15 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     earlier, parts = register.verdicts(), []
-    header = ["statement", "form", "verdict", "earlier seeds", "1.0.0", "what decided it"]
+    header = [
+        "statement",
+        "form",
+        "verdict",
+        "earlier seeds",
+        "1.0.0",
+        "deciding finding",
+        "claimed",
+    ]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
         for number, part in group:
@@ -54,41 +63,54 @@ def _contents(numbered: Sequence[Part]) -> list[str]:
             before = earlier.get(first["claim"], {})
             link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
             old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
-            lines.append([link, first["form"], verdict, *old, decided(part)])
+            found = _deciding(part)
+            said = (
+                [f"{_in_words(found, part)}.", _range(found)] if found else [_missing(first), "–"]
+            )
+            lines.append([link, first["form"], verdict, *old, *said])
         parts += [f"### Section {section}: {_SECTIONS[section]}", markdown_table(header, lines)]
     return parts
 
 
 def anchor(heading: str) -> str:
-    """The anchor that Markdown gives to a heading."""
+    """Return the anchor that Markdown gives to a heading."""
     kept = "".join(c for c in heading.lower() if c.isalnum() or c in " -_")
     return kept.replace(" ", "-")
 
 
 def decided(part: Sequence[Row]) -> str:
-    """Where a statement holds and fails, and the finding that decided its verdict.
+    """Say where a statement holds and fails, and what the finding that decided its verdict is."""
+    found = _deciding(part)
+    if found is None:
+        return _missing(part[0])
+    settled = f"; {_needed(found)}" if found["outcome"] == "open" else ""
+    sentence = f"{_in_words(found, part)} (claimed: {_range(found)}){settled}."
+    return f"{part[0]['boundary']} {sentence}".strip()
 
-    That is the one nearest to failing, the one that fails most clearly, or the open one that needs
-    the most realisations.
+
+def _missing(row: Row) -> str:
+    return f"{row['rests_on'].capitalize()}."
+
+
+def _deciding(part: Sequence[Row]) -> Row | None:
+    """Return the finding that decided the verdict, None without any.
+
+    That is the one with the smallest margin, the clearest failure, or the open one that needs the
+    most realisations.
     """
-    first = part[0]
-    if first["verdict"] == "not tested":
-        return f"{first['rests_on'].capitalize()}."
+    if part[0]["verdict"] == "not tested":
+        return None
     kind, choose, key = {
         "reproduced": ("holds", min, _clearness),
         "reproduced in part": ("fails", max, _clearness),
         "not reproduced": ("fails", max, _clearness),
         "not settled": ("open", max, lambda row: np.nan_to_num(row["needed"], nan=-1.0)),
-    }[first["verdict"]]
-    found = choose((row for row in part if row["outcome"] == kind), key=key)
-    sentence = _in_words(found, part)
-    if first["verdict"] == "not settled":
-        sentence += f"; {_needed(found)}"
-    return f"{first['boundary']} {sentence}.".strip()
+    }[part[0]["verdict"]]
+    return choose((row for row in part if row["outcome"] == kind), key=key)
 
 
 def _clearness(row: Row) -> float:
-    """Distance from the nearest edge of the claimed range, in the arm that points there."""
+    """Return the distance from the nearest limit of the range over the arm that points there."""
     value, low, high = row["value"], row["together_low"], row["together_high"]
     ways = []
     for limit in (row["claimed_low"], row["claimed_high"]):
@@ -99,17 +121,21 @@ def _clearness(row: Row) -> float:
 
 
 def _in_words(row: Row, part: Sequence[Row]) -> str:
-    """A finding, with what tells its case from those of the statement's others."""
+    """Write a finding as a sentence, with the keys of its case that its statement's others lack."""
     common = set.intersection(*(set(other["case"].split(", ")) for other in part))
-    case = ", ".join(key for key in row["case"].split(", ") if key not in common)
-    told_apart = f" ({case})" if case else ""
-    first, *rest = row["statistic"].split(" ")
-    statistic = " ".join([first.capitalize() if first.isalpha() else first, *rest])
-    return f"{statistic}{told_apart} is {_value(row)}, claimed {_range(row)}"
+    where = [key.split(" = ", 1) for key in row["case"].split(", ") if key not in common]
+    statistic = row["statistic"]
+    new = [pair for pair in where if not _says(statistic, *pair)]
+    subject = f"{' '.join(phrase(*pair) for pair in new)}, {statistic}" if new else statistic
+    return f"{capitalised(subject)}{',' if ',' in statistic else ''} is {_value(row)}"
+
+
+def _says(statistic: str, key: str, value: str) -> bool:
+    return f"{key} = {value}" in statistic or (value[0].isalpha() and value in statistic)
 
 
 def _needed(row: Row) -> str:
-    """How many realisations would settle an open finding."""
+    """Say how many realisations would settle an open finding."""
     wanted = row["needed"]
     if math.isnan(wanted):
         return "no interval"
@@ -121,27 +147,37 @@ def _needed(row: Row) -> str:
 
 def _section(number: int, part: Sequence[Row]) -> str:
     first = part[0]
-    lines = [
-        f"## {number}. {first['claim']}",
-        f"{first['statement']} (section {first['section']})",
-        f"Verdict on this {first['form']} statement: **{first['verdict']}**. {first['boundary']}",
-    ]
-    if first["verdict"] == "not tested":
-        lines[-1] += f"{first['rests_on'].capitalize()}."
-    else:
-        together = f" together, {100.0 - 5.0 / len(part):.4g} % alone" if part[1:] else ""
-        value = f"value [95 % interval{together}]"
-        header = ["case", "statistic", value, "claimed", "outcome"]
-        lines.append(markdown_table(header, [_cells(row) for row in part]))
-        sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
-        lines.append("\n".join(["Rests on", "", *(f"- {source}" for source in sources)]))
+    quoted, tested, criterion = first["statement"].partition(" Tested: ")
+    lines = [f"## {number}. {first['claim']}", f"{quoted} (section {first['section']})"]
+    lines += [f"Tested: {criterion}"] if tested else []
+    lines.append(
+        f"**{first['verdict'].capitalize()}** ({first['form']} statement). {decided(part)}"
+    )
+    if first["verdict"] != "not tested":
+        lines += _opened(part)
     return "\n\n".join(lines)
 
 
+def _opened(part: Sequence[Row]) -> list[str]:
+    """Name the data and, if there are several findings, list these, in a part that opens."""
+    sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
+    data = f"Data: {', '.join(f'`{source}`' for source in sources)}"
+    if not part[1:]:
+        return [data]
+    shared = len({row["statistic"] for row in part}) == 1
+    title = f"{len(part)} findings" + (f": {part[0]['statistic']}" if shared else "")
+    value = f"value [95 % interval together, {100.0 - 5.0 / len(part):.4g} % alone]"
+    header = ["case", "statistic", value, "claimed", "outcome"]
+    lines = [header, *map(_cells, part)]
+    if shared:  # by the title
+        lines = [[first, *rest] for first, _, *rest in lines]
+    table = markdown_table(lines[0], lines[1:])
+    return [f"<details><summary>{title}</summary>", table, data, "</details>"]
+
+
 def _cells(row: Row) -> list[str]:
-    outcome = row["outcome"]
-    if outcome == "open":
-        outcome += f": {_needed(row)}"
+    needed = f": {_needed(row)}" if row["outcome"] == "open" else ""
+    outcome = f"{row['outcome']}{needed}"
     return [row["case"], row["statistic"], _value(row), _range(row), outcome]
 
 

@@ -1,4 +1,4 @@
-"""Pillars of one length scale: edges first, the force maximum late, and what their size changes.
+"""Pillars of one length scale: the order of detachment, and the effect of pillar size.
 
 Section 3.2 of the paper; all pillars have n_s = n_p.
 """
@@ -22,22 +22,22 @@ from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
-_BORDER = 2  #: blocks from the edge: those on the border and those beside them
-_BROAD = 20  #: n_p from which on most blocks of a pillar are not of its border
-_CORE = 10  #: n_p from which on a pillar has an inside in which places differ
-_PATCH = 3  #: blocks, side of the patch that counts as a nucleation point
-#: Parts of a ring in the paper's order; for sliding along x the edges across are the sides along y.
-_RING = {"corners": "corners", "y": "edges across", "x": "edges along"}
+_BORDER = 2  #: width of the border, blocks: the outermost ones and those adjacent to them
+_BROAD = 20  #: n_p from which on most blocks of a pillar lie inside the border
+_CORE = 10  #: n_p from which on the inside of a pillar has a centre
+_PATCH = 3  #: side of the patch taken as a nucleation point, blocks
+#: Parts of a ring in the paper's order of detachment, for sliding along x.
+_RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PILLARS = "realisations of pillars with n_p of 4 or more"
 _SEVERAL = "realisations of several pillars with n_p of 4 or more"
 _CORED_PILLARS = f"realisations of pillars with n_p of {_CORE} or more"
 _BROAD_PILLARS = f"realisations of pillars with n_p of {_BROAD} or more"
-_PRECURSORS = "share of the contact blocks that detach before t_max"
-_SUPPORTED = "time with a force above 95 % of its maximum"
+_PRECURSORS = "the share of contact blocks that detach before t_max"
+_SUPPORTED = "the time with a force above 95 % of its maximum"
 _WIDTH = f"{_SUPPORTED} over t_max"
-_DURATION = "time between a tenth and nine tenths of the detachments"
-_RELEVANT = 6  #: n_p from which on the paper finds precursors numerically relevant
+_DURATION = "the time between a tenth and nine tenths of the detachments"
+_RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically relevant”
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SMALL = "realisations of the flat surface, of pillars with n_p <= 3 and of larger ones"
 _LARGEST = f"realisations of pillars with n_p of {_LARGE} or more"
@@ -53,12 +53,12 @@ _large = partial(pillars, smallest=_LARGE)
 
 @claim("All pillars are alike", "3.2", 4, _SEVERAL, "universal")
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    """With a margin of n_s/2 all pillars have the same average statistical properties for
-    n_p >= 4.
+    """With a margin of l_s/2 “all the pillars have the same average statistical properties [...]
+    for n_p >= 4.”
 
-    Tested: place explains less than a fifth of the variance of a pillar's mean t_det.
+    Tested: position explains less than a fifth of the variance of a pillar's mean t_det.
     """
-    name = "share of the variance of a pillar's mean t_det that its place explains (jackknife)"
+    name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
     for scene, runs in pillars(evidence.records).items():
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
         if times.shape[1] >= 2:
@@ -67,12 +67,13 @@ def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
-    """The border of a pillar and the ring inside it, where they have parts.
+    """Yield the border of a pillar and the second ring, as far as the pillar has them.
 
-    Each with masks over the pillar, (n_p, n_p), of its parts and of the centre, in claimed order.
+    Each with masks over the pillar, (n_p, n_p), of its parts and of the centre, in the paper's
+    order of detachment.
     """
     centre = np.logical_or.reduce(list(pillar_ring(n_p, (n_p - 1) // 2).values()))
-    for depth, name in enumerate(("border", "ring inside it")):
+    for depth, name in enumerate(("border", "second ring")):
         if 2 * (depth + 1) < n_p:
             ring = pillar_ring(n_p, depth)
             parts = {called: ring[side] for side, called in _RING.items()}
@@ -81,8 +82,10 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 @claim("Order of detachment on a pillar", "3.2", 5, _PILLARS)
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
-    """Corners detach first, then boundaries perpendicular to the sliding direction, then parallel
-    ones; the same on the blocks adjacent to them; the centre comes last.
+    """“First, regions on the corners detach, then those on the boundaries perpendicular to the
+    sliding direction, followed by those on the parallel boundaries. [...] This sequence is repeated
+    for the blocks adjacent to those on the borders. [...] the central part of the pillar [...] is
+    the last part detaching.”
 
     Tested: on average over pillars and realisations.
     """
@@ -94,11 +97,12 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 
 
 @claim("The order of detachment never changes", "3.2", 5, _PILLARS, "universal")
-@share_over(pillars, "share of the pillars whose parts detach in this order", ranges.NEARLY_ALL)
+@share_over(pillars, "the share of pillars whose parts detach in this order", ranges.NEARLY_ALL)
 def always_in_order(run: Record) -> float:
-    """The described detachment sequence always occurs, independently of statistical properties.
+    """“[...] the described detachment sequence always occurs, independently of statistical
+    properties.”
 
-    Tested: on more than nine tenths of the single pillars.
+    Tested: on more than nine tenths of the individual pillars.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -111,22 +115,22 @@ def always_in_order(run: Record) -> float:
 @claim("Edges detach before the force maximum", "3.2", 5, _PILLARS)
 @share_over(
     pillars,
-    "share of the blocks on the border or beside it that detach before t_max",
+    "the share of blocks on the border or adjacent to it that detach before t_max",
     ranges.NEARLY_ALL,
 )
 def edges_before_peak(run: Record) -> float:
-    """The detachments on the borders and on the blocks adjacent to them occur before the maximum of
-    the friction force.
+    """The detachments on the borders and on the blocks adjacent to them “occur before the maximum
+    of the friction force is reached and the global sliding begins”.
 
-    Tested: more than nine tenths of these blocks. With a bound below 0.74 it would hold for n_p of
-    7 and more.
+    Tested: more than nine tenths of these blocks detach before t_max. With a bound below 0.74 the
+    statement would hold for n_p of 7 and more.
     """
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     return float(early[:, surfaces.from_edge(run.scene.n_p) < _BORDER].mean())
 
 
 def near_border(run: Record) -> float:
-    """Share of the precursors that lie on the border of a pillar or beside it."""
+    """Return the share of the precursors on the border of a pillar or adjacent to it."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     border = surfaces.from_edge(run.scene.n_p) < _BORDER
     return samples.share_of(np.broadcast_to(border, early.shape), early)
@@ -134,22 +138,23 @@ def near_border(run: Record) -> float:
 
 @claim("Precursors are a region around the edge of pillars", "3.2", 5, _BROAD_PILLARS)
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """The sliding precursors are not only a few isolated blocks, but a whole region localized
-    around the edge of the pillar.
+    """“[...] the sliding precursors are not only a few isolated blocks, but a whole region
+    localized around the edge of the pillar.”
 
-    Tested: most lie within two blocks of the edge, and less than half are isolated.
+    Tested: most precursors lie in the two outermost rings of blocks, and less than half are
+    isolated.
     """
     for scene, runs in _broad(evidence.records).items():
         for what, quantity, claimed in (
-            ("on the border or beside it", near_border, ranges.MOST),
+            ("on the border or adjacent to it", near_border, ranges.MOST),
             ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
         ):
-            name = f"share of the blocks detached before t_max that are {what}"
+            name = f"the share of blocks detached before t_max that are {what}"
             yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
 
 
 def inside(run: Record) -> Array:
-    """t_det of the pillars without their borders, (pillars, n_p - 4, n_p - 4) s."""
+    """Return t_det of the pillars without their borders, (pillars, n_p - 4, n_p - 4) s."""
     inner = slice(_BORDER, -_BORDER)
     return np.stack([part[inner, inner] for part in pillars_of(run.t_det, run.scene)])
 
@@ -157,25 +162,26 @@ def inside(run: Record) -> Array:
 @claim("Detachment waves start near the edge of pillars", "3.2", 5, _BROAD_PILLARS)
 @share_over(
     _broad,
-    f"share of places inside the border that are nearer to it than the {_PATCH} x {_PATCH} blocks "
-    "detaching first",
+    "the share of positions inside the border that are nearer to it than the first "
+    f"{_PATCH} x {_PATCH} patch to detach",
     _OUTER_QUARTER,
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Detachment waves are triggered from nucleation points located near the edge.
+    """“[...] detachment waves are triggered from nucleation points located near the edge [...].”
 
-    Tested: in the outer quarter of what the border, two blocks wide, encloses. The same for borders
-    of 1 to 4 blocks and patches of 2 to 5; on the flat surface the first patch lies half way.
+    Tested: the first patch of 3 x 3 blocks to detach lies in the outer quarter of the area inside
+    the border, which is two blocks wide. The verdict is the same for borders of 1 to 4 blocks and
+    patches of 2 to 5; on the flat surface the first patch lies half way to the centre.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 @claim("The centre of pillars detaches last", "3.2", 5, _CORED_PILLARS)
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """The waves propagate towards the central part of the pillar, which is the last part
-    detaching.
+    """Detachment waves “propagate towards the central part of the pillar, which is the last part
+    detaching.”
     """
-    name = "t_det/t_max of the middle minus that of what lies between it and the border"
+    name = "t_det/t_max of the centre minus that of the area between it and the border"
     for scene, runs in pillars(evidence.records, _CORE).items():
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
@@ -188,28 +194,28 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
 @claim("t_max > t_avg on pillars", "3.2", 6, _PILLARS, "universal")
 @mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
 def peak_after_average(run: Record) -> float:
-    """The force peak always occurs after the average detachment time.
+    """“[...] the force peak always occurs after the average detachment time.”
 
-    Tested: on average over realisations, for every size of pillars.
+    Tested: on average over realisations, for every pillar size.
     """
     return run.t_max - run.t_avg
 
 
 @claim("The main front comes after t_max on very large pillars", "3.2", 6, _LARGEST)
 @share_over(
-    _large, "share of the blocks inside the border that detach after t_max", ranges.NEARLY_ALL
+    _large, "the share of blocks inside the border that detach after t_max", ranges.NEARLY_ALL
 )
 def front_after_peak(run: Record) -> float:
-    """On very large pillars, e.g. n_p = 60, the central part is involved in the main detachment
-    front after the time t_max.
+    """For very large pillars, e.g. n_p = 60, the central part “is involved in the main detachment
+    front after the time t_max.”
 
-    Tested: more than nine tenths of the blocks off the border detach after t_max.
+    Tested: more than nine tenths of the blocks inside the border detach after t_max.
     """
     return float(np.mean(inside(run) > run.t_max))
 
 
 def warning(run: Run) -> float:
-    """Time from the first detachment to t_max, over t_max: for how long there are precursors.
+    """Return the time from the first detachment to t_max, over t_max.
 
     Absolute times grow with the normal force on a block, which is larger on pillars.
     """
@@ -218,16 +224,17 @@ def warning(run: Run) -> float:
 
 @claim("Pillars with n_p <= 3 behave like a flat surface", "3.2", 6, _SMALL)
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """For n_p <= 3 the transition to sliding is similar to that of a non-patterned surface. Static
-    friction, which the paper allows to differ, is left out.
+    """For n_p <= 3 “the transition to sliding is similar to that for a non-patterned surface
+    [...].”
 
-    Tested: nearer to the flat surface than to the smallest pillars of n_p >= 6, from which on the
-    paper finds another transition.
+    Tested: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
+    nearer to those of the flat surface than to those of the smallest pillars of n_p >= 6, from
+    which on the paper finds another transition. It allows static friction to differ.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
-        "precursors": samples.before_peak,
-        "width of the force peak": samples.width,
+        "the share of precursors": samples.before_peak,
+        "the width of the force peak": samples.width,
     }
     small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     examples = list(pillars(evidence.records, _RELEVANT))[:1]
@@ -235,62 +242,66 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
             away = samples.magnitude(samples.position(*three))
-            statistic = f"{name}: distance from the flat surface, over that of n_p = {larger.n_p}"
+            over = f"over that at n_p = {larger.n_p}"
+            statistic = f"the difference in {name} from the flat surface, {over}"
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, larger)
             yield found_on(scene, statistic, away, claimed, beside=beside)
 
 
 def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Iterator[Finding]:
-    """What pillars have more of than the flat surface."""
+    """Yield the excess of each quantity on pillars over that on the flat surface."""
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, pillars(evidence.records, _RELEVANT)):
         for name, quantity in quantities.items():
-            statistic = f"{name}, minus that of the flat surface"
+            statistic = f"{name}, minus that on the flat surface"
             yield samples.compared(evidence, statistic, quantity, scene, flat)
 
 
 @claim("More and earlier precursors on pillars", "3.2", 6, _BOTH)
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """For n_p >= 6 the sliding precursors are numerically relevant and occur for a larger time
-    interval before t_max.
+    """“[...] for n_p >= 6 the sliding precursors are numerically relevant and occur for a larger
+    time interval before t_max.”
     """
-    time = "time from the first detachment to t_max over t_max"
+    time = "the time from the first detachment to t_max, over t_max"
     return _above_flat(evidence, {_PRECURSORS: samples.before_peak, time: warning})
 
 
 @claim("Rounded force peak on pillars", "3.2", 6, _BOTH)
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
-    """The force is no longer a sharp peak, and becomes rounded."""
+    """The shape of the force curve “is no longer a sharp peak, and becomes rounded.”"""
     return _above_flat(evidence, {_WIDTH: samples.width})
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
-    """Scene with the lowest mean static friction."""
+    """Return the scene with the lowest mean static friction."""
     return min(scenes, key=lambda scene: float(samples.friction(evidence, scene).mean()))
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
-    """Pillars by size, if there are three or more, the smallest of n_p <= 3."""
+    """Return pillars by size, if there are three sizes or more, the smallest with n_p <= 3."""
     found = list(pillars(evidence.records, 0))
     return found if len(found) >= 3 and found[0].n_p < surfaces.SMALLEST else []
 
 
 @claim("Lowest static friction at an intermediate n_p", "3.2", 6, _SIZES)
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
-    """The smallest static friction is obtained for a specific intermediate value of n_p; for very
-    large pillars it increases again.
+    """“[...] the smallest static friction is obtained for an specific intermediate value of n_p
+    [...].” For very large pillars “the static friction coefficient increases again”.
     """
     scenes = _of_all_sizes(evidence)
-    # those between are chosen by the same means: small differences would be overrated
+    # the size of the minimum is chosen by the same means: small differences would be overrated
     for end in (scenes[0], scenes[-1]) if scenes else ():
         lowest = _lowest(evidence, scenes[1:-1])
-        name = f"static friction at n_p = {end.n_p} minus the lowest between, at n_p = {lowest.n_p}"
+        name = f"static friction at n_p = {end.n_p} minus its minimum at n_p = {lowest.n_p}"
         yield samples.compared(evidence, name, samples.static_friction, end, lowest, case={})
 
 
 @claim("Sharper transition of very large pillars", "3.2", 6, _SIZES)
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """For very large pillars the transition is sharper than where static friction is lowest."""
+    """For very large pillars “the transition is sharper.”
+
+    Tested: the force peak is narrower than where static friction is lowest.
+    """
     scenes = _of_all_sizes(evidence)
     if scenes:
         lowest, largest = _lowest(evidence, scenes[:-1]), scenes[-1]
@@ -303,16 +314,17 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 @claim("Precursors are negligible on very large pillars", "3.2", 6, _LARGEST, "universal")
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
-    """For very large pillars, e.g. n_p = 60, the region characterized by sliding precursors becomes
-    negligible with respect to the surface area of the central part.
+    """For very large pillars, e.g. n_p = 60, “the region characterized by sliding precursors [...]
+    becomes negligible with respect to the surface area of the central part [...].”
 
-    Tested: less than a tenth of the blocks. The two outermost rings alone are 13 % at n_p = 60.
+    Tested: less than a tenth of the blocks are precursors. The two outermost rings alone hold 13 %
+    of the blocks at n_p = 60.
     """
     return samples.before_peak(run)
 
 
 def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
-    """Pillars of the sizes compared, by the scatter of mu_static, where all sizes are there."""
+    """Return pillars by the scatter of mu_static, where all sizes to be compared are there."""
     groups: dict[float, list[Scene]] = {}
     for scene in evidence.records:
         constants = dict(scene.varied)
@@ -324,21 +336,24 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 @claim("Static friction is lowest where n_p is about l_c", "3.2", 7, _SCATTERS)
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """When the characteristic correlation length is comparable to the total length of the pillars,
-    static friction is smallest.
+    """“[...] when the characteristic correlation length is comparable to the total length of the
+    pillars, a slip precursor can lead to [...] a globally smaller static friction.”
 
-    Tested: within a factor of two, for the paper's scatter of mu_static and for others, which
-    change l_c; among pillars of 3, 6, 10, 20 and 30 blocks, whose steps no interval counts, and
-    with l_c at n_p = 30, of exp(-r/l_c) and of A exp(-r/l_c).
+    Tested: the size of lowest static friction is within a factor of two of l_c, for the paper's
+    scatter of mu_static and for others, which change l_c. Sizes are 3, 6, 10, 20 and 30 blocks; the
+    intervals leave out this spacing. l_c is that at n_p = 30, of exp(-r/l_c) and of A exp(-r/l_c).
     """
     for scatter, scenes in _by_scatter(evidence).items():
         lowest, broad = _lowest(evidence, scenes), max(scenes, key=lambda s: s.n_p)
         runs, n_p = evidence.records[broad], lowest.n_p
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
-        for amplitude, (value, low, high) in (("1", fit.fitted), ("free", fit.tail)):
+        for curve, (value, low, high) in (
+            (ranges.PLAIN, fit.fitted),
+            (ranges.SCALED, fit.tail),
+        ):
             yield Finding(
-                {_SCATTER: scatter, "A": amplitude},
-                f"n_p = {n_p}, where static friction is lowest, over l_c at n_p = {broad.n_p}",
+                {_SCATTER: scatter, "fit": curve},
+                f"the size of lowest static friction, n_p = {n_p}, over l_c at n_p = {broad.n_p}",
                 Estimate(n_p / float(value), n_p / float(high), n_p / float(low), len(runs)),
                 ranges.COMPARABLE,
                 surfaces.in_files(*scenes),
@@ -346,30 +361,30 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
-    """Scenes whose static friction cannot be told from the lowest, by a 95 % interval."""
+    """Return the scenes whose static friction is not significantly above the lowest (95 %)."""
     least = samples.friction(evidence, _lowest(evidence, scenes))
     more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
     return [scene for scene in scenes if not more[scene].ci_low > 0.0]
 
 
 def _over_t_avg(quantity: Quantity) -> Quantity:
-    """The same time over t_avg in place of t_max.
+    """Divide a time by t_avg in place of t_max.
 
-    Where there are two load peaks, t_max is that of the earlier one or of the later.
+    Where there are two load peaks, t_max is that of either.
     """
     return lambda run: quantity(run) * run.t_max / run.t_avg
 
 
 def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterator[Finding]:
-    """Where static friction is lowest, a quantity is larger than on other pillars.
+    """Yield the excess of a quantity where static friction is lowest over other pillars.
 
-    Where several sizes may have the lowest, the interval holds those of all of them, and of one
-    of these sizes it is open above: it may be the one.
+    Where several sizes may have the lowest friction, the interval encloses those of all of them. On
+    these sizes themselves it has no upper end: each may be the one.
     """
     scenes = _of_all_sizes(evidence)
     lowest = _lowest_of(evidence, scenes) if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in lowest)
-    there = f"{name}, at n_p = {sizes}, where static friction is lowest, minus that here"
+    there = f"{name} at n_p = {sizes} (lowest friction)"
     for other in (scene for scene in scenes if lowest != [scene]):
         sample = over_runs(quantity, evidence.records[other])
         others = [over_runs(quantity, evidence.records[s]) for s in lowest if s != other]
@@ -377,36 +392,39 @@ def _largest_there(evidence: Evidence, name: str, quantity: Quantity) -> Iterato
         most = ranges.INF if other in lowest else max(each.ci_high for each in found)
         joint = replace(found[0], ci_low=min(each.ci_low for each in found), ci_high=most)
         source = surfaces.in_files(*lowest, other)
-        yield Finding(surfaces.case_of(other), there, joint, ranges.POSITIVE, source)
+        statistic = f"{there} minus that at n_p = {other.n_p}"
+        yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)
 
 
 @claim("The most precursors where static friction is lowest", "3.2", 6, _SIZES, "universal")
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """An optimal length scale of the pillars maximizes the occurrence of sliding precursors, so
-    that the static friction is minimized.
+    """“[...] an optimal length scale of the pillars [...] maximizes the occurrence of sliding
+    precursors, so that the static friction is minimized [...].”
 
-    Tested: against all other sizes, whichever of those that may have the lowest friction has it.
+    Tested: against every other size. Where the lowest static friction cannot be assigned to one
+    size, all candidates count.
     """
     return _largest_there(evidence, _PRECURSORS, samples.before_peak)
 
 
 @claim("The roundest force peak where static friction is lowest", "3.2", 6, _SIZES, "universal")
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """This explains why the smallest static friction is obtained for a specific intermediate value
-    of n_p, and the force peak at the transition is considerably more rounded.
+    """“This explains why the smallest static friction is obtained for an specific intermediate
+    value of n_p [...] and the force peak at the transition is considerably more rounded.”
 
-    Tested: over t_avg, against all other sizes, whichever of those that may have the lowest
-    friction has it.
+    Tested: by its width over t_avg, against every other size. Where the lowest static friction
+    cannot be assigned to one size, all candidates count.
     """
     return _largest_there(evidence, f"{_SUPPORTED} over t_avg", _over_t_avg(samples.width))
 
 
 @claim("The longest transition where static friction is lowest", "3.2", 6, _SIZES, "universal")
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """In the intermediate regime the detachments are distributed over a longer time interval around
-    the maximum of the friction force: a longer duration of the transition.
+    """“In the intermediate regime [...] the detachments are distributed over a longer time interval
+    around the maximum of the friction force. This leads to a longer duration of the transition
+    between static and dynamic friction.”
 
-    Tested: over t_avg, against all other sizes, whichever of those that may have the lowest
-    friction has it.
+    Tested: by its duration over t_avg, against every other size. Where the lowest static friction
+    cannot be assigned to one size, all candidates count.
     """
     return _largest_there(evidence, f"{_DURATION} over t_avg", _over_t_avg(samples.lasting))

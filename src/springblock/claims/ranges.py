@@ -1,19 +1,20 @@
-"""Ranges in which claims put a statistic, all of them open.
+"""Open ranges in which statements place a statistic, and the curves that define l_c.
 
-What the paper says in words means the same number in all statements.
+A word of the paper stands for the same number in all statements.
 """
 
 from springblock.claims.rule import Range
 
 INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
-NEARLY_ALL = (0.9, INF)  #: a rule without exception
+NEARLY_ALL = (0.9, INF)  #: without exception
 MOST, FEWER_THAN_HALF = (0.5, INF), (-INF, 0.5)
 NEGLIGIBLE, MORE_THAN_NEGLIGIBLE = (-INF, 0.1), (0.1, INF)
 COMPARABLE = (0.5, 2.0)  #: a ratio
-ALIKE = (-INF, 0.2)  #: fraction of the variance that place explains where the paper says uniform
+ALIKE = (-INF, 0.2)  #: uniform: share of the variance explained by position
+PLAIN, SCALED = "exp(-r/l_c)", "A exp(-r/l_c)"  #: curves fitted to c_x(r)
 
 
 def within(distance: float, centre: float = 0.0) -> Range:
-    """Return the range that is so far from a value at most."""
+    """Return the range within a distance of a value."""
     return centre - distance, centre + distance

@@ -1,7 +1,7 @@
-"""The register of statements, written down before the run on fresh seeds that judges them.
+"""The register of statements, written before the run on fresh seeds that judges them.
 
-`register.csv` is the table `claims` of earlier seeds, with the verdicts that these gave and, beside
-them, those of version 1.0.0, whose rule was another.
+`register.csv` is the table `claims` of earlier seeds, in the words of its day, with the verdicts on
+these seeds and those of version 1.0.0, which had another rule. Statements are matched by name.
 """
 
 import csv
@@ -12,12 +12,11 @@ from typing import Any
 from springblock.io.rows import Row, markdown_table
 
 _FOLDER = Path(__file__).parent
-#: What is registered of a statement, beside its ranges and cases.
-_REGISTERED, _SETS = ("form", "statement"), ("range", "cases")
+_SETS = ("form", "range", "cases")  #: registered properties of a statement
 
 
 def reasons() -> dict[str, str]:
-    """Return why a statement, its test or its range is not the one that was registered."""
+    """Return, by statement, why its test is not the one that was registered."""
     _, _, *lines = (_FOLDER / "reasons.md").read_text(encoding="utf-8").splitlines()
     return dict(line.strip("| ").split(" | ") for line in lines)
 
@@ -34,35 +33,36 @@ def verdicts() -> dict[str, Row]:
 
 
 def changes(table: Sequence[Row]) -> str:
-    """Say in a Markdown table what differs between the register and what was tested."""
-    before, now = _statements(registered()), _statements(table)
-    changed = {name: _difference(before.get(name), now[name]) for name in now}
-    why = reasons()
-    lines = [
-        [name, difference, why.get(name, "no reason is given")]
-        for name, difference in changed.items()
-        if difference
-    ]
+    """List in a Markdown table which tests differ from those registered, and why.
+
+    Forms, ranges and cases are compared. A test that differs in its definition alone is listed by
+    its reason; new words for the same test are not.
+    """
+    before, now, why = _statements(registered()), _statements(table), reasons()
+    lines = []
+    for name, tested in now.items():
+        difference = _difference(before.get(name), tested)
+        if difference or name in why:
+            lines.append([name, difference or "test", why.get(name, "no reason is given")])
     header = ["statement", "changed", "why"]
     return markdown_table(header, lines) if lines else "Nothing has been changed since."
 
 
-def _statements(table: Sequence[Row]) -> dict[str, dict[str, Any]]:
-    """What is registered of each statement that was tested: words, form, ranges and cases."""
-    found: dict[str, dict[str, Any]] = {}
+def _statements(table: Sequence[Row]) -> dict[str, dict[str, set[Any]]]:
+    """Return the form, ranges and cases of each statement that was tested."""
+    found: dict[str, dict[str, set[Any]]] = {}
     for row in table:
         if row["verdict"] == "not tested":
             continue
-        new = {name: row[name] for name in _REGISTERED} | {name: set() for name in _SETS}
-        said = found.setdefault(row["claim"], new)
+        said = found.setdefault(row["claim"], {name: set() for name in _SETS})
+        said["form"].add(row["form"])
         said["range"].add((float(row["claimed_low"]), float(row["claimed_high"])))
         said["cases"].add(row["case"])
     return found
 
 
-def _difference(before: dict[str, Any] | None, now: dict[str, Any]) -> str:
-    """Name what differs; of ranges and cases what is new, since not all need to be simulated."""
+def _difference(before: dict[str, set[Any]] | None, now: dict[str, set[Any]]) -> str:
+    """Name what is new; what is absent may not have been simulated."""
     if before is None:
         return "new"
-    names = [name for name in _REGISTERED if before[name] != now[name]]
-    return ", ".join(names + [name for name in _SETS if now[name] - before[name]])
+    return ", ".join(name for name in _SETS if now[name] - before[name])

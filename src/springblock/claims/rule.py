@@ -1,4 +1,4 @@
-"""What a claim is and rests on, and the rule from intervals to verdicts."""
+"""Claims, their findings, and the rule that derives verdicts from intervals."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -17,28 +17,28 @@ Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
-#: universal: always, only, all, a superlative; existential: can; general: all others.
+#: universal: always, only, all or a superlative; existential: can; general: all others.
 Form = Literal["universal", "general", "existential"]
 
-ENOUGH = 20  #: realisations from which on a surface is looked at by itself
-_POWER = 1.28  #: standard errors that nine in ten estimates stay below
-_MANY = 10**6  #: realisations beyond which nobody would go
+ENOUGH = 20  #: realisations that a surface needs to be tested
+_POWER = 1.28  #: 90 % quantile of the standard normal distribution
+_MANY = 10**6  #: effectively infinite number of realisations
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What claims are tested on, by scene. What was not simulated or measured is absent."""
+    """Data that claims are tested on, by scene; data that were not computed are absent."""
 
     records: Records = field(default_factory=dict)
     correlation: RowsByScene = field(default_factory=dict)
     correlation_length: RowsByScene = field(default_factory=dict)
-    #: Tangential force on each block before the first detaches, over its mean; NaN off contact.
+    #: Tangential force on each block before the first detachment, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
 
 
 def enough(found: Mapping[Scene, Sequence[Any]]) -> dict[Scene, Sequence[Any]]:
-    """Leave out scenes with less than 20 realisations, each one item or counted in a row."""
+    """Leave out scenes with fewer than 20 realisations, one per item or counted in a row."""
     runs = {scene: _runs(items) for scene, items in found.items()}
     return {scene: items for scene, items in found.items() if runs[scene] >= ENOUGH}
 
@@ -50,7 +50,7 @@ def _runs(items: Sequence[Any]) -> int:
 
 @dataclass(frozen=True)
 class Finding:
-    """A statistic with its interval, and the open range in which the claim puts it."""
+    """A statistic with its interval, and the open range in which the claim places it."""
 
     case: Case
     statistic: str
@@ -60,10 +60,10 @@ class Finding:
     unit: str = "1"
 
     def outcome(self, together: int = 1) -> str:
-        """Whether the claim "holds", "fails" or stays "open" here, as one of several findings.
+        """Return whether the claim "holds", "fails" or is "open", given several findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
-        outside, and is open where it does neither or there is no interval.
+        outside, and is open otherwise or without an interval.
         """
         return self._outcome(*self.estimate.limits(together))
 
@@ -74,11 +74,11 @@ class Finding:
         return "fails" if high <= lowest or low >= highest else "open"
 
     def needed(self, together: int = 1) -> float:
-        """Realisations that decide nine times in ten, if value and scatter are the true ones.
+        """Return the number of realisations that decides with a power of 90 %, within 2 %.
 
-        Of the smallest sample, where it is one of several, which are to grow in proportion. To 2 %;
-        infinite if a million would not do, NaN where chance plays no part or there is no
-        interval.
+        Value and scatter are taken as the true ones. Where samples are compared it is the size of
+        the smallest, if the others grow in proportion. Infinite beyond a million; NaN for exact
+        values and without an interval.
         """
         if self.estimate.n < 2 or math.isnan(self.estimate.ci_low):
             return math.nan
@@ -105,8 +105,8 @@ class Claim:
     section: str
     form: Form
     statement: str
-    figure: int  #: of the paper, which shows what the statement speaks of
-    needs: str  #: what must have been simulated or measured
+    figure: int  #: of the paper, to which the statement refers
+    needs: str  #: data that the test needs
     test: Test
 
 
@@ -115,8 +115,8 @@ def claim(
 ) -> Callable[[Test], Claim]:
     """Make a claim of a test, which yields findings from evidence.
 
-    Its docstring is the statement: what the paper says and, after "Tested:", what number a word
-    without one stands for. `section` and `figure` are the paper's.
+    The docstring of the test is the statement: the paper's words in quotation marks and, after
+    "Tested:", the criterion. `section` and `figure` are the paper's.
     """
 
     def made(test: Test) -> Claim:
@@ -127,13 +127,13 @@ def claim(
 
 
 def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
-    """Judge a claim by its findings; return the verdict and where the claim holds and fails.
+    """Judge a claim by its findings; return the verdict and the cases where it holds and fails.
 
-    All findings of a case must hold for the case to hold, and one that fails makes it fail.
+    A case holds if all its findings hold, and fails if one fails.
 
-    - One case refutes a universal claim, and one suffices for an existential one.
-    - A claim with cases that hold and cases that fail is "reproduced in part".
-    - Without one that fails it is "not settled" while any case is open, else "reproduced".
+    - One failing case refutes a universal claim; one that holds suffices for an existential one.
+    - A general claim with cases that hold and cases that fail is "reproduced in part".
+    - Without a failing case it is "not settled" while a case is open, and else "reproduced".
     - It is "not reproduced" where cases fail and none holds, and "not tested" without findings.
     """
     if not findings:
@@ -160,56 +160,92 @@ def _together(found: Collection[str]) -> str:
     return next(kind for kind in ("fails", "open", "holds") if kind in found)
 
 
-#: How a case is called by the value of a key, in a sentence.
-_WORDS = {
-    "n_p": "on pillars of {} blocks",
+#: A key of a case with its value, as part of a sentence.
+_PHRASES = {
+    "n_p": "at n_p = {}",
     "n_p2": "with pawls of {} blocks",
-    "degrees": "at {}° from the grooves",
-    "t/t_max below": "for blocks that detach before {} t_max",
+    "degrees": "at {}° to the grooves",
+    "surface": "on {}",
+    "side": "on {}",
+    "sides": "on sides {}",
+    "sliding": "sliding {}",
+    "before": "before {}",
+    "interval": "in {}",
+    "measure": "for the {} of the stress",
     "small against": "against {}",
-    "mu_static_std": "where thresholds scatter by {}",
+    "E in Pa": "at E = {} Pa",
+    "integrator": "with {}",
+    "mu_static_std": "at mu_static_std = {}",
+    "fit": "for the fit of {}",
+    "sheared": "if {} is sheared",
+    "edge": "for an edge {}",
+    "transition": "for a {} transition",
+    "bound": "for a bound of {}",
+    "third level": "with third-level {}",
 }
 
 
-def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
-    """Say in words which cases have these outcomes; nothing where all cases have the same.
+def phrase(key: str, value: str | int | float) -> str:
+    """Write a key of a case with its value, or a list of values, as part of a sentence."""
+    try:
+        value = f"{float(value):g}"
+    except ValueError:
+        value = str(value)
+    other = f"for {key} = {{}}" if value[:1].isdigit() else "for {}"
+    return _PHRASES.get(key, other).format(value)
 
-    Cases are told apart by the first key that tells their outcomes apart, or else by all keys that
-    differ between them. Values of a single key that follow one another among those tested make a
-    range.
+
+def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
+    """Name the cases that have these outcomes, in a sentence; "" if all have the same outcome.
+
+    They are named by the first key that separates the outcomes by itself, or else by all keys that
+    differ between cases. Successive values of a key form a range.
     """
     keys = dict.fromkeys(key for case, _ in cases for key in case)
-    telling = [key for key in keys if len({case.get(key) for case, _ in cases}) > 1]
-    if len({outcome for _, outcome in cases}) < 2 or not telling:
+    differing = [key for key in keys if len({case.get(key) for case, _ in cases}) > 1]
+    if len({outcome for _, outcome in cases}) < 2 or not differing:
         return ""
-    seen = {key: {(case.get(key), outcome) for case, outcome in cases} for key in telling}
-    alone = [key for key in telling if len(dict(seen[key])) == len(seen[key])]
-    telling = alone[:1] or telling
+    seen = {key: {(case.get(key), outcome) for case, outcome in cases} for key in differing}
+    alone = [key for key in differing if len(dict(seen[key])) == len(seen[key])]
     parts = []
     for outcome in outcomes:
-        chosen = [found == outcome for _, found in cases]
-        if not any(chosen):
-            continue
-        if len(telling) == 1:
-            names = _runs_of([case.get(telling[0]) for case, _ in cases], chosen)
-        else:
-            shown = [case for case, found in cases if found == outcome]
-            short = [{key: case[key] for key in telling if key in case} for case in shown]
-            names = list(dict.fromkeys(map(describe, short)))
-        words = _WORDS.get(telling[0], "for {}") if len(telling) == 1 else "for {}"
-        verb = "is open" if outcome == "open" else outcome
-        parts.append(f"{verb} {words.format(_listed(names))}")
-    return f"It {'; it '.join(parts)}."
+        if where := _phrases(cases, alone[:1] or differing, outcome):
+            verb = "is open" if outcome == "open" else outcome
+            parts.append(f"it {verb} {_listed(where)}")
+    return capitalised(f"{'; '.join(parts)}.")
 
 
-def _runs_of(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
-    """Values that are chosen, in order; numbers next to one another among all as "a to b"."""
+def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: str) -> list[str]:
+    """Name the cases with an outcome, by the first key and, within its values, by the others."""
+    if not any(found == outcome for _, found in cases):
+        return []
+    key, *others = keys
+    if not others:
+        values = [case.get(key, "") for case, _ in cases]
+        return [phrase(key, _listed(_ranges(values, [found == outcome for _, found in cases])))]
+    phrases = []
+    for value in dict.fromkeys(case.get(key, "") for case, _ in cases):
+        group = [(case, found) for case, found in cases if case.get(key, "") == value]
+        whole = all(found == outcome for _, found in group)
+        parts = [""] if whole else _phrases(group, others, outcome)
+        phrases += [f"{phrase(key, value)} {part}".strip() for part in parts]
+    return phrases
+
+
+def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
+    """Return the chosen values in order; successive numbers among all values as "a to b"."""
     pairs = dict.fromkeys(zip(values, chosen, strict=True))
     if not all(isinstance(value, int | float) for value in values):
         return [str(value) for value, taken in pairs if taken]
     runs = [list(run) for taken, run in groupby(sorted(pairs), key=lambda pair: pair[1]) if taken]
     ends = [(run[0][0], run[-1][0]) for run in runs]
     return [f"{a:g}" if a == b else f"{a:g} to {b:g}" for a, b in ends]
+
+
+def capitalised(text: str) -> str:
+    """Return the text with a capital first letter, unless it begins with a symbol."""
+    first = text.partition(" ")[0]
+    return text[:1].upper() + text[1:] if first.isalpha() else text
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""Samples of one number per realisation, what is estimated from them, and findings."""
+"""Samples of one number per realisation, estimates from them, and findings."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -26,51 +26,51 @@ from springblock.simulation.run import Array, Run
 
 Quantity = Callable[[Record], float]  #: of a realisation
 
-_HIGH = 0.95  #: of the largest force, where the width of its peak is taken
+_HIGH = 0.95  #: of the largest force, at which the width of its peak is measured
 static_friction: Quantity = attrgetter("static_friction")
 
 
 def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
-    """A number per realisation, (k,), without those in which it is not defined, NaN."""
+    """Return a number per realisation, (k,), without those for which it is undefined, NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
 
 
 def friction(evidence: Evidence, scene: Scene) -> Array:
-    """Static friction of each realisation of a scene, (k,)."""
+    """Return the static friction of each realisation of a scene, (k,)."""
     return over_runs(static_friction, evidence.records[scene])
 
 
 def interval(row: Row, value: str, limits: str = "ci") -> Estimate:
-    """A value of a row with its interval."""
+    """Return a value of a row with its interval."""
     low, high = float(row[f"{limits}_low"]), float(row[f"{limits}_high"])
     return Estimate(float(row[value]), low, high, row["realisations"])
 
 
 def mean(sample: ArrayLike) -> Estimate:
-    """Mean of a sample, (k,), with its interval; NaN for an empty one."""
+    """Return the mean of a sample, (k,), with its interval; NaN for an empty one."""
     values = np.asarray(sample)
     return Estimate.of(mean_interval(values), len(values)) if len(values) else UNKNOWN
 
 
 def share(sample: ArrayLike) -> Estimate:
-    """Mean of a sample of shares, (k,), whose interval stays between 0 and 1."""
+    """Return the mean of a sample of shares, (k,), with an interval between 0 and 1."""
     return replace(mean(sample), bounds=(0.0, 1.0))
 
 
 def proportion(flags: NDArray[np.bool_]) -> Estimate:
-    """Proportion of the realisations, (k,), in which something is so, with its exact interval."""
+    """Return the proportion of true flags, (k,), with its exact interval."""
     return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
 def difference(first: Array, second: Array) -> Estimate:
-    """Mean of a sample minus that of one of another surface: both are independent (Welch)."""
+    """Return the difference of the means of two independent samples (Welch)."""
     fewest = min(len(first), len(second))
     return Estimate.of(difference_interval(first, second), fewest) if fewest else UNKNOWN
 
 
 def relative(first: Array, second: Array, base: Array) -> Estimate:
-    """Mean of a sample minus that of another, over that of a third, whose error is left out."""
+    """Return the difference of two means over a third mean, whose error is neglected."""
     apart, scale = difference(first, second), mean(base).value
     if not scale:
         return UNKNOWN
@@ -78,16 +78,16 @@ def relative(first: Array, second: Array, base: Array) -> Estimate:
 
 
 def magnitude(estimate: Estimate) -> Estimate:
-    """The same seen from the other side, where it is negative, as far as its further end."""
+    """Return the absolute value; its upper limit is that of the end further from zero."""
     value, ends = estimate.value, (estimate.ci_low, estimate.ci_high)
     nearer = -ends[1] if value < 0.0 else ends[0]
     return Estimate(abs(value), nearer, float(np.max(np.abs(ends))), estimate.n)
 
 
 def position(sample: Array, zero: Array, one: Array) -> Estimate:
-    """Where the mean of `sample` lies from that of `zero`, 0, to that of `one`, 1; BCa.
+    """Return the position of the mean of `sample` between those of `zero`, 0, and `one`, 1; BCa.
 
-    The interval is NaN where those of `zero` and `one` cannot be told apart.
+    The interval is NaN where `zero` and `one` do not differ significantly.
     """
     samples = sample, zero, one
     scale, fewest = difference(one, zero), min(map(len, samples))
@@ -110,7 +110,7 @@ def found_on(
     case: Case | None = None,
     beside: Iterable[Scene] = (),
 ) -> Finding:
-    """Finding on a scene, whose lengths are its case, from the realisations of it and of others."""
+    """Return a finding on a scene, by default with its lengths as the case."""
     case = surfaces.case_of(scene) if case is None else case
     return Finding(case, statistic, estimate, claimed, surfaces.in_files(scene, *beside), unit)
 
@@ -122,7 +122,7 @@ def mean_over(
     unit: str = "1",
     estimate: Callable[[Array], Estimate] = mean,
 ) -> Callable[[Quantity], Test]:
-    """Make a test of a quantity: its mean over the realisations of each of some scenes."""
+    """Make a test of a quantity: its mean over the realisations of each scene."""
 
     def made(quantity: Quantity) -> Test:
         @wraps(quantity)
@@ -151,9 +151,9 @@ def paired(
     second: Scene,
     claimed: Range = ranges.POSITIVE,
 ) -> Finding:
-    """Mean difference of a quantity between two scenes of one surface, seed by seed.
+    """Return the mean difference of a quantity between two scenes of one surface, seed by seed.
 
-    Equal seeds give both the same friction coefficients.
+    Equal seeds have equal friction coefficients in both.
     """
     samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
     apart = [samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]]
@@ -169,50 +169,50 @@ def compared(
     claimed: Range = ranges.POSITIVE,
     case: Case | None = None,
 ) -> Finding:
-    """Mean of a quantity over the realisations of one scene minus that over those of another."""
+    """Return the mean of a quantity over the realisations of one scene minus that of another."""
     samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
     return found_on(first, statistic, difference(*samples), claimed, case=case, beside=[second])
 
 
 def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:
-    """Each part of a pillar detaches before the next; mean t_det over `time` of each, (k,)."""
+    """Yield the delay of each part of a pillar after the one before; mean t_det/`time`, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
         statistic = f"t_det/{time} of the {late} minus that of the {early}"
         yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE)
 
 
 def before_peak(run: Run) -> float:
-    """Share of all detaching blocks that detach before t_max."""
+    """Return the share of all detaching blocks that detach before t_max."""
     times = run.t_det[np.isfinite(run.t_det)]
     return float(np.mean(times < run.t_max))
 
 
 def relative_lag(run: Run) -> float:
-    """t_max - t_avg over t_max."""
+    """Return (t_max - t_avg)/t_max."""
     return (run.t_max - run.t_avg) / run.t_max
 
 
 def neighbours(field: Array, outside: float) -> Array:
-    """Values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
+    """Return the values of the eight neighbours, (8, N, N), with `outside` beyond the edges."""
     padded, (rows, columns) = np.pad(field, 1, constant_values=outside), field.shape
     shifts = [(y, x) for y in range(3) for x in range(3) if (y, x) != (1, 1)]
     return np.stack([padded[y : y + rows, x : x + columns] for y, x in shifts])
 
 
 def width(run: Run) -> float:
-    """Time during which the force exceeds 95 % of its maximum, over t_max."""
+    """Return the time during which the force exceeds 95 % of its maximum, over t_max."""
     samples = np.count_nonzero(run.force > _HIGH * run.force.max())
     return float(samples * (run.time[1] - run.time[0]) / run.t_max)
 
 
 def lasting(run: Run) -> float:
-    """Time between a tenth and nine tenths of the first detachments, over t_max."""
+    """Return the time between a tenth and nine tenths of the first detachments, over t_max."""
     early, late = np.nanquantile(run.t_det, (0.1, 0.9))
     return float(late - early) / run.t_max
 
 
 def isolated(run: Run, until: float = 1.0) -> float:
-    """Share of the blocks detached before `until` t_max that had eight resting neighbours then.
+    """Return the share of blocks detached before `until` t_max while all neighbours were at rest.
 
     Blocks that never detach, NaN, count as resting.
     """
@@ -221,22 +221,22 @@ def isolated(run: Run, until: float = 1.0) -> float:
 
 
 def share_of(blocks: Mask, among: Mask) -> float:
-    """Share of the blocks `among` that are `blocks`, too; NaN where there are none."""
+    """Return the share of the blocks `among` that are also in `blocks`; NaN if there are none."""
     return float(blocks[among].mean()) if among.any() else float("nan")
 
 
 def rates(run: Run, width: float) -> Array:
-    """First detachments within `width` s around each sample, (n,)."""
+    """Count first detachments in a window of `width` s around each sample, (n,)."""
     samples = max(1, round(width / (run.time[1] - run.time[0])))
     counts: Array = np.convolve(run.detachments.astype(float), np.ones(samples), mode="same")
     return counts
 
 
 def first_patch(times: Array, size: int) -> float:
-    """Where the patch of `size` by `size` blocks lies that detaches first, (n, n) s.
+    """Return the depth of the `size` by `size` patch that detaches first; times (n, n) s.
 
-    The fraction of all such patches that lie nearer to the edge, and half of those just as near:
-    1/2 on average if every place is as good, 0 at the edge, 1 at the centre.
+    The fraction of all patches that lie nearer to the edge, plus half of those equally near: 0 at
+    the edge, 1 at the centre, 1/2 on average if all positions are equally likely.
     """
     windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
     depth = surfaces.from_edge(len(windows))

@@ -1,8 +1,8 @@
 """Correlation of detachment times along the sides of pillars, sections 3.2 and 3.3.
 
-l_c is that of exp(-r/l_c), fitted over the same distances, r = 1 to 6 blocks, on sides of 20 blocks
-or more: on shorter ones the paper finds l_c difficult to estimate. Where the paper writes
-c ~ exp(-r/l_c), which says nothing of an amplitude, A exp(-r/l_c) is tested as well.
+l_c is fitted over r = 1 to 6 blocks on sides of 20 blocks or more; on shorter ones the paper finds
+it difficult to estimate. The paper's c_x(r) ~ exp(-r/l_c) leaves the amplitude open, so that
+statements on l_c are tested with exp(-r/l_c) and with A exp(-r/l_c).
 """
 
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from springblock.analysis.correlation import LAST, Correlation, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import Interval, bootstrap_interval, repeatability
 from springblock.claims import ranges, samples
-from springblock.claims.ranges import INF, within
+from springblock.claims.ranges import INF, PLAIN, SCALED, within
 from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
 from springblock.claims.samples import found_on, interval
 from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
@@ -27,13 +27,13 @@ _FAR = 3  #: blocks, the paper's lower bound of the correlation length
 _THREE_OR_MORE = (3.0, INF)  #: blocks
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
-_CLOSE = 0.1  #: difference between correlation functions that look the same
-_EXACT = 0.05  #: distance of c(r) from a curve that describes it, half of that
-_BLOCK = 1.0  #: difference between correlation lengths that are the same, blocks
-#: Of t_max, between detachments of neighbours in one event: in this time the slider adds as
-#: little to the load, and what lets a block go is its neighbour.
+_CLOSE = 0.1  #: largest difference between correlation functions of the same shape
+_EXACT = 0.05  #: largest distance of c(r) from a curve that describes it, half of that
+_BLOCK = 1.0  #: largest difference between correlation lengths that agree, blocks
+#: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
+#: in this time, so that a block is released by its neighbour.
 _EVENT = 0.005
-_SHORT = 10  #: n_p, sides no longer than a few l_c
+_SHORT = 10  #: n_p up to which sides are no longer than a few l_c
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 _TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
 _LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
@@ -45,7 +45,7 @@ _BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
-    """First - second of the same runs: errors add up, since tables do not say how they go along."""
+    """Return first - second of the same runs; errors add up, as their correlation is unknown."""
     return Estimate(
         first.value - second.value,
         first.ci_low - second.ci_high,
@@ -55,9 +55,9 @@ def paired_difference(first: Estimate, second: Estimate) -> Estimate:
 
 
 def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
-    """First - second of different surfaces, from the intervals of both as if independent.
+    """Return first - second of different surfaces, with errors taken as independent.
 
-    Errors add up in squares, each side for itself (Zou & Donner 2008, doi:10.1002/sim.3095).
+    The arms of the intervals add in quadrature (Zou & Donner 2008, doi:10.1002/sim.3095).
     Realisations of different surfaces with the same seeds are hardly correlated.
     """
     difference = first.value - second.value
@@ -67,21 +67,23 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
 
 
 def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """The row of l_c along these sides, if there is one over the whole range."""
+    """Return the row of l_c along these sides, if it was fitted over the whole range."""
     return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
 
 
 def _fitted(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """Rows of c(r) along these sides at the distances of the fit."""
+    """Return the rows of c(r) along these sides at the distances of the fit."""
     rows = select(evidence.correlation[scene], side=side)
     return [row for row in rows if 1 <= row["r"] <= LAST]
 
 
 @claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    """While c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range.
+    """“[...] while c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range of
+    values.”
 
-    Tested: on sides of 10 blocks or more.
+    Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10 blocks
+    or more.
     """
     name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
@@ -98,7 +100,7 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
 
 
 def events(times: Array) -> NDArray[np.intp]:
-    """Number of events in which sides detach, (...), from t_det/t_max of their blocks, (..., n).
+    """Count the events in which sides detach, (...), from t_det/t_max of their blocks, (..., n).
 
     Neighbours that detach within 0.5 % of t_max of each other belong to one event.
     """
@@ -106,7 +108,7 @@ def events(times: Array) -> NDArray[np.intp]:
 
 
 def mixed(times: Array) -> Array:
-    """The same sides with each block from another realisation: what chance would give."""
+    """Take each block of the sides from another realisation, which leaves chance alone."""
     k, n = len(times), times.shape[-1]
     blocks = np.arange(n)
     taken = (np.arange(k)[:, None] + blocks) % k
@@ -114,8 +116,9 @@ def mixed(times: Array) -> Array:
 
 
 def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array]:
-    """t_det/t_max along the sides without their corners, which have gone before: as they are, and
-    with each block from another realisation, (k, pillars, 2, n_p - 2).
+    """Return t_det/t_max along the sides without their corners, which detach earlier.
+
+    As simulated and with each block from another realisation, (k, pillars, 2, n_p - 2) each.
     """
     runs = evidence.records[scene]
     times = side_times(runs, scene.pattern, side)[..., 1:-1]
@@ -125,16 +128,14 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 
 @claim("Sides along the sliding direction detach in larger events", "3.2", 7, _PILLARS)
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """Although edges parallel to the sliding direction detach slightly after the perpendicular
-    ones, their slip involves a larger number of blocks.
+    """“Although edges parallel to the sliding direction detach slightly after the perpendicular
+    ones, their slip involves a larger number of blocks.”
 
-    Tested: more than by chance, without the corners; neighbours that detach within 0.5 % of t_max
-    of each other are one event.
+    Tested: in excess of the number of blocks per event on sides whose blocks come from different
+    realisations, and without the corners. Neighbours that detach within 0.5 % of t_max of each
+    other belong to one event.
     """
-    name = (
-        "blocks per event on sides along x minus those on sides along y, each beyond those of "
-        "sides whose blocks come from different realisations"
-    )
+    name = "the size of an event in excess of chance, on sides along x minus along y"
     for scene in pillars(evidence.records):
         sizes = {}
         for side in "xy":
@@ -146,29 +147,27 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("All blocks of a side detach at the same time on average", "3.2", 7, _BROAD_PILLARS)
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Two points on the same pillar side have the same average value of their detachment times.
+    """The detachment times of two points on the same pillar side “have the same average value”.
 
-    Tested: place explains less than a fifth of the variance along a side, on sides along the
-    sliding direction and on those across it. The corners detach before, and those next to them do
-    so on sides along it: one block is left out at either end, or three.
+    Tested: position explains less than a fifth of the variance of t_det on a side, along the
+    sliding direction and across it. Corners detach early, and so do the blocks next to them on
+    sides along it: one block is left out at either end, or three.
     """
-    statistic = "share of the variance of t_det that place explains on a side"
-    ends = ((1, "the outermost block"), (3, "the three outermost blocks"))
-    ways = (("x", "along"), ("y", "across"))
+    statistic = "the share of the variance of t_det explained by position"
+    ends = ((1, "one block"), (3, "three blocks"))
     for scene, runs in pillars(evidence.records, _BROAD).items():
-        for (side, way), (end, without) in product(ways, ends):
+        for side, (end, without) in product("xy", ends):
             times = side_times(runs, scene.pattern, side)[:, 0, 0, end:-end]  # of the first pillar
             found = Estimate.of(repeatability(times), len(runs))
-            part = f"sides {way} the sliding direction without {without}"
-            case = {"sides": part, **case_of(scene)}
+            case = {"sides": f"along {side} without {without} at each end", **case_of(scene)}
             yield found_on(scene, statistic, found, ranges.ALIKE, case=case)
 
 
 def misfits(correlation: Array) -> list[Array]:
-    """Root mean square distance of c(r), (b, r) from r = 1 on, from curves of one length.
+    """Return the rms distance of c(r), (b, r) from r = 1 on, from the best curve of each kind.
 
-    From the best exponential, power law and straight line, each times an amplitude, on a grid of
-    lengths; (b,) each.
+    Exponentials, power laws and straight lines, each with an amplitude and, on a grid, a length;
+    (b,) each.
     """
     r = np.arange(1.0, correlation.shape[-1] + 1.0)
     lengths = np.geomspace(0.1, 100.0, 200)[:, None]
@@ -184,10 +183,10 @@ def misfits(correlation: Array) -> list[Array]:
 
 @claim("Exponential decay of c_x", "3.2", 7, _BROAD_PILLARS)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """The correlation functions decrease exponentially, c_x(r) ~ exp(-r/l_c).
+    """“The correlation functions decreases exponentially, i.e. c_x(r) ~ exp(-r/l_c) [...].”
 
     Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
-    1 + r and from a straight line with amplitudes of their own.
+    1 + r and from a straight line, each with an amplitude of its own.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
         found = Correlation(side_times(runs, scene.pattern, ALONG))
@@ -198,35 +197,36 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
             return np.column_stack([exponential, *(exponential - other for other in others)])
 
         intervals = bootstrap_interval(distances, len(runs))
-        names = ("", " minus that from a power law", " minus that from a straight line")
+        names = ("", " minus that from the best power law", " minus that from the best line")
         claims = ((-INF, _EXACT), ranges.NEGATIVE, ranges.NEGATIVE)
         for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
             apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
-            statistic = f"root mean square distance of c_x from the best exponential{more}"
+            statistic = f"the rms distance of c_x from the best exponential{more}"
             yield found_on(scene, statistic, apart, claimed)
 
 
 @claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
-    """It is difficult to estimate l_c for n_p of about 10 or less; l_c/l is about 3 or more.
+    """“It is difficult to estimate l_c for n_p ≲ 10 since there are few blocks to fit, however we
+    can deduce that l_c/l ≳ 3 [...].”
 
-    Tested: more than 3, on sides of 20 blocks or more, for exp(-r/l_c) and for A exp(-r/l_c). With
-    a bound below 2.43 it would hold for both.
+    Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or more.
+    With a bound below 2.43 the statement would hold for both.
     """
     for scene in pillars(evidence.correlation_length, _BROAD):
         for fit in _fits(evidence, scene):
             source = in_rows("correlation_length", scene, side="x")
-            for amplitude, length in (
-                ("1", interval(fit, "l_c")),
-                ("free", interval(fit, "tail", "tail")),
+            for curve, length in (
+                (PLAIN, interval(fit, "l_c")),
+                (SCALED, interval(fit, "tail", "tail")),
             ):
-                case = {"A": amplitude, **case_of(scene)}
+                case = {"fit": curve, **case_of(scene)}
                 yield Finding(case, "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
 
 
 @claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """l_c is slightly increasing with n_p.
+    """l_c “is slightly increasing with n_p.”
 
     Tested: from n_p = 20 to the largest pillars.
     """
@@ -247,16 +247,14 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("One event can detach a whole side", "3.2", 7, _SHORT_PILLARS, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """When l_c is comparable to the total length of the pillars, a slip precursor can lead to the
-    detachment of the whole side.
+    """“[...] when the characteristic correlation length is comparable to the total length of the
+    pillars, a slip precursor can lead to the detachment of the whole side of the pillar [...].”
 
-    Tested: more often than by chance on sides of 10 blocks or less, without the corners, which
-    detach before; neighbours that detach within 0.5 % of t_max of each other are one event.
+    Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
+    blocks come from different realisations. Neighbours that detach within 0.5 % of t_max of each
+    other belong to one event.
     """
-    name = (
-        "share of the sides along x that, but for their corners, detach in one event, minus "
-        "that of sides whose blocks come from different realisations"
-    )
+    name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):
         if scene.n_p <= _SHORT:
             sides = _sides_of(evidence, scene, "x")
@@ -266,7 +264,7 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
-    """The grooved pillars seen most often, and the largest pillars without grooves."""
+    """Yield the grooved pillars with the most realisations, and the largest ungrooved pillars."""
     both = slid_both_ways(table)
     largest = list(pillars(table, _BROAD))[-1:]
     if both and largest:
@@ -275,9 +273,11 @@ def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 
 @claim("Correlations keep their shape on grooved pillars", "3.3", 7, _WITH_GROOVES)
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """The correlation functions along the longitudinal edges display the same qualitative shape.
+    """“[...] the correlation functions along the longitudinal edges display the same qualitative
+    shape [...].”
 
-    Tested: within 0.1, r = 1 to 6, on external sides and along the grooves.
+    Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
+    sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
         whole = {row["r"]: row for row in _fitted(evidence, like)}
@@ -286,7 +286,7 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
                 values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
                 yield Finding(
                     {"side": name},
-                    f"c(r) minus c_x(r) on n_p = {like.n_p} without grooves, at r = {row['r']} "
+                    f"c(r = {row['r']}) minus that at n_p = {like.n_p} without grooves "
                     "(from both intervals)",
                     unpaired_difference(*values),
                     within(_CLOSE),
@@ -296,9 +296,10 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Grooves leave the correlation length unchanged", "3.3", 7, _WITH_GROOVES)
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """The typical correlation length along the longitudinal edges is also the same.
+    """“The typical correlation length is also the same.”
 
-    Tested: within a block, on external sides and along the grooves.
+    Tested: l_c differs by less than one block from that without grooves, on external sides and
+    along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
         whole = _fits(evidence, like)
@@ -306,8 +307,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
             for fit in _fits(evidence, scene, side) if whole else []:
                 yield Finding(
                     {"side": name},
-                    f"l_c on grooved pillars minus l_c on sides of n_p = {like.n_p} without "
-                    "grooves (from both intervals)",
+                    f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
                     unpaired_difference(interval(fit, "l_c"), interval(whole[0], "l_c")),
                     within(_BLOCK),
                     in_rows("correlation_length", scene, side=side),
@@ -317,10 +317,11 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7, _ACROSS)
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """If the sliding direction is along the y-axis, most of the precursors are uncorrelated.
+    """“[...] if the sliding direction is along the y-axis, most of the precursors are uncorrelated
+    [...].”
 
-    Tested: correlation below 1/e one block away, on external sides and along the grooves. The same
-    for any bound from 0.22 to 0.5, which is exceeded when sliding along the grooves.
+    Tested: c(r = 1) is below 1/e on external sides and along the grooves. The verdict is the same
+    for any bound from 0.22 to 0.5; sliding along the grooves exceeds all of these.
     """
     for scene in slid_both_ways(evidence.correlation):
         for side, name in _SIDES.items():

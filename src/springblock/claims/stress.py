@@ -1,7 +1,7 @@
-"""Stress before the first detachment, when nothing random has happened (section 3 of the paper).
+"""Stress before the first detachment (section 3 of the paper).
 
-The layer is in equilibrium while the slider pulls at it: forces follow from its linear elasticity
-and are exact, so that their intervals have no width.
+The layer is in static equilibrium under the pull of the slider. Forces follow from its linear
+elasticity and do not depend on the thresholds, so that their intervals have no width.
 """
 
 from collections.abc import Iterator
@@ -25,15 +25,15 @@ _BOTH_WAYS = f"{_GROOVED} that slides along and across its grooves"
 _PILLARS = "pillars with n_p of 4 or more"
 _SEVERAL = "several pillars with n_p of 4 or more"
 _BOTH_KINDS = "pillars with grooves and the same without"
-_OVER_MEAN = "over the mean of the surface"
+_OVER_MEAN = "over the mean stress"
 _DIGITS = 9  #: to which equal stresses agree
 
 
 def elastic_forces(scene: Scene, material: Material) -> Array:
-    """Tangential force on each block along the sliding direction and across it, (2, N_y, N_x).
+    """Return the tangential force on each block before the first detachment, (2, N_y, N_x).
 
-    Before the first detachment, over the mean of its modulus; NaN off contact. The direction is x
-    or y.
+    Components along the sliding direction, x or y, and across it, over the mean of the modulus;
+    NaN off contact.
     """
     contact = scene.contact if scene.direction == "x" else scene.contact.T
     forces = np.full((2, *contact.shape), np.nan)
@@ -45,9 +45,9 @@ def elastic_forces(scene: Scene, material: Material) -> Array:
 def _exactly(
     statistic: str, value: float, claimed: Range, *scenes: Scene, reading: Case | None = None
 ) -> Finding:
-    """Finding without scatter on the surfaces of some scenes.
+    """Return a finding without scatter on the surfaces of some scenes.
 
-    Their lengths are its case, after the reading of the statement, if it has several.
+    Its case is the reading of the statement, where there are several, and the lengths.
     """
     exact = Estimate(float(value), float(value), float(value))
     lengths = {key: value for scene in reversed(scenes) for key, value in case_of(scene).items()}
@@ -60,22 +60,24 @@ def _modulus(evidence: Evidence, scene: Scene) -> Array:
 
 
 def _pillar_stress(evidence: Evidence, scene: Scene) -> Array:
-    """Modulus of the stress on each pillar over the mean, (pillars, n_p, n_p)."""
+    """Return the modulus of the stress on each pillar over the mean, (pillars, n_p, n_p)."""
     return np.stack(pillars_of(_modulus(evidence, scene), scene))
 
 
 def _along(evidence: Evidence, scene: Scene) -> Array:
-    """Stress along the sliding direction on the mean pillar, (n_p, n_p)."""
+    """Return the stress along the sliding direction on the mean pillar, (n_p, n_p)."""
     return np.mean(pillars_of(evidence.stress[scene][0], scene), axis=0)
 
 
 @claim("Edges bear more before sliding across grooves", "1", 8, _BOTH_WAYS)
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """The tangential stress on the edges before sliding is larger when the grooves are
-    perpendicular to the sliding direction. A result of the authors' paper of 2018, for grooves that
-    cross the whole surface; here they divide pillars.
+    """With grooves perpendicular to the sliding direction, “the tangential stress on the edges
+    before sliding is larger” than with parallel ones. A result of the authors' paper of 2018 for
+    grooves that cross the whole surface.
+
+    Tested: on grooved pillars.
     """
-    name = f"stress on the edges when sliding across the grooves minus that along, {_OVER_MEAN}"
+    name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
         more, less = (float(_modulus(evidence, s)[edges].mean()) for s in scenes)
@@ -84,12 +86,12 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("The smallest pillars bear a uniform stress", "3.2", 4, "pillars with n_p of 2 or 3")
 def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
-    """For n_p <= 3 the number of blocks on the pillar is too small to induce a non-trivial stress
-    distribution.
+    """“The case n_p <= 3 is peculiar, since the number of blocks on the pillar is too small to
+    induce a non-trivial stress distribution.”
 
     Tested: the standard deviation of the stress is below a tenth of its mean.
     """
-    name = "standard deviation of the stress over its mean"
+    name = "the standard deviation of the stress over its mean"
     for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < surfaces.SMALLEST):
         deviation = float(np.nanstd(_modulus(evidence, scene)))
         yield _exactly(name, deviation, ranges.NEGLIGIBLE, scene)
@@ -97,14 +99,14 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("All pillars bear the same stress", "3.2", 4, _SEVERAL, "universal")
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
-    """All the pillars are subject to the same stress distributions for n_p >= 4.
+    """“All the pillars [...] are subject to the same stress distributions for n_p >= 4.”
 
-    Tested: none differs from the mean pillar by more than a fifth of what places on a pillar differ
-    by.
+    Tested: the stress on no pillar deviates from that on the mean pillar, in the root mean square,
+    by more than a fifth of the standard deviation on the mean pillar.
     """
     name = (
-        "root mean square of the stress on the pillar most unlike the mean pillar minus that "
-        "on the latter, over the standard deviation on it"
+        "the largest rms deviation of a pillar's stress from the mean pillar's, over the standard "
+        "deviation"
     )
     for scene in pillars(evidence.stress):
         stresses = _pillar_stress(evidence, scene)
@@ -116,13 +118,13 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Edges across the sliding direction bear more", "3.2", 4, _PILLARS)
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
-    """The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
-    along parallel ones.
+    """“The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
+    along parallel ones.”
 
-    Tested: forces along the sliding direction. Neighbours pull at orthogonal edges lengthwise and
-    at parallel ones by shear; what the slider adds is the same for all blocks.
+    Tested: the component along the sliding direction. Neighbours load orthogonal edges in tension
+    and parallel edges in shear; the slider loads all blocks equally.
     """
-    name = f"force along x on the edges across minus that on the edges along, {_OVER_MEAN}"
+    name = f"the stress on edges across the sliding direction minus that along it, {_OVER_MEAN}"
     for scene in pillars(evidence.stress):
         ring, forces = pillar_ring(scene.n_p, 0), _along(evidence, scene)
         more = forces[ring["y"]].mean() - forces[ring["x"]].mean()
@@ -130,9 +132,10 @@ def larger_across(evidence: Evidence) -> Iterator[Finding]:
 
 
 def rank_correlation(field: Array, maps: Array) -> Estimate:
-    """Spearman's correlation of a field, (n,), with the mean of k maps, (k, n); BCa.
+    """Return Spearman's correlation of a field, (n,), with the mean of k maps, (k, n); BCa.
 
-    Over the largest that the ties of the field allow: all blocks inside a pillar are loaded alike.
+    It is divided by the largest value that ties in the field allow: blocks inside a pillar bear
+    equal loads.
     """
     from scipy.stats import rankdata  # slow to load
 
@@ -150,12 +153,12 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
 
 @claim("Blocks detach in the order of their stress", "3.2", 5, _PILLARS)
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
-    """The sequence of detachments reflects the initial stress distribution.
+    """“The sequence reflects the initial stress distribution [...].”
 
-    Tested: Spearman's correlation between stress and mean t_det, over the blocks of a pillar and
-    over the largest that blocks under equal stress allow, is below -0.5.
+    Tested: Spearman's correlation between stress and mean t_det over the blocks of a pillar,
+    divided by the largest value that blocks under equal stress allow, is below -0.5.
     """
-    name = "rank correlation of initial stress and mean t_det on a pillar, over its bound"
+    name = "the rank correlation of initial stress and mean t_det on a pillar, over its bound"
     for scene, runs in pillars(evidence.records).items():
         if scene in evidence.stress:
             stress = _pillar_stress(evidence, scene).mean(axis=0).ravel()
@@ -166,47 +169,48 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 @claim("Grooves make stress more uniform", "3.3", 8, _BOTH_KINDS)
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
-    """A hierarchical configuration allows to distribute mechanical stresses more uniformly over the
-    surface.
+    """“[...] a hierarchical configuration allows to distribute mechanical stresses more uniformly
+    over the surface [...].”
 
-    Tested: against the same pillars without grooves, by its standard deviation and by its largest
-    value.
+    Tested: compared with the same pillars without grooves, by the standard deviation of the stress
+    and by its largest value.
     """
     pairs = [(s, replace(s, n_p2=0, n_s2=0)) for s in surfaces.grooved(evidence.stress)]
     pairs = [pair for pair in pairs if pair[1] in evidence.stress]
     for measure, of_stress in (("standard deviation", np.nanstd), ("largest value", np.nanmax)):
-        name = f"{measure} of the stress over its mean, with grooves minus without"
+        name = f"the {measure} of the stress over its mean, with grooves minus without"
         for scene, plain in pairs:
             ours, theirs = (float(of_stress(_modulus(evidence, s))) for s in (scene, plain))
-            reading = {"measure": f"the {measure} of the stress"}
+            reading = {"measure": measure}
             yield _exactly(name, ours - theirs, ranges.NEGATIVE, scene, plain, reading=reading)
 
 
 @claim("External edges bear more than those along grooves", "3.3", 8, _GROOVED)
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
-    """The external edges of the pillars are subjected to larger longitudinal stresses than the
-    internal ones along the second-level grooves.
+    """“The external edges of the pillars are subjected to larger longitudinal stresses than the
+    internal ones along the second-level grooves.”
 
-    Tested: forces along the sliding direction.
+    Tested: the component along the sliding direction.
     """
     for scene in slid_both_ways(evidence.stress):
         forces = _along(evidence, scene)
         parts = {n: float(forces[mask].mean()) for n, mask in surfaces.grooved_parts(scene).items()}
         internal = parts["sides along the grooves"]
         for part in ("transverse sides", "external longitudinal sides"):
-            name = f"force along x on the {part} minus that on those along grooves, {_OVER_MEAN}"
+            name = f"the stress on the {part} minus that on sides along grooves, {_OVER_MEAN}"
             yield _exactly(name, parts[part] - internal, ranges.POSITIVE, scene)
 
 
 @claim("The edges are half of a grooved surface", "3.3", 8, _GROOVED)
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    """The geometry divides the contact surface into two parts of equal size: the edge regions where
-    slip precursors originate, and the internal core of the contact structures.
+    """“The geometry of these configurations divides the contact surface into two parts of equal
+    size [...]: the edge regions where slip precursors originate, and the internal core of the
+    contact structures.”
 
-    Tested: four to six tenths of the contact blocks are of the edge: have a neighbour without
-    contact, or lie next to such a block as well, as where pillars have no grooves.
+    Tested: four to six tenths of the contact blocks belong to the edge. It is one block wide, the
+    blocks beside one out of contact, or two, as in the statements on pillars without grooves.
     """
-    name = "share of the contact blocks that are of the edge"
+    name = "the share of the contact blocks that belong to the edge"
     for width, blocks in (("one block wide", 1), ("two blocks wide", 2)):
         for scene in slid_both_ways(evidence.stress):
             inside = scene.contact

@@ -1,4 +1,4 @@
-"""Surfaces that claims are about: which were slid, what a case calls them, and their parts."""
+"""Surfaces of statements: those simulated, the cases they make, and their parts."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -19,20 +19,20 @@ ALONG = "x"  #: the paper's sliding direction
 
 
 def flat(table: Mapping[Scene, T]) -> dict[Scene, T]:
-    """The flat surface with the study's constants, if it is there."""
+    """Return the flat surface with the study's constants, if it was simulated."""
     found = [scene for scene in table if not scene.level and not scene.varied][:1]
     return {scene: table[scene] for scene in found}
 
 
 def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T]:
-    """Scenes of square pillars with n_s = n_p, with the study's constants, by n_p."""
+    """Return scenes of square pillars with n_s = n_p and the study's constants, by n_p."""
     equal = [s for s in table if s.level == 1 and s.n_p == s.n_s > 0 and not s.varied]
     found = [s for s in equal if s.n_p >= smallest]
     return {scene: table[scene] for scene in sorted(found, key=attrgetter("n_p"))}
 
 
 def grooved(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
-    """Scenes of grooved pillars of so many levels that slide along x, by their lengths."""
+    """Return scenes of grooved pillars of a level that slide along x, by their lengths."""
     found = [s for s in table if s.level == level and s.n_p and s.direction == ALONG]
     found.sort(key=lambda s: (s.n_blocks, s.n_p, s.n_p2, s.n_s2, s.n_p3))
     return {scene: table[scene] for scene in found}
@@ -44,18 +44,18 @@ def across(scene: Scene) -> Scene:
 
 
 def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
-    """Scenes along x of grooved pillars that were slid across their grooves, too."""
+    """Return scenes of grooved pillars along x that were also slid across their grooves."""
     return {s: found for s, found in grooved(table, level).items() if across(s) in table}
 
 
 def bare_grooves(table: Iterable[Scene]) -> list[Scene]:
-    """Surfaces grooved from edge to edge, without pillars, that slide along the grooves."""
+    """Return surfaces grooved from edge to edge, without pillars, that slide along the grooves."""
     found = [s for s in table if s.n_p2 and not s.n_p and s.direction == ALONG]
     return sorted(found, key=lambda s: (s.n_blocks, s.n_p2, s.n_s2))
 
 
 def case_of(scene: Scene) -> Case:
-    """Case of a surface: its pawls, whose grooves on pillars are all as wide, or its pillars."""
+    """Return the case of a surface: its pawls, if it is grooved, or else its pillars."""
     if scene.n_p2 and not scene.n_p:
         return {"surface": f"pawls of {scene.n_p2} and grooves of {scene.n_s2} without pillars"}
     if scene.n_p2:
@@ -75,31 +75,31 @@ def in_rows(table: str, scene: Scene, **more: str | int) -> str:
 
 
 def pillars_of(field: NDArray[Any], scene: Scene) -> list[NDArray[Any]]:
-    """Parts of a field over the surface, (N, N), that lie on each pillar, (n_p, n_p)."""
+    """Return the parts of a field over the surface, (N, N), on each pillar, (n_p, n_p)."""
     size = scene.n_p
     return [field[y : y + size, x : x + size] for y, x in scene.pattern.origins]
 
 
 def from_edge(size: int) -> NDArray[np.intp]:
-    """Distance of each block of a square from its edge, (size, size)."""
+    """Return the distance of each block of a square from its edge, (size, size)."""
     from_end = np.minimum(np.arange(size), np.arange(size)[::-1])
     return np.minimum.outer(from_end, from_end)
 
 
 def edge(contact: Mask) -> Mask:
-    """Contact blocks beside a block, in one of the four directions, that is not in contact."""
+    """Return the contact blocks with one of four neighbours out of contact."""
     padded = np.pad(contact, 1)
     inside = padded[2:, 1:-1] & padded[:-2, 1:-1] & padded[1:-1, 2:] & padded[1:-1, :-2]
     return contact & ~inside
 
 
 def core(contact: Mask) -> Mask:
-    """Contact blocks that are not of the edge."""
+    """Return the contact blocks that do not belong to the edge."""
     return contact & ~edge(contact)
 
 
 def grooved_parts(scene: Scene) -> dict[str, Mask]:
-    """Masks over a grooved pillar, [y_p, x_p], of its parts in the order of the paper."""
+    """Return masks over a grooved pillar, [y_p, x_p], of its parts in the paper's order."""
     contact, size = pillars_of(scene.contact, scene)[0], scene.n_p
     rows, columns = np.indices(contact.shape)
     transverse = contact & ((columns == 0) | (columns == size - 1))

@@ -1,4 +1,4 @@
-"""The table of claims: one row per finding."""
+"""The table `claims`: one row per finding."""
 
 from collections.abc import Iterable
 
@@ -15,9 +15,11 @@ SCHEMA = pa.schema(
         column("claim", pa.string(), "1", "short name of the statement"),
         column("section", pa.string(), "1", "where the paper makes it"),
         column("form", pa.string(), "1", "universal, general or existential"),
-        column("statement", pa.string(), "1", "what the paper says, in short"),
-        column("case", pa.string(), "1", "the surface, part or quantity looked at"),
-        column("statistic", pa.string(), "1", "what the value is"),
+        column(
+            "statement", pa.string(), "1", 'the paper\'s words, and after "Tested:" the criterion'
+        ),
+        column("case", pa.string(), "1", "surface, part or reading that the row is about"),
+        column("statistic", pa.string(), "1", "definition of the value"),
         column("unit", pa.string(), "1", "unit of the seven numbers that follow"),
         column("value", pa.float64(), "see unit", "the statistic; NaN if not tested"),
         column("ci_low", pa.float64(), "see unit", "lower end of its 95 % interval"),
@@ -26,19 +28,19 @@ SCHEMA = pa.schema(
             "together_low",
             pa.float64(),
             "see unit",
-            "lower end of an interval that holds in 95 % together with those of the statement's "
-            "other rows (Bonferroni)",
+            "lower end of the 95 % interval simultaneous with those of the statement's other rows "
+            "(Bonferroni)",
         ),
         column("together_high", pa.float64(), "see unit", "upper end"),
         column("claimed_low", pa.float64(), "see unit", "the statement claims more than this"),
         column("claimed_high", pa.float64(), "see unit", "and less than this"),
-        column("realisations", pa.int32(), "1", "behind the value; 0: chance plays no part"),
+        column("realisations", pa.int32(), "1", "behind the value; 0: exact"),
         column("outcome", pa.string(), "1", "of this row: holds, fails or open"),
         column(
             "needed",
             pa.float64(),
             "1",
-            "realisations that decide nine times in ten, if value and scatter are the true ones",
+            "realisations that decide with a power of 90 %, if value and scatter are the true ones",
         ),
         column("verdict", pa.string(), "1", "on the statement, from all its rows"),
         column("boundary", pa.string(), "1", "where the statement holds and where it fails"),
@@ -48,7 +50,7 @@ SCHEMA = pa.schema(
 
 
 def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
-    """Test every claim: a row for each finding, or one that says what is missing."""
+    """Test every claim: a row for each finding, or one that names the missing data."""
     table = []
     for claim in claims:
         findings = list(claim.test(evidence))

@@ -1,4 +1,4 @@
-"""The command line. Commands are imported when they are called: a job loads what it needs."""
+"""The command line. A command is imported when it is called, to keep jobs fast to start."""
 
 import atexit
 import gc
@@ -39,15 +39,15 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        gc.set_threshold(100_000)  # imports leave nothing to collect,
-        atexit.register(gc.freeze)  # and the end of a process need not look for it once more
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its threads would wait by counting
+        gc.set_threshold(100_000)  # imports leave no garbage,
+        atexit.register(gc.freeze)  # so that a last collection at exit would be idle
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # idle threads would spin
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="springblock")
-@click.option("--code", hidden=True, help="Digest of the code, where the workflow has taken it.")
+@click.option("--code", hidden=True, help="Digest of the code, computed by the workflow.")
 def main(code: str | None) -> None:
     """Spring-block model of the onset of sliding on patterned surfaces."""

@@ -1,4 +1,4 @@
-"""springblock claims: what becomes of the paper's statements, as a table and as a page."""
+"""springblock claims: verdicts on the paper's statements, as a table and as a page."""
 
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -24,7 +24,7 @@ Records = Mapping[Scene, Sequence[Record]]
 
 
 def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
-    """Rows of tables by scene, those of the scenes of `records`."""
+    """Return the rows of tables by scene, for scenes in `records`."""
     found: dict[Scene, list[Row]] = {}
     for file in files:
         rows = by_scene(load(file).to_pylist(), Scene.from_row)
@@ -33,7 +33,7 @@ def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, lis
 
 
 def _stress(records: Records) -> dict[Scene, Array]:
-    """Stress before any slip on patterned surfaces with the study's constants, by scene."""
+    """Return the stress before any slip on patterned surfaces with the study's constants."""
     return {
         scene: elastic_forces(scene, runs[0].material)
         for scene, runs in records.items()
@@ -62,7 +62,10 @@ def claims(
     output: Path,
     text: Path,
 ) -> None:
-    """Test the claims on BATCHES of realisations and on tables; a missing table tests none."""
+    """Test the paper's statements on BATCHES of realisations and on tables.
+
+    Statements whose data are missing are not tested.
+    """
     with one_sentence():
         records = by_scene(read_records(batches))
         tables = *correlation, *correlation_length

@@ -27,7 +27,7 @@ Paths = tuple[Path, ...]
 
 
 def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
-    """Records of each scene in `batches` by the scene's `keys`, which tell the scenes apart."""
+    """Return the records of each scene in `batches` by the values of `keys`."""
     found: dict[Any, list[Record]] = {}
     for record in read_records(batches):
         found.setdefault(attrgetter(*keys)(record.scene), []).append(record)
@@ -35,7 +35,7 @@ def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
         scenes = {record.scene.folder for record in records}
         if len(scenes) > 1:
             what = f"{', '.join(keys)} = {value}"
-            raise ValueError(f"several scenes have {what}: {', '.join(sorted(scenes))}")
+            raise ValueError(f"{what} is not unique: {', '.join(sorted(scenes))}; give one of them")
     return found
 
 
@@ -44,7 +44,7 @@ def _realisations(source: RealisationsSource, batches: Paths) -> list[Any]:
         return [ensembles(batches, *source.keys)]
     scenes = ensembles(batches, "folder")
     if len(scenes) > 1:
-        raise ValueError(f"one scene is drawn, not {' and '.join(sorted(scenes))}")
+        raise ValueError(f"several scenes: {', '.join(sorted(scenes))}; give batches of one")
     return list(scenes.values())
 
 
@@ -56,7 +56,7 @@ def _correlations(source: CorrelationsSource, correlation: Path, lengths: Paths)
 
 _one = partial(click.argument, type=INPUT)
 _many = partial(_one, nargs=-1, required=True)
-#: What the command of a figure takes, and how that becomes what `draw` takes, by kind of source.
+#: Arguments of a figure's command, and the function that reads them for `draw`, by kind of source.
 _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     Source: ([], lambda source: []),
     PatternSource: ([scene_options], lambda source, scene: [scene.pattern]),
@@ -67,11 +67,13 @@ _SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[
 _OUTPUTS = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
 )
-_CAPTION = click.option("--caption", help="Kept with the picture; by default the general one.")
+_CAPTION = click.option(
+    "--caption", help="Caption in the file's metadata, in place of the general one."
+)
 
 
 class _Figures(click.Group):
-    """A command for each figure, made from what the figure declares."""
+    """A command for each figure, made from its declaration."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return sorted(FIGURES)
@@ -79,7 +81,7 @@ class _Figures(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         if cmd_name not in FIGURES:
             known = ", ".join(sorted(FIGURES))
-            raise click.UsageError(f"{cmd_name!r} is no figure; there are {known}")
+            raise click.UsageError(f"unknown figure {cmd_name!r}; choose one of {known}")
         declared = FIGURES[cmd_name]
         takes, given = _SOURCES[type(declared.source)]
 
@@ -95,4 +97,4 @@ class _Figures(click.Group):
 
 @click.group("figure", cls=_Figures, subcommand_metavar="NAME [INPUTS]... --output FILE")
 def figure() -> None:
-    """Draw a figure from what the study has computed."""
+    """Draw a figure from results of the study."""

@@ -1,4 +1,4 @@
-"""springblock info and dictionary: what is in a file, and in all of them."""
+"""springblock info and dictionary: contents of a file, and columns of all tables."""
 
 import zipfile
 from pathlib import Path
@@ -14,13 +14,13 @@ from springblock.model.scene import Scene
 from springblock.report.dictionary import columns, page, tables
 from springblock.simulation.prelude import Prelude
 
-_SHOWN = 12  #: scenes that are named
+_SHOWN = 12  #: largest number of scenes listed
 
 
 @click.command("info")
 @click.argument("file", type=INPUT)
 def info(file: Path) -> None:
-    """Say what FILE holds, with its origin: a table, a prelude or fields, columns with units."""
+    """Describe FILE (table, prelude or fields): rows, scenes, origin, columns with their units."""
     with one_sentence():
         describe = _fields if file.suffix == ".nc" else _table
         for line in _prelude(file) if zipfile.is_zipfile(file) else describe(file):
@@ -63,19 +63,19 @@ def _table(file: Path) -> list[str]:
 
 
 def _scenes(table: pa.Table) -> list[str]:
-    """Scenes that a table holds, and how many rows of each."""
+    """List the scenes of a table and the number of rows of each."""
     if not {"n_blocks", "varied"} <= set(table.column_names):
         return []
     names = [name for name in Scene(1).row if name in table.column_names]
     found = table.group_by(names, use_threads=False).aggregate([([], "count_all")]).to_pylist()
     lines = [f"  {Scene.from_row(row).folder}: {row['count_all']}" for row in found]
     more = [f"  and {len(lines) - _SHOWN} more"] if len(lines) > _SHOWN else []
-    return [f"{len(lines)} scenes, with so many rows:", *lines[:_SHOWN], *more]
+    return [f"{len(lines)} scenes, with numbers of rows:", *lines[:_SHOWN], *more]
 
 
 @click.command("dictionary")
 @click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
-    """Write down what every column of every table means, and its unit."""
+    """Write the meaning and unit of every column of every table."""
     with whole_file(output) as partial:
         partial.write_text(page(tables()), encoding="utf-8")

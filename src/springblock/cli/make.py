@@ -1,4 +1,4 @@
-"""springblock make and report: tables of accuracy and mechanism, tables joined, and pages."""
+"""springblock make and report: tables of accuracy and mechanism, joined tables, and pages."""
 
 from pathlib import Path
 from pkgutil import resolve_name
@@ -16,7 +16,7 @@ from springblock.mechanism.surfaces import TABLES
 MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
-#: Inputs of each name: what they are, how many at least, and how many at most.
+#: Inputs of each name: description, smallest and largest number.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
@@ -38,18 +38,17 @@ INPUTS = {
 def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output: Path) -> None:
     """Make the table or page NAME.
 
-    Tables without INPUTS: stability, of stiff and extreme cases; those of errors in one comparison
-    on one scene; production, of errors with N = 120; and mechanism-N_P, of simpler models on
-    pillars of one size, and other parts of the tables mechanism. From INPUTS: collect joins tables
-    of equal columns, made by the same code; accuracy writes the page on errors from the tables
-    work_precision, stability, realisations and, if there is one, production; mechanism explains
-    friction and load peaks from its tables; beyond answers questions beyond the paper from batches
-    of realisations, where they suffice.
+    Tables without INPUTS: stability, stiff and extreme cases; reference-SCENE and others, errors in
+    one comparison on one scene; production-SCENE, errors with N = 120; mechanism-N_P and others,
+    simpler models on one surface. From INPUTS: collect joins tables of equal columns, made by the
+    same code; accuracy writes the page on errors from the tables work_precision, stability,
+    realisations and, if there is one, production; mechanism writes the page on friction and load
+    peaks from its tables; beyond answers questions beyond the paper from batches of realisations.
     """
     with one_sentence():
         wanted, least, most = INPUTS[name]
         if len(inputs) < least or (most is not None and len(inputs) > most):
-            raise ValueError(f"{name} takes {wanted}; number of files given: {len(inputs)}")
+            raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
         if name in MEASURED:
             _measure(name, output)
         elif name == "collect":
@@ -60,7 +59,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 
 
 def _measure(name: str, output: Path) -> None:
-    """Write a table in which there is nothing to configure."""
+    """Write a table that does not depend on the configuration."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.mechanism.tables import measure
 
@@ -88,7 +87,7 @@ def _collect(tables: tuple[Path, ...], configuration: str | None, output: Path) 
 
 
 def _page(name: str, files: tuple[Path, ...]) -> str:
-    """Write one of the pages, whose folders load what they need."""
+    """Return the text of a page."""
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))
@@ -109,8 +108,8 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
 )
 @click.option("--output", type=OUTPUT, required=True, help="HTML file.")
 def report(files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], output: Path) -> None:
-    """Show FILES of a study in one page: pictures (PNG), pages (Markdown) and tables (Parquet)."""
-    from springblock.report.page import page  # needs what the study needs
+    """Write the HTML report from FILES: pictures (PNG), pages (Markdown) and tables (Parquet)."""
+    from springblock.report.page import page  # needs the packages of the study
 
     with one_sentence():
         text = page(files, dict(films))

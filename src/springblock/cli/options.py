@@ -1,4 +1,4 @@
-"""Options and errors that several commands share."""
+"""Options and error handling shared by several commands."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -18,7 +18,7 @@ from springblock.model.scene import EDGES, Scene, Varied, in_order
 
 
 class _Output(click.Path):
-    """File that a command writes."""
+    """Path of a file that a command writes."""
 
     def convert(self, value: Any, *where: Any) -> Any:
         path: Any = super().convert(value, *where)
@@ -34,7 +34,7 @@ INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
 
 def given(read: Callable[[Any], Any]) -> Callable[..., Any]:
-    """Return a callback that reads the value of an option, and refuses it in one sentence."""
+    """Return a callback that reads the value of an option, with errors in one sentence."""
 
     def value_of(context: click.Context, parameter: click.Parameter, value: Any) -> Any:
         try:
@@ -50,20 +50,24 @@ def name_value_pairs(pairs: tuple[str, ...]) -> Varied:
     return in_order(dict(pair.partition("=")[::2] for pair in pairs))
 
 
-#: Options of a surface, without what a sweep varies.
+#: Options of a surface, without those that a sweep varies.
 SURFACE = [
     click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
-    click.option("--n-rows", type=int, default=0, help="Blocks along y; as many if unsaid."),
+    click.option("--n-rows", type=int, default=0, help="Blocks along y; N by default."),
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
     click.option("--n-s", type=int, default=0, help="Distance between them, blocks."),
     click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
     click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
     click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
     click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
+    click.option("--along-3", type=click.Choice("xy"), help="Axis of these grooves; y by default."),
     click.option(
-        "--along-3", type=click.Choice("xy"), help="Axis that these grooves run along; y if unsaid."
+        "--edges",
+        type=click.Choice(EDGES),
+        default="free",
+        show_default=True,
+        help="Edges of the surface.",
     ),
-    click.option("--edges", type=click.Choice(EDGES), default="free", show_default=True),
     click.option(
         "--mask",
         type=INPUT,
@@ -75,14 +79,14 @@ SURFACE = [
         "mu_static_field",
         type=INPUT,
         callback=given(BlockMap.coefficients),
-        help="Array (.npy) of static coefficients, which are then not drawn.",
+        help="Array (.npy) of static friction coefficients, in place of random ones.",
     ),
     click.option(
         "--mu-dynamic",
         "mu_dynamic_field",
         type=INPUT,
         callback=given(BlockMap.coefficients),
-        help="The same of dynamic ones.",
+        help="Array (.npy) of dynamic friction coefficients.",
     ),
 ]
 _SCENE = [
@@ -92,20 +96,20 @@ _SCENE = [
         default="x",
         callback=given(normalised),
         show_default=True,
-        help="x, y or degrees.",
+        help="Sliding direction: x, y or degrees from x.",
     ),
     click.option(
         "--vary",
         "varied",
         multiple=True,
         callback=given(name_value_pairs),
-        help="A constant of its own: step=1e-8.",
+        help="Another value of a constant: step=1e-8. Can be repeated.",
     ),
 ]
 
 
 def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a scene; the command gets them as `scene`."""
+    """Add the options of a scene, which the command receives as `scene`."""
 
     @wraps(command)
     def with_scene(**options: Any) -> Any:
@@ -117,7 +121,7 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def scene_of(options: dict[str, Any], **others: Any) -> Scene:
-    """Take the options of a scene out of all, and return it."""
+    """Remove the options of a scene from `options`, and return the scene."""
     given = {field.name: options.pop(field.name, None) for field in fields(Scene)} | others
     return Scene(**given | {"along_3": given["along_3"] or ""})
 
@@ -125,7 +129,7 @@ def scene_of(options: dict[str, Any], **others: Any) -> Scene:
 def with_options(
     options: list[Callable[..., Any]], command: Callable[..., Any]
 ) -> Callable[..., Any]:
-    """Add several options, in the order in which the help shows them."""
+    """Add several options, in the order of the help text."""
     for option in reversed(options):
         command = option(command)
     return command
@@ -134,7 +138,7 @@ def with_options(
 def code_version(step: str) -> str:
     """Return the version of the code of a step, with the digest given as `springblock --code`.
 
-    The workflow takes it once for all jobs; without the option it is taken here.
+    The workflow computes it once for all jobs; without the option it is computed here.
     """
     context = click.get_current_context(silent=True)
     given = context.find_root().params.get("code") if context else None
@@ -143,7 +147,7 @@ def code_version(step: str) -> str:
 
 @contextmanager
 def one_sentence() -> Iterator[None]:
-    """Report what is wrong with the input in one sentence, without a traceback."""
+    """Report errors of the input in one sentence, without a traceback."""
     try:
         yield
     except (OSError, TypeError, ValueError, RuntimeError) as error:

@@ -14,7 +14,7 @@ from springblock.model.scene import Scene
 from springblock.plotting import film, still, sweep
 from springblock.plotting.style import save
 
-_SEED = click.option("--seed", type=int, help="Which run of a file; the first if unsaid.")
+_SEED = click.option("--seed", type=int, help="Seed of the run to draw; the first run by default.")
 
 
 def _chosen(path: Path, seed: int | None) -> Record:
@@ -23,7 +23,7 @@ def _chosen(path: Path, seed: int | None) -> Record:
         return next(iter(runs.values()))
     if seed not in runs:
         held = ", ".join(map(str, runs))
-        raise ValueError(f"{path} holds no run of seed {seed}; there are {held}")
+        raise ValueError(f"{path} has no run with seed {seed}; choose one of {held}")
     return runs[seed]
 
 
@@ -38,13 +38,13 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.command("plot")
 @click.argument("files", type=INPUT, nargs=-1, required=True)
 @_SEED
-@click.option("--over", help="Draw means of all runs over this instead: slider_velocity, n_p, ...")
+@click.option("--over", help="Draw all runs against this parameter: slider_velocity, n_p, ...")
 @click.option(
     "--of",
     "observables",
     type=click.Choice(list(sweep.OBSERVABLES)),
     multiple=True,
-    help="What is drawn over it; static_friction if unsaid. May be given several times.",
+    help="Observable to draw; static_friction by default. Can be repeated.",
 )
 @click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG."
@@ -58,8 +58,8 @@ def plot(
 ) -> None:
     """Draw one run: force, detachments, their map, and snapshots if any.
 
-    Of a file of fields (.nc) maps of shear stress and slip. With --over all runs of FILES, which
-    may be tables of realisations, over what tells them apart.
+    For a file of fields (.nc), draw maps of shear stress and slip. With --over, draw all runs of
+    FILES, which may be tables of realisations, against a parameter.
     """
     with one_sentence():
         if files[0].suffix == ".nc":
@@ -67,7 +67,7 @@ def plot(
             caption = still.FIELDS_CAPTION
         elif over is None:
             if len(files) > 1:
-                raise ValueError(f"{len(files)} files are drawn --over an axis, or one run of one")
+                raise ValueError(f"{len(files)} files given; give one, or a parameter with --over")
             picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
         else:
             rows = read_tables(files, SUMMARY).to_pylist()
@@ -75,7 +75,7 @@ def plot(
             picture = sweep.draw(found, over, observables or ["static_friction"])
             caption = sweep.caption(found)
             if left_out := len(rows) - len(sweep.drawn(found)):
-                click.echo(f"Left out: {left_out} realisations of surfaces with one {over} alone")
+                click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
         for output in outputs:
             save(picture, output, caption)
 
@@ -85,7 +85,7 @@ def plot(
 @_SEED
 @click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file; 7.5 s.")
 def animate(run: Path, seed: int | None, output: Path) -> None:
-    """Film one run of a file RUN: the blocks that let go, while the force runs along."""
+    """Film one run of a file RUN: the detaching blocks beside the force curve."""
     with one_sentence():
         film.animate(_chosen(run, seed), output)
 

@@ -1,4 +1,4 @@
-"""springblock aggregate and correlation: tables of realisations, and of their correlations."""
+"""springblock aggregate and correlation: tables of realisations and of their correlations."""
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -26,7 +26,7 @@ from springblock.model.scene import COLUMNS
 @click.command("aggregate")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
-@click.option("--realisations", type=int, help="How many there must be.")
+@click.option("--realisations", type=int, help="Expected number of realisations.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def aggregate(
     batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
@@ -35,7 +35,9 @@ def aggregate(
     with one_sentence():
         table = read(batches, SUMMARY)
         if realisations not in (None, table.num_rows):
-            raise ValueError(f"the batches hold {table.num_rows} realisations, not {realisations}")
+            raise ValueError(
+                f"{table.num_rows} realisations in the batches; expected {realisations}"
+            )
         table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
         for row in suspects(table.to_pylist(), COLUMNS):
             which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
@@ -65,11 +67,11 @@ def correlation(batches: tuple[Path, ...], output_correlation: Path, output_leng
 
 
 def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
-    """Columns that name each kind of side, and its detachment times."""
+    """Yield the columns that name each kind of side, and its detachment times."""
     scene = records[0].scene
     others = {record.scene.folder for record in records} - {scene.folder}
     if others:
-        raise ValueError(f"one scene is correlated, not {scene.folder} and {others.pop()}")
+        raise ValueError(f"several scenes: {scene.folder}, {others.pop()}; give batches of one")
     if not scene.sides:
         raise ValueError(f"{scene.folder} has no whole sides of 6 blocks or more")
     columns = {**scene.row, **records[0].constants, "realisations": len(records)}
@@ -104,6 +106,6 @@ def _length(length: Length) -> Row:
 
 
 def _columns(name: str, interval: Iterable[Any], limits: str = "") -> Row:
-    """Columns of a value and the limits of its interval."""
+    """Return the columns of a value and the limits of its interval."""
     names = name, f"{limits or name}_low", f"{limits or name}_high"
     return dict(zip(names, map(float, interval), strict=True))

@@ -47,7 +47,7 @@ SETUP = [
         "--material",
         multiple=True,
         callback=given(name_value_pairs),
-        help="A constant in SI units: youngs_modulus=1e7, in Pa. May be given several times.",
+        help="A constant in SI units: youngs_modulus=1e7. Can be repeated.",
     ),
     click.option(
         "--law",
@@ -58,21 +58,23 @@ SETUP = [
         type=click.Choice(list(INTEGRATORS)),
         default="leapfrog",
         show_default=True,
-        help="Method that follows the blocks through time.",
+        help="Time integrator.",
     ),
-    click.option("--step", type=float, default=STEP, show_default=True, help="Of integration, s."),
+    click.option(
+        "--step", type=float, default=STEP, show_default=True, help="Integration step, s."
+    ),
     click.option(
         "--sample-interval",
         type=float,
         default=SAMPLE_INTERVAL,
         show_default=True,
-        help="Between two entries of the force curve, s.",
+        help="Time between samples of the force, s.",
     ),
 ]
 
 
 def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a scene and of how to compute it, which the command gets as `setup`."""
+    """Add the options of a scene and a setup, which the command receives as such."""
 
     @wraps(command)
     def with_setup(*, scene: Scene, **options: Any) -> Any:
@@ -84,7 +86,7 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def setup_of(options: dict[str, Any]) -> Setup:
-    """Take the options of a setup out of all, and return it."""
+    """Remove the options of a setup from `options`, and return the setup."""
     given = {field.name: options.pop(field.name) for field in fields(Setup)}
     law = options.pop("law")
     constants = dict(given.pop("material")) | ({} if law is None else {"law": law})
@@ -92,7 +94,7 @@ def setup_of(options: dict[str, Any]) -> Setup:
 
 
 def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
-    """mu_static and mu_dynamic, (N_y, N_x) each: drawn, unless the scene has them from files."""
+    """Return mu_static and mu_dynamic, (N_y, N_x) each: random, or from the files of the scene."""
     mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.is_periodic)
     of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
     return (
@@ -102,7 +104,7 @@ def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]
 
 
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
-    """One row of a batch."""
+    """Return the row of a run in a batch."""
     return {
         **scene.row,
         **setup.constants,
@@ -125,7 +127,7 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
     }
 
 
-#: As in the study's configuration: up to a million seeds after 1e18.
+#: As in the configuration of the study: up to a million seeds, from 1e18 at most.
 _MOST_SEEDS = 10**6
 _SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
 _CORES = click.option(
@@ -138,7 +140,7 @@ _CORES = click.option(
 @_CORES
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
-    """Compute the loading of one scene before its first detachment, for all seeds to share."""
+    """Compute the loading of a scene before its first detachment, shared by all seeds."""
     with one_sentence():
         replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
 
@@ -152,31 +154,43 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
 
 @click.command("simulate")
 @setup_options
-@click.option("--first-seed", type=_SEED, default=0, show_default=True, help="Of the coefficients.")
-@click.option("--last-seed", type=_SEED, help="Itself included; by default the first one.")
-@click.option("--duration", type=float, help="s; by default until the scene has shown its peak.")
+@click.option(
+    "--first-seed",
+    type=_SEED,
+    default=0,
+    show_default=True,
+    help="First seed of the friction coefficients.",
+)
+@click.option("--last-seed", type=_SEED, help="Last seed, included; the first seed by default.")
+@click.option(
+    "--duration", type=float, help="Simulated time, s; by default until after the force peak."
+)
 @click.option(
     "--snapshot",
     "snapshot_times",
     type=float,
     multiple=True,
-    help="Time at which displacements are kept, s. May be given several times.",
+    help="Time at which displacements are kept, s. Can be repeated.",
 )
 @click.option(
     "--fields",
     "field_file",
     type=OUTPUT,
-    help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of the blocks at the "
-    "times of --snapshot, of one seed.",
+    help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of blocks at the "
+    "times of --snapshot; one seed.",
 )
-@click.option("--prelude", type=INPUT, help="Written by `springblock prelude`; saves time.")
+@click.option(
+    "--prelude",
+    type=INPUT,
+    help="File written by `springblock prelude`, which saves its computing time.",
+)
 @_CORES
 @click.option(
     "--checkpoint",
     "minutes",
     type=click.FloatRange(min=0.0, min_open=True),
-    help="Minutes after which unfinished runs are kept again, in OUTPUT.checkpoint. The same "
-    "command goes on from there; the folder is removed at the end.",
+    help="Minutes between checkpoints in the folder OUTPUT.checkpoint, from which the same command "
+    "continues; it is removed at the end.",
 )
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
@@ -192,12 +206,12 @@ def simulate_batch(
     minutes: float | None,
     output: Path,
 ) -> None:
-    """Run the realisations of one scene from --first-seed to --last-seed."""
+    """Simulate the realisations of a scene from --first-seed to --last-seed."""
     seeds = range(first_seed, (first_seed if last_seed is None else last_seed) + 1)
     if not seeds:
-        raise click.BadParameter(f"{last_seed} comes before --first-seed {first_seed}")
+        raise click.BadParameter(f"--last-seed {last_seed} is below --first-seed {first_seed}")
     if len(seeds) > _MOST_SEEDS:
-        raise click.BadParameter(f"a batch may have up to {_MOST_SEEDS} seeds, not {len(seeds)}")
+        raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
     single = len(seeds) == 1
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
@@ -224,7 +238,7 @@ def simulate_batch(
 
 
 def _prelude(file: Path) -> Prelude:
-    """Read a prelude, which must come from the code that goes on from there."""
+    """Read a prelude, which must have been written by the same code."""
     begun = Prelude.read(file)
     if not same_code(begun.code_version, code_version("simulate")):
         raise ValueError(f"{file} was made by other code, {begun.code_version}; {MENDING}")
@@ -232,7 +246,7 @@ def _prelude(file: Path) -> Prelude:
 
 
 def _in_words(rows: list[Row]) -> str:
-    """What runs came to: means, and of several their standard errors."""
+    """Summarise runs: means, and standard errors of several."""
     told = []
     for name, unit, factor in (
         ("static_friction", "", 1.0),
@@ -278,7 +292,7 @@ def realised(
 
 
 def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row], seed: int) -> Row:
-    """Row of a realisation that is finished in `folder`, or of one that is finished now."""
+    """Return the row of a realisation, read from `folder` or simulated and kept there."""
     file, ours = folder / f"seed={seed}.parquet", json.dumps(belongs)
     if file.exists():
         table = load(file)
@@ -290,13 +304,13 @@ def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row]
 
 
 def batch_table(rows: list[Row]) -> pa.Table:
-    """Table of a batch; with snapshots where they were asked for."""
+    """Return the table of a batch, with snapshots if the runs have any."""
     kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
     return rows_to_table(rows, pa.schema([*BATCH, *kept]))
 
 
 def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
-    """What a batch says of its making."""
+    """Return the metadata of a batch: code and configuration."""
     return {
         "code_version": code_version("simulate"),
         "configuration": json.dumps(configuration, sort_keys=True),
@@ -306,9 +320,9 @@ def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
 
 @click.command("compile")
 @click.option("--integrator", "integrators", type=click.Choice(list(INTEGRATORS)), multiple=True)
-@click.option("--law", "laws", multiple=True, help="As of `springblock simulate`.")
+@click.option("--law", "laws", multiple=True, help="As for `springblock simulate`.")
 def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
-    """Compile integrators once, with laws of friction, so that no job has to."""
+    """Compile the integrators with laws of friction, once for all jobs."""
     surface = Scene(n_blocks=4).contact
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
@@ -316,4 +330,4 @@ def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None
             how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
             begun = compute_prelude(surface, **how)
             simulate(surface, *draw_friction(4, 0), prelude=begun, duration=1e-6, **how)
-        click.echo(f"{integrator} is compiled with the law {law}")
+        click.echo(f"compiled: {integrator} with the friction law {law}")

@@ -1,4 +1,4 @@
-"""springblock sweep: ensembles over constants and directions, without Snakemake."""
+"""springblock sweep: ensembles for several constants and directions, without Snakemake."""
 
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -33,7 +33,7 @@ _BATCH = 5  #: seeds of one job
 
 
 class Job(NamedTuple):
-    """Seeds of one scene, and the file that keeps them."""
+    """Seeds of one scene, and the file of their realisations."""
 
     scene: Scene
     setup: Setup
@@ -43,11 +43,11 @@ class Job(NamedTuple):
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What the file says of its making."""
+        """Return the metadata of the file: code and configuration."""
         return metadata_of(self.setup.constants | self.asked)
 
     def run(self) -> int:
-        """Simulate the seeds, unless the file has them; returns their number."""
+        """Simulate the seeds, unless the file exists; return their number."""
         if not self.file.exists():
             prelude = loaded(self.scene, self.setup)
             rows = [
@@ -57,7 +57,7 @@ class Job(NamedTuple):
             self.file.parent.mkdir(parents=True, exist_ok=True)
             write(batch_table(rows), self.file, self.metadata)
         elif not self.metadata.items() <= origin_of(load(self.file, [])).items():
-            raise ValueError(f"{self.file} holds runs of other constants or code; remove it first")
+            raise ValueError(f"{self.file} has runs with other constants or code; remove it")
         return len(self.seeds)
 
 
@@ -66,7 +66,7 @@ def _directions(text: str) -> list[str]:
 
 
 def _varied(pairs: tuple[str, ...]) -> list[Varied]:
-    """Read constants with several values each: every combination."""
+    """Return every combination of constants with several values each."""
     lists = {name: text.split(",") for name, _, text in (pair.partition("=") for pair in pairs)}
     values = product(*lists.values())
     return [in_order(dict(zip(lists, each, strict=True))) for each in values]
@@ -79,17 +79,27 @@ _SWEPT = [
         default="x",
         callback=given(_directions),
         show_default=True,
-        help="x, y or degrees; several with commas: x,y.",
+        help="Sliding directions, separated by commas: x, y or degrees from x.",
     ),
     click.option(
         "--vary",
         multiple=True,
         callback=given(_varied),
-        help="Values of a constant: slider_velocity=5e-4,1e-3. May be given several times.",
+        help="Values of a constant: slider_velocity=5e-4,1e-3. Can be repeated.",
     ),
-    click.option("--seeds", type=click.IntRange(1, 10**6), default=10, show_default=True),
-    click.option("--duration", type=float, help="s; by default until a scene has shown its peak."),
-    click.option("--jobs", type=click.IntRange(1), default=1, show_default=True, help="At once."),
+    click.option(
+        "--seeds",
+        type=click.IntRange(1, 10**6),
+        default=10,
+        show_default=True,
+        help="Realisations of each ensemble.",
+    ),
+    click.option(
+        "--duration", type=float, help="Simulated time, s; by default until after the force peak."
+    ),
+    click.option(
+        "--jobs", type=click.IntRange(1), default=1, show_default=True, help="Parallel processes."
+    ),
     click.option(
         "--output", type=click.Path(file_okay=False, path_type=Path), required=True, help="Folder."
     ),
@@ -112,10 +122,10 @@ def sweep(
     output: Path,
     **options: Any,
 ) -> None:
-    """Run ensembles of one surface over constants and directions.
+    """Simulate ensembles of one surface for several constants and directions.
 
-    The folder gets their runs, the table realisations.parquet and, over each constant or direction
-    with several values, a figure. What is in the folder already is not run again.
+    The output folder receives the runs, the table realisations.parquet and a figure against each
+    constant or direction with several values. Runs already in the folder are not repeated.
     """
     with one_sentence():
         usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
@@ -147,7 +157,7 @@ def _batches(scene: Scene, seeds: int, output: Path) -> Iterator[tuple[range, Pa
 
 
 def _run(work: list[Job], jobs: int) -> None:
-    """Run all jobs, so many at once, and count realisations."""
+    """Run all jobs in parallel processes, with a count of realisations."""
     number = sum(len(job.seeds) for job in work)
     with (
         tqdm(total=number, unit="realisation") as bar,
@@ -169,7 +179,7 @@ def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:
 
 
 def _axes(vary: list[Varied], directions: list[str]) -> list[str]:
-    """Names of what has several values, numbers only."""
+    """Return the names of numerical constants, and of the direction, with several values."""
     names = [name for name, _ in vary[0]]
     several = [name for name in names if len({dict(each)[name] for each in vary}) > 1]
     numbers = [name for name in several if isinstance(dict(vary[0])[name], float)]

@@ -1,4 +1,4 @@
-"""springblock table and compare: ensembles in a row each, and what changes between two tables."""
+"""springblock table and compare: a row per ensemble, and differences between two tables."""
 
 import csv
 from collections.abc import Sequence
@@ -27,31 +27,33 @@ from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
 
 _PATH = click.Path(exists=True, path_type=Path)
-_SHOWN = 5  #: ensembles of one table alone that are named
+_SHOWN = 5  #: largest number of unpaired ensembles listed
 _OF = click.option(
     "--of",
     type=click.Choice(OBSERVABLES),
     multiple=True,
     default=("static_friction", "t_max", "t_avg"),
     show_default=True,
-    help="Observable. May be given several times.",
+    help="Observable. Can be repeated.",
 )
 _OUTPUT = click.option(
-    "--output", type=OUTPUT, help="CSV or Parquet file of all numbers in SI units, by its suffix."
+    "--output", type=OUTPUT, help="CSV or Parquet file of all numbers, in SI units."
 )
 
 
 @click.command("table")
 @click.argument("paths", type=_PATH, nargs=-1, required=True)
 @_OF
-@click.option("--by", multiple=True, help="Name to gather realisations by; all if unsaid.")
+@click.option(
+    "--by", multiple=True, help="Column that defines ensembles; all by default. Can be repeated."
+)
 @_OUTPUT
 def table(
     paths: tuple[Path, ...], of: tuple[str, ...], by: tuple[str, ...], output: Path | None
 ) -> None:
-    """Show a row per ensemble of the realisations in PATHS: files, or folders with all they hold.
+    """Show the mean observables of each ensemble in PATHS, files or folders of realisations.
 
-    Means have 95 % intervals of Student's t.
+    Intervals are 95 % intervals of Student's t.
     """
     with one_sentence():
         members = ensembles(_rows(paths), by)
@@ -69,11 +71,10 @@ def table(
 @_OF
 @_OUTPUT
 def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None) -> None:
-    """Say what changes from the realisations in FIRST to those in SECOND: files or folders.
+    """Compare the realisations in FIRST and SECOND, files or folders.
 
-    For each ensemble that both hold, the difference of means with its 95 % interval, seed by seed
-    where both have the same seeds and friction coefficients. `springblock verify` compares to the
-    bit.
+    For each ensemble in both: the difference of means with its 95 % interval, paired where seeds
+    and friction coefficients are the same. `springblock verify` compares to the bit.
     """
     with one_sentence():
         one, other = (ensembles(_rows([path])) for path in (first, second))
@@ -81,7 +82,7 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         for name, (ours, theirs) in differ.items():
             click.echo(f"{name}: {ours} in {first}, {theirs} in {second}")
         if not found:
-            raise ValueError(f"{first} and {second} share no ensemble")
+            raise ValueError(f"{first} and {second} have no ensemble in common")
         shared = [id(part) for each in found for part in (each.first, each.second)]
         for path, members in ((first, one), (second, other)):
             _tell_alone(path, [each for each in members if id(each) not in shared])
@@ -99,7 +100,7 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
 
 
 def _rows(paths: Sequence[Path]) -> list[Row]:
-    """Summaries of all realisations in files and folders."""
+    """Return the summaries of all realisations in files and folders."""
     files = [
         file
         for path in paths
@@ -107,7 +108,7 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
     ]
     held = [file for file in files if file in paths or _holds_realisations(file)]
     if not held:
-        raise ValueError(f"{', '.join(map(str, paths))}: no realisations in there")
+        raise ValueError(f"{', '.join(map(str, paths))}: no realisations found")
     return [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
 
 
@@ -116,7 +117,7 @@ def _holds_realisations(file: Path) -> bool:
 
 
 def _tell_alone(path: Path, members: Sequence[Ensemble]) -> None:
-    """Name ensembles that one side alone has."""
+    """List the ensembles that only one side has."""
     names = telling(each.names for each in members)
     for each in members[:_SHOWN]:
         told = {name: each.names[name] for name in names if each.names.get(name)}
@@ -151,7 +152,7 @@ def _write(
     intervals: dict[str, list[Interval]],
     output: Path,
 ) -> None:
-    """Write the same as CSV or Parquet, with the limits of intervals in columns of their own."""
+    """Write the table as CSV or Parquet, with separate columns for the limits of intervals."""
     found: dict[str, list[Any]] = {name: [each.get(name) for each in members] for name in names}
     found |= columns
     for name, values in intervals.items():
@@ -166,4 +167,4 @@ def _write(
                 writer.writerow(found)
                 writer.writerows(zip(*found.values(), strict=True))
         else:
-            raise ValueError(f"{output} must end in .csv or .parquet")
+            raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")

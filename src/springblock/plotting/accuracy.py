@@ -1,4 +1,4 @@
-"""Errors of single runs and of ensembles against what they cost, and of extreme cases."""
+"""Errors of single runs and of ensembles against their cost, and of extreme cases."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -103,7 +103,7 @@ def work_precision(table: DataFrame, production: DataFrame | None = None) -> Fig
 
 
 def _name_scene(ax: Axes, rows: DataFrame, pad: float | None = None) -> None:
-    """Write above a panel which scene it shows, and how large it is."""
+    """Write the scene and its size above a panel."""
     sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
     ax.set_title(f"{rows.scene.iloc[0]}, {sizes} blocks", pad=pad)
 
@@ -269,7 +269,7 @@ def _draw_errors(ax: Axes, table: DataFrame, colors: dict[float, Any]) -> None:
 
 
 def _errors(choice: Choice, spent: Array) -> Array:
-    """Return the total error in percent for each CPU time in s, (n,); NaN before one is done."""
+    """Return the total error in percent at CPU times in s, (n,); NaN below one realisation."""
     errors = PERCENT * np.array([choice.error(seconds) for seconds in spent])
     return np.where(np.isfinite(errors), errors, np.nan)
 
@@ -323,7 +323,7 @@ def _draw_steps(ax: Axes, cases: DataFrame) -> None:
 
 
 def _draw_overview(ax: Axes, cases: DataFrame) -> None:
-    """Draw error over accepted error, family by family; within each, the cases lie side by side."""
+    """Draw error over accepted error for each family, with its cases side by side."""
     families = list(dict.fromkeys(cases["family"]))
     nothing = cases["tolerance"].isna() & ~cases["outcome"].isin(_ENDS)
     cases = cases.assign(outcome=cases["outcome"].mask(nothing, "nothing"))

@@ -31,7 +31,7 @@ _TICKS = (1, 2, 5, 10, 20, 40, 80)  #: blocks, of the map of friction
 _LETTERS = ("ab", "cd")  #: of the maps of load peaks
 _COLORS = "viridis_r"  #: of these maps
 _SHOWN = (0, 6, 20)  #: n_p of the surfaces whose clusters are drawn
-_LAST = 15  #: blocks, distance up to which correlations along grooves are drawn
+_LAST = 15  #: largest distance of correlations along grooves, blocks
 
 
 def _by_scene(ensembles: Folders) -> Ensembles:
@@ -74,12 +74,12 @@ def _draw_correlation(ax: Axes, lattices: lattice.Surfaces) -> None:
 def _draw_lengths(
     ax: Axes, lattices: lattice.Surfaces, even: lattice.Surfaces, thick: lattice.Surfaces
 ) -> None:
-    """Draw decay lengths on the largest pillars over l and over l_z, with guides."""
+    """Draw decay lengths on the largest pillars against l and l_z, with guides of slope 0 and 1."""
     spots: list[float] = []
     for part, varied, color, marker, label in (
-        (lattices, "spacing", BLUE, "o", "over $l$"),
-        (even, "spacing", VERMILION, "s", "over $l$, same disorder per area"),
-        (thick, "thickness", BLACK, "^", "over $l_z$"),
+        (lattices, "spacing", BLUE, "o", "against $l$"),
+        (even, "spacing", VERMILION, "s", "against $l$, equal disorder per area"),
+        (thick, "thickness", BLACK, "^", "against $l_z$"),
     ):
         found = {at: side_length(sizes[max(sizes)]) for at, sizes in part.items()}
         lengths = {at: at.spacing * np.array(blocks) for at, blocks in found.items() if blocks}
@@ -101,7 +101,7 @@ def _draw_lengths(
 
 
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
-    """Draw static friction over the size of pillars, and mark where it is lowest."""
+    """Draw static friction against pillar size, and mark where it is lowest."""
     lines = {getattr(at, varied): friction.samples(sizes) for at, sizes in part.items()}
     colors = style.shades(lines)
     for value, samples in lines.items():
@@ -168,7 +168,7 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
 
 
 def beyond_friction(ensembles: Folders) -> Figure:
-    """Draw the map of friction, and the lines of the same contact fraction."""
+    """Draw a) a map of friction over n_p and n_s and b) friction for each contact fraction."""
     found = friction.friction_map(_by_scene(ensembles))
     picture, (over_both, lines) = style.panels(style.DOUBLE, 80.0, "ab")
     _draw_friction_map(over_both, found)
@@ -244,7 +244,7 @@ def _draw_peaks(
 
 
 def beyond_precursors(ensembles: Folders) -> Figure:
-    """Draw a) clusters of precursors beside those of chance and b) c(r) by angle."""
+    """Draw a) clusters of precursors beside those expected by chance and b) c(r) by angle."""
     found = _by_scene(ensembles)
     picture, (left, right) = style.panels(style.DOUBLE, 73.0, "ab")
     _draw_clusters(left, found)
@@ -263,9 +263,12 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
         _draw_shares(ax, masks, color, linestyle="-", label=style.pillar_name(scene.n_p))
         _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
         _draw_shares(ax, clusters.mixed(masks, rng), color, linestyle=":", linewidth=0.9)
-    ax.set(xlabel="size of the cluster (blocks)", ylabel="share of precursors in clusters as large")
+    ax.set(
+        xlabel="size of the cluster (blocks)",
+        ylabel="share of precursors in clusters ≥ size",
+    )
     ax.set(xscale="log", xlim=(0.9, 3000.0), ylim=(0.0, 1.03))
-    for line, word in (("-", "observed"), ("--", "anywhere"), (":", "same places")):
+    for line, word in (("-", "observed"), ("--", "random positions"), (":", "same positions")):
         ax.plot([], [], color=GREY, linestyle=line, label=word)
     ax.legend(loc="upper right")
 

@@ -1,4 +1,4 @@
-"""What a figure is drawn from, in words: surfaces, sliding directions, seeds and material."""
+"""Data of a figure in words: surfaces, sliding directions, seeds and material."""
 
 from collections.abc import Iterable, Mapping
 
@@ -6,7 +6,7 @@ from springblock.model.material import Material
 from springblock.model.scene import LENGTHS, Scene
 
 #: By level, without pillars and with them.
-_SURFACES = (("flat", "grooves", "grooves"), ("", "pillars", "grooved pillars"))
+_SURFACES = (("flat surface", "grooves", "grooves"), ("", "pillars", "grooved pillars"))
 _NAMES = {"n_blocks": "N =", "direction": "sliding direction"}
 
 
@@ -21,9 +21,9 @@ def surface_in_words(*surfaces: Mapping[str, int]) -> str:
 
 
 def sample_in_words(sample: Mapping[Scene, range]) -> str:
-    """Say which scenes were simulated with which seeds, those of the same seeds together.
+    """Describe scenes and their seeds, grouped by seeds.
 
-    N and the sliding direction come first where all scenes share them.
+    N and the sliding direction come first if all scenes share them.
     """
     scenes = sorted(sample, key=lambda s: (s.level, *s.lengths.values(), s.n_blocks))
     shared = [name for name in _NAMES if len(_values(scenes, name)) == 1]
@@ -37,15 +37,16 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
         parts += [_named(some, name) for name in _NAMES if name not in shared]
         several = f"{len(seeds)} realisations, seeds {seeds[0]} to {seeds[-1]}"
         seeded = several if len(seeds) > 1 else f"seed {seeds[0]}"
-        text = f"{', '.join(filter(None, parts))} ({seeded})"
-        kinds.setdefault(surface, []).append(text.strip())
+        text = f"{', '.join(filter(None, parts))} ({seeded})".strip()
+        named = surface if parts[0] or not any(parts) else f"{surface},"
+        kinds.setdefault(surface, [named]).append(text)
     sentences = [", ".join(_named(scenes, name) for name in shared)]
-    sentences += [f"{surface} {'; '.join(texts)}" for surface, texts in kinds.items()]
+    sentences += [f"{named} {'; '.join(texts)}" for named, *texts in kinds.values()]
     return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences if text)
 
 
 def _surface(scene: Scene) -> str:
-    """Return what kind of surface a scene has."""
+    """Return the kind of surface of a scene."""
     if scene.mask:
         return f"surface {scene.mask}"
     if scene.n_p3:
@@ -54,7 +55,7 @@ def _surface(scene: Scene) -> str:
 
 
 def _own(scene: Scene) -> list[str]:
-    """Return what a surface has that those of the paper have not."""
+    """Return the properties of a surface that the paper's surfaces lack."""
     rows = f"n_rows = {scene.n_rows}" if scene.n_rows else ""
     edges = "periodic edges" if scene.is_periodic else ""
     fields = {"mu_static": scene.mu_static_field, "mu_dynamic": scene.mu_dynamic_field}
@@ -62,7 +63,7 @@ def _own(scene: Scene) -> list[str]:
 
 
 def material_in_words(material: Material) -> str:
-    """Name the constants that are not the paper's."""
+    """Name the constants that differ from the paper's."""
     paper = dict(Material().items())
     others = [
         f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"

@@ -1,4 +1,4 @@
-"""Curves over time, and means of ensembles with their intervals over what these vary with."""
+"""Curves over time, and means of ensembles with intervals over a varied parameter."""
 
 from collections.abc import Mapping, Sequence
 from string import ascii_lowercase
@@ -20,7 +20,7 @@ from springblock.simulation.run import Array, Run, friction, percent
 Span = tuple[float, float]  #: of times in µs
 
 BAND = 0.25  #: opacity of the intervals
-REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force after some runs' end
+REST: Look = {"linestyle": (0, (1.0, 0.9))}  #: of a mean force once some runs have ended
 _BIN = 2e-6  #: s, width of the bins of detachments
 _PERCENTILES = (5.0, 95.0)  #: of an ensemble
 _MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
@@ -50,9 +50,9 @@ def draw_band(
 def draw_mean_force(
     ax: Axes, curve: Curve, color: Any, label: str, spread: bool = False, **look: Any
 ) -> Array:
-    """Draw the mean force, dotted where runs are missing, and return it, (n,).
+    """Draw the mean force, dotted where runs have ended, and return it, (n,).
 
-    The band is its interval, or the `spread` of the realisations as long as all go on.
+    The band is its interval or, with `spread`, the percentiles of the runs until the first ends.
     """
     force = statistics.mean_of_rest(curve.friction)
     time, whole = MICRO * curve.time, _length_of_all(curve)
@@ -75,10 +75,7 @@ def draw_single_forces(ax: Axes, curve: Curve, color: Any) -> None:
 
 
 def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> None:
-    """Draw the mean share of first detachments in each bin with its interval.
-
-    A marker stands on the largest.
-    """
+    """Draw the mean share of first detachments in each bin with its interval; mark the largest."""
     edges, shares = curve.binned(_BIN)
     share, *limits = statistics.mean_interval(shares)
     ax.stairs(share, MICRO * edges, baseline=None, color=color, linewidth=0.8)
@@ -91,7 +88,7 @@ def draw_detachments(ax: Axes, curve: Curve, color: Any, marker: str = "") -> No
 
 
 def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
-    """Draw the mean force, and triangles above its load peaks as long as all runs go on."""
+    """Draw the mean force, and triangles above its load peaks until the first run ends."""
     forces = curve.friction[:, : _length_of_all(curve)]
     peaks = statistics.load_peaks(forces.mean(axis=0), statistics.standard_error(forces))
     draw_mean_force(ax, curve, color, name)
@@ -144,7 +141,7 @@ def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: S
 
 
 def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
-    """Draw the friction force of a run; its axis fits what it and the others show in `span`."""
+    """Draw the friction force of a run; its axis fits all runs within `span`."""
     if others:
         time, forces = statistics.cut(others, [friction(other) for other in others])
         low, high = np.percentile(forces, _PERCENTILES, axis=0)
@@ -160,7 +157,7 @@ def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
 
 
 def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
-    """Draw shares of detaching blocks, on a logarithmic axis that begins below one block."""
+    """Draw shares of detaching blocks on a logarithmic axis that starts below one block."""
     floor = 0.6 * float(percent(run, np.array([1]))[0])
     for counts, color, name in (
         (run.switches, "0.75", "rest to sliding"),
@@ -200,8 +197,8 @@ def draw_means(ax: Axes, samples: Mapping[Any, ArrayLike], color: Any, **look: A
 def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> None:
     """Draw each realisation as a dot, and the median of each sample as a dash.
 
-    A sample may lie in two clusters, where no realisation has the mean. The median of an even
-    number is the lower one of those in the middle: one of the realisations.
+    A sample may form two clusters, so that no realisation lies near the mean. The median of an even
+    number is the lower of the two middle values.
     """
     for place, sample in samples.items():
         ax.plot(np.full(len(sample), place), sample, color=color, **DOT)
@@ -210,7 +207,7 @@ def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> No
 
 
 def name_places(ax: Axes, places: ArrayLike) -> None:
-    """Make a logarithmic horizontal axis with a tick at each place, and numbers that have room."""
+    """Make the x axis logarithmic, with a tick at each place and labels that do not overlap."""
     ticks = np.unique(places)
     ax.set_xscale("log")
     along = np.log(ticks / ticks[0]) / max(1e-9, np.log(ticks[-1] / ticks[0]))
@@ -235,7 +232,7 @@ def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Sa
 def stacked(
     xlabel: str, labels: Sequence[str] = (FRICTION, LAG), room: float = 12.0
 ) -> tuple[Figure, list[Axes]]:
-    """Make a panel below the other for each quantity, with `room` in mm for what is around them."""
+    """Make a column of panels, one per quantity, with `room` in mm for labels and legend."""
     letters = ";".join(ascii_lowercase[: len(labels)])
     height = room + 43.0 * len(labels)
     picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
@@ -250,9 +247,9 @@ def stacked(
 def aside(
     samples: Mapping[Any, T], every: Sequence[float], line: int, lines: int, log: bool
 ) -> dict[float, T]:
-    """Move samples of one of several lines a little, so that their bars do not cover each other.
+    """Offset the samples of one of several lines, so that their bars do not overlap.
 
-    By a share of an axis, logarithmic or not, that shows `every` place.
+    The offset is a share of the axis, logarithmic or linear, through `every` place.
     """
     share, low, high = 0.03 * (line - 0.5 * (lines - 1)), min(every), max(every)
     if log:

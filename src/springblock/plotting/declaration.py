@@ -1,6 +1,6 @@
-"""What a figure says of itself: what it shows, and what it is drawn from.
+"""Declarations of figures: title, caption and data source.
 
-The command line and the workflow know figures by their declarations alone.
+The command line and the workflow read these declarations alone.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -41,7 +41,7 @@ class Need(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """What a figure is drawn from; this one needs nothing."""
+    """Data source of a figure; this one needs no data."""
 
     groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
     also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
@@ -51,11 +51,11 @@ class Source:
         return []
 
     def options(self, n_blocks: int, lengths: Lengths) -> str:
-        """Return what the command takes beside tables."""
+        """Return further options of the command."""
         return ""
 
     def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Return what it is in a study, in whole sentences: surfaces, seeds and material."""
+        """Describe it in a study, in whole sentences: surfaces, seeds and material."""
         groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
         known = {e.scene: e.seeds for members in ensembles.values() for e in members}
         sample = {
@@ -70,7 +70,7 @@ class Source:
 class PatternSource(Source):
     """A pattern with the lengths that the configuration gives under the figure's name.
 
-    It is as large as the study's surfaces, or as it must be to hold one pillar and its gap.
+    It is as large as the study's surfaces, or large enough for one pillar and its gap.
     """
 
     def options(self, n_blocks: int, lengths: Lengths) -> str:
@@ -83,7 +83,7 @@ class PatternSource(Source):
 
 @dataclass(frozen=True)
 class TableSource(Source):
-    """Tables of the whole study, as far as it makes them."""
+    """Tables of the whole study; those that it does not make are left out."""
 
     tables: tuple[str, ...]
 
@@ -95,8 +95,8 @@ class TableSource(Source):
 class RealisationsSource(Source):
     """Realisations of scenes, which `draw` takes by the values of `keys`.
 
-    These tell the scenes apart: of several with the same values the first is drawn. Without keys
-    that is one scene, and `draw` takes its realisations alone.
+    Of several scenes with equal values the first is drawn. Without keys there is one scene, and
+    `draw` takes its realisations.
     """
 
     keys: tuple[str, ...] = ()
@@ -122,13 +122,13 @@ class CorrelationsSource(Source):
 
 @dataclass(frozen=True)
 class Declaration:
-    """What a figure shows, and what it is drawn from."""
+    """Title, caption and data source of a figure."""
 
     title: str
     module: str  #: of `plotting`, whose function of the figure's name draws it
-    caption: str  #: what is plotted, in whole sentences; lines may break anywhere
+    caption: str  #: what is plotted, for which surfaces; lines may break anywhere
     source: Source
-    marks: str = ""  #: what bands, bars and symbols mean; stands behind what a study draws
+    marks: str = ""  #: meaning of bands, bars and symbols; follows surfaces and realisations
     upon_request: bool = False  #: drawn in studies with `production: true` alone
 
     def __post_init__(self) -> None:
@@ -137,11 +137,11 @@ class Declaration:
 
     @property
     def category(self) -> str:
-        """Return the heading under which the report has the figure."""
+        """Return the heading of the figure in the report."""
         return _CATEGORIES[self.module]
 
     def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Return the caption, with what the figure is drawn from in a study."""
+        """Return the caption with the surfaces, seeds and material of a study."""
         drawn = self.source.in_words(ensembles, lengths, material)
         return " ".join(filter(None, (self.caption, drawn, self.marks)))
 
@@ -151,7 +151,7 @@ class Declaration:
         return f"{self.caption} {self.marks}".strip()
 
     def is_part_of(self, groups: Groups) -> bool:
-        """Whether a study has all groups of scenes that the figure is drawn from."""
+        """Return whether a study has all groups of scenes that the figure needs."""
         return all(groups.get(group) for group in self.source.groups)
 
 

@@ -1,4 +1,4 @@
-"""A film of one run: the blocks that let go, while the force runs along."""
+"""A film of one run: the detaching blocks beside the force curve."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -19,7 +19,7 @@ from springblock.simulation.run import Array, Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
 _HOLD = 15  #: of these frames show the end
-_AROUND = 0.1  #: of the time between the first and the last detachment is shown before and after
+_AROUND = 0.1  #: time shown before the first and after the last detachment over that in between
 _PIXELS = 5  #: per mm
 _HEIGHT = 112.0  #: mm
 _MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
@@ -30,20 +30,20 @@ Update = Callable[[float, float], list[Artist]]
 
 
 def animate(run: Run, path: str | Path) -> None:
-    """Write a film as GIF or MP4, whole or not at all, as the suffix of `path` says.
+    """Write a film as GIF or MP4, by the suffix of `path`, whole or not at all.
 
-    MP4 needs the package imageio-ffmpeg; a ValueError names what is missing.
+    MP4 needs the package imageio-ffmpeg; a ValueError names it if it is missing.
     """
     file = Path(path)
     if file.suffix not in _WRITERS:
-        raise ValueError(f"films are written as {' or '.join(_WRITERS)}, not as {file.suffix!r}")
+        raise ValueError(f"{file}: unknown type of film; choose {' or '.join(_WRITERS)}")
     with whole_file(file) as partial:
         _WRITERS[file.suffix](frames(run), partial)
 
 
 @style.journal
 def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
-    """Draw the frames of these times in s, or all: what stands still once, and on it what moves."""
+    """Draw the frames at these times in s, or all; static artists are drawn only once."""
     picture, update = scenery(run)
     canvas: Any = FigureCanvasAgg(picture)  # which has no types of its own
     canvas.draw()
@@ -58,13 +58,13 @@ def frames(run: Run, times: ArrayLike | None = None) -> list[Frame]:
 
 
 def moments(run: Run) -> Array:
-    """Return the times of the frames in s, (FRAMES,): evenly spaced, the last one for a while."""
+    """Return the times of the frames in s, (FRAMES,): evenly spaced, then held at the end."""
     start, stop = span(run)
     return np.append(np.linspace(start, stop, FRAMES - _HOLD), np.full(_HOLD, stop))
 
 
 def span(run: Run) -> tuple[float, float]:
-    """Return the times in s between which there is something to be seen.
+    """Return the time span of the film, s.
 
     That is the time from the first to the last detachment or snapshot, and a little before and
     after it: the loading, half of a run or more, and steady sliding show nothing.
@@ -78,7 +78,7 @@ def span(run: Run) -> tuple[float, float]:
 
 @style.journal
 def scenery(run: Run) -> tuple[Figure, Update]:
-    """Draw what stands still, and return it with the function that moves the rest."""
+    """Draw the static artists, and return them with the functions that move the others."""
     kept = len(run.snapshots) > 0
     curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
     picture = Figure(figsize=((curves + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
@@ -105,7 +105,7 @@ def scenery(run: Run) -> tuple[Figure, Update]:
 
 
 def _place(picture: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
-    """Add axes at a place in mm: blocks of a map are all as many pixels."""
+    """Add axes at a place in mm, so that all blocks of a map have equal numbers of pixels."""
     across, up = picture.get_size_inches() / MM
     return picture.add_axes((left / across, bottom / up, width / across, height / up))
 
@@ -142,7 +142,7 @@ def _displacement(ax: Axes, run: Run) -> Update:
 
 
 def _curve(ax: Axes, run: Run, values: Array) -> Update:
-    """Draw a curve over time, as far as it has come in black, with a cursor and t_max."""
+    """Draw a curve against time, its past in black, with a cursor and t_max."""
     time = MICRO * run.time
     ax.plot(time, values, color="0.75", linewidth=0.8)  # faint: still to come
     (so_far,) = ax.plot([], [], color=style.BLACK, animated=True)
@@ -175,7 +175,7 @@ def _mp4(drawn: list[Frame], file: Path) -> None:
         from imageio_ffmpeg import write_frames
     except ModuleNotFoundError:
         raise ValueError(
-            "films of type MP4 need the package imageio-ffmpeg, springblock[mp4]; GIF does not"
+            "films of type MP4 need the package imageio-ffmpeg; install springblock[mp4]"
         ) from None
 
     height, width, _ = drawn[0].shape

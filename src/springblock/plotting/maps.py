@@ -1,4 +1,4 @@
-"""Maps of a surface, block by block, and arrows and lengths beside what they measure."""
+"""Maps of a surface, block by block, with arrows and dimensions."""
 
 import math
 from typing import Any, Literal
@@ -39,8 +39,8 @@ _LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l", **look: Any) -> AxesImage:
     """Show one value or colour per block; block (x, y) covers x ± 1/2, y ± 1/2.
 
-    What is drawn later does not stretch the panel. `axes` follows x and y in their names; `look`
-    are further arguments of `Axes.imshow`.
+    Later artists do not change the limits of the panel. `axes` follows x and y in their names;
+    `look` are further arguments of `Axes.imshow`.
     """
     image = ax.imshow(values, origin="lower", interpolation="nearest", **look)
     ax.autoscale(False)
@@ -51,12 +51,12 @@ def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l", **look: Any) -> Axes
 
 
 def draw_contact(ax: Axes, contact: NDArray[np.bool_], axes: str = "/l", **look: Any) -> None:
-    """Show which blocks touch the substrate."""
+    """Map the blocks in contact with the substrate."""
     draw_map(ax, contact, axes, cmap=_BLOCKS, vmin=0, vmax=1, **look)
 
 
 def draw_borders(ax: Axes, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0)) -> None:
-    """Tell single blocks apart, (rows, columns) from `corner` = (y, x) on."""
+    """Draw the borders between blocks, (rows, columns) from `corner` = (y, x) on."""
     (rows, columns), (y, x) = shape, corner
     look: Look = {"color": "white", "linewidth": 0.4}
     ax.vlines(x + np.arange(columns - 1) + 0.5, y - 0.5, y + rows - 0.5, **look)
@@ -104,8 +104,8 @@ def _draw_times_bar(ax: Axes, run: Run) -> None:
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
     """Return the colours of all blocks at a time in s, (N, N, 3).
 
-    Those that have detached have the colour of their time, or are black where they have done so
-    after `since`; those that have not are distinct from those that are not in contact.
+    Detached blocks have the colour of their time, or are black if they detached after `since`;
+    other blocks in contact and blocks out of contact have colours of their own.
     """
     image = np.where(run.contact[..., None], to_rgb(CONTACT), to_rgb(NO_CONTACT))
     detached = run.t_det <= until
@@ -117,7 +117,7 @@ def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array
 
 
 def draw_key(ax: Axes, *names: str) -> None:
-    """Name colours of blocks above a map."""
+    """Draw a legend of block colours above a map."""
     handles = [Patch(color=_KEY[name], label=name) for name in names]
     look: Look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
@@ -173,7 +173,7 @@ def arrow(ax: Axes, start: Point, end: Point, heads: str = _HEAD, width: float =
 
 
 def draw_sliding(ax: Axes, *directions: str | float) -> None:
-    """Show above the panel's right corner where the slider goes: "x", "y" or degrees from x."""
+    """Show the sliding direction above the panel's right corner: "x", "y" or degrees from x."""
     right, top = ax.get_xlim()[1], ax.get_ylim()[1]
     size = max(right, top) + 0.5
     length, corner = 0.1 * size, np.array([right - 0.1 * size, top + 0.05 * size])

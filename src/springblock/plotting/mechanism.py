@@ -1,4 +1,4 @@
-"""Figures of the mechanism: stress before slip, friction by model, and who bears the load."""
+"""Figures of the mechanism: stress before slip, friction by model, and the share of the load."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -32,7 +32,7 @@ _BEARERS = {"both": ("all", BLACK), "edge": ("edges", VERMILION), "core": ("core
 
 
 def mechanism_friction(table: pd.DataFrame) -> Figure:
-    """Draw a-d) stress on pillars, e) how uneven it is, and f) friction by model, over n_p."""
+    """Draw a-d) stress on pillars, e) its relative deviation and f) friction by model over n_p."""
     picture, panels = style.panels(style.DOUBLE, 118.0, "abcd|eeff", height_ratios=(45, 73))
     _draw_stress(panels[:4])
     uneven, friction = panels[4:]
@@ -51,7 +51,7 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
 
 
 def mechanism_budget(table: pd.DataFrame) -> Figure:
-    """Draw friction and what edges and core bear of it over time, a) along and b) across."""
+    """Draw the force on all blocks, edges and core against time, a) along and b) across."""
     picture, axes = style.panels(style.DOUBLE, 75.0, "ab", sharex=True, sharey=True)
     whole = table.assign(both=table["edge"] + table["core"] + table["free"])
     for ax, direction in zip(axes, "xy", strict=True):

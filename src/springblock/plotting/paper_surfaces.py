@@ -28,15 +28,15 @@ _KEYS = -1.12  #: height of the legends
 _GROOVE = 0.45  #: height of the pillars
 _LAYER = 1.5  #: l_z
 _SLAB = 0.4  #: height of slider and substrate
-_DRAG = 0.25  #: how far the slider has run ahead of the blocks
+_DRAG = 0.25  #: displacement of the slider
 _SWING, _LEAD, _TURNS = 0.08, 0.23, 5  #: of a spring: half width, straight ends, turns per l
 
 _AXIAL: Look = {"colors": BLACK, "linewidths": 0.9}
 _DIAGONAL: Look = {"colors": GREY, "linewidths": 0.6}
 _SHEAR: Look = {"colors": BLACK, "linewidths": 0.7}
 
-_GRID_LIMIT = 30  #: largest pillar whose single blocks are told apart
-#: Distances of the two lines of text from the side that they describe, as shares of its length.
+_GRID_LIMIT = 30  #: largest pillar with borders between blocks
+#: Distances of the two lines of text from the side that they describe, over its length.
 _LINES = (0.05, 0.16)
 _POINT: Look = {"color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.6}
 _POINT |= {"markersize": 4.0, "clip_on": False, "zorder": 5}
@@ -129,7 +129,7 @@ def _draw_slab(ax: Axes, left: float, bottom: float, name: str, **look: Any) -> 
 
 
 def _draw_length(ax: Axes, axis: Axis, ends: Point, at: float, edge: float, label: str) -> None:
-    """Draw a dimension arrow with lines that extend what it measures, from `edge` to it."""
+    """Draw a dimension arrow with extension lines from `edge`."""
     extend = ax.vlines if axis == "x" else ax.hlines
     extend(ends, at, edge, color=GREY, linewidth=0.4, zorder=0)
     maps.dimension(ax, axis, *ends, at, label)

@@ -24,20 +24,20 @@ from springblock.plotting.style import (
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
-RUN_CAPTION = """One run. Friction force over the normal force, with t_max, the time of the force
-maximum (dotted), and t_avg, the mean first detachment time (solid); share of blocks that detach in
-each sample interval; first detachment times t_det over t_max, block by block; displacements, where
-the run has kept snapshots."""
+RUN_CAPTION = """Friction force over the normal force and share of blocks that detach in each sample
+interval, against time; first detachment time t_det over t_max of each block; displacements, if the
+run has snapshots. One run. Dotted line: t_max, the time of the force maximum; solid line: t_avg,
+the mean first detachment time."""
 
-FIELDS_CAPTION = """Fields of one run. Magnitude of the shear stress of the blocks on the substrate,
-top, and slip since the first detachment, bottom, at the times above the columns; all columns of a
-row have the same colours. Blocks in grey are not in contact."""
+FIELDS_CAPTION = """Fields of one run at the times above the columns: magnitude of the shear stress
+of the blocks on the substrate (top) and slip since the first detachment (bottom). All columns of a
+row share one colour scale. Grey: blocks out of contact."""
 
-SURFACE_CAPTION = """A surface: blocks in contact with the substrate, dark, and others, light, as
-the solver takes them; a) all of it, b) single blocks from the first corner of the contact on. The
-arrow shows where the slider goes."""
+SURFACE_CAPTION = """Blocks in contact with the substrate (dark) and out of contact (light), from
+the mask used by the solver: a) the whole surface; b) single blocks from the first corner of the
+contact on. Arrow: sliding direction."""
 
-_SNAPSHOTS = 4  #: at most; of more, the first, the last, and others evenly between them
+_SNAPSHOTS = 4  #: largest number shown: the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 #: Width in mm of maps of stress and slip at so many times.
 _WIDTHS = {1: COLUMN, 2: COLUMN, 3: ONE_AND_A_HALF, 4: DOUBLE}
@@ -48,7 +48,7 @@ _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
 
 @journal
 def plot(run: Run) -> Figure:
-    """Draw what a run holds: force, detachments, the map of t_det, and snapshots if any.
+    """Draw force, detachments, the map of t_det and any snapshots of a run.
 
     A matplotlib figure without pyplot: `plot(run).savefig("run.png")`. Notebooks show it after
     `%matplotlib inline`.

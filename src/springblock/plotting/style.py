@@ -1,8 +1,7 @@
-"""One look for all figures: sizes, colours, names, panels, and files that are always the same.
+"""Style of all figures: sizes, colours, names and panels, and reproducible files.
 
-Figures are drawn without pyplot, so that nothing depends on global state: functions that draw wear
-the decorator `journal`, which puts the style in force whatever the reader's own settings are. To
-those of the study's figures `plotting.drawing` gives it.
+Figures are drawn without pyplot, independently of global state: the decorator `journal` applies the
+style whatever the user's own settings are. `plotting.drawing` applies it to figures of the study.
 """
 
 from collections.abc import Iterable, Sequence
@@ -30,8 +29,8 @@ FORCE = r"friction force $F_\mathrm{fr}/F_n$"
 COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's columns, mm
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
-# black is flat, blue goes along x, vermilion along y and green askew, whether it is a side or the
-# slider; purple is a third level. Pillars have the colours of `pillar_look`.
+# black is flat; blue is along x, vermilion along y and green oblique, for sides as for sliding
+# directions; purple is a third level. Pillars have the colours of `pillar_look`.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
@@ -42,14 +41,14 @@ GREY = "#6E6E6E"  #: guides and secondary text
 CONTACT = "#93A8BA"  #: blocks that touch the substrate
 NO_CONTACT = "#E4E4E4"  #: blocks above a groove or a gap
 
-#: Blue before t_max, red after it, with a step between them: a block is a precursor or it is none.
-#: In shades of grey, too, the precursors are the darker ones.
+#: Blue before t_max, red after it, with a step between them, since a block is a precursor or not.
+#: Precursors are darker in shades of grey, too.
 BEFORE_AFTER = LinearSegmentedColormap.from_list(
     "before_after",
     [(0.0, "#08306B"), (0.5, "#7FB2DB"), (0.5, "#FCEAE2"), (0.8, "#F2AD95"), (1.0, "#DC6B55")],
 ).with_extremes(bad=NO_CONTACT)
 
-Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction: what tells the main surfaces apart
+Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction, which identify the main surfaces
 
 #: Integrators by name. Symbols of Runge-Kutta are open, as some cover those of the leapfrog.
 METHODS: dict[str, Look] = {
@@ -71,7 +70,7 @@ _SHADES = LinearSegmentedColormap.from_list(
 SMALL = 7.0  #: pt, ticks, legends and labels inside a panel
 NORMAL = 8.0  #: pt, axis labels
 
-#: What differs from matplotlib's own style, whose font comes with it: the same on every computer.
+#: Changes to matplotlib's own style, whose font comes with it and is the same on every computer.
 JOURNAL: Look = {
     "font.size": SMALL,
     "axes.labelsize": NORMAL,
@@ -98,7 +97,7 @@ JOURNAL: Look = {
     "svg.hashsalt": "springblock",  # the same identifiers every time
 }
 
-#: Wear it where artists are made and where they are saved: matplotlib looks at both moments.
+#: Decorator of functions that make artists and of those that save them; both depend on the style.
 journal = style.context(JOURNAL, after_reset=True)
 
 #: Without date and program version the same figure gives the same bytes.
@@ -137,7 +136,7 @@ def share_axes(row: Sequence[Axes]) -> None:
 
 
 def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:
-    """Name what panels show above all of them, each name once."""
+    """Draw one legend for several panels above them, each name once."""
     named: dict[str, Artist] = {}
     for ax in panels:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
@@ -156,13 +155,13 @@ def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Co
 
 
 def shades(values: Iterable[float]) -> dict[float, Any]:
-    """A colour for each value, from dark for the smallest to light."""
+    """Return a colour for each value, from dark for the smallest to light."""
     ordered = sorted(set(values))
     return dict(zip(ordered, map(tuple, _SHADES(np.linspace(0.0, 1.0, len(ordered)))), strict=True))
 
 
 def pillar_look(n_p: int) -> Look:
-    """Colour and marker of pillars of a size; 0 is a flat surface."""
+    """Return the colour and marker of pillars of a size; 0 is a flat surface."""
     if not n_p:
         return {"color": BLACK, "marker": "o"}
     place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
@@ -170,23 +169,23 @@ def pillar_look(n_p: int) -> Look:
 
 
 def pillar_name(n_p: int) -> str:
-    """Name of pillars of a size."""
+    """Return the name of pillars of a size."""
     return f"$n_p$ = {n_p}" if n_p else "flat"
 
 
 def direction_color(direction: str) -> str:
-    """Colour of what goes along x, along y, or askew."""
+    """Return the colour of a direction: x, y or oblique."""
     return _DIRECTIONS.get(direction, GREEN)
 
 
 def direction_name(direction: str) -> str:
-    """Name a sliding direction on grooves that run along x."""
+    """Return the name of a sliding direction on grooves along x."""
     named = {"x": "along grooves", "y": "across grooves"}
     return named.get(direction, f"at {direction}° to grooves")
 
 
 def surface_look(key: Key) -> Look:
-    """Name, colour and marker of a surface."""
+    """Return the name, colour and marker of a surface."""
     n_p, n_p2, direction = key
     if not n_p2:
         return {"label": pillar_name(n_p), **pillar_look(n_p)}
@@ -195,7 +194,7 @@ def surface_look(key: Key) -> Look:
 
 
 def in_order(keys: Iterable[Key]) -> list[Key]:
-    """The flat surface, pillars by their size, grooved ones."""
+    """Sort surfaces: flat, pillars by size, grooved."""
     return sorted(keys, key=lambda key: (key[1] > 0, key))
 
 
@@ -215,13 +214,12 @@ def settle(picture: Figure) -> None:
 
 @journal
 def save(picture: Figure, path: Path, caption: str | None = None) -> None:
-    """Write a figure as PDF, PNG (600 dpi) or SVG, as the suffix of `path` says.
+    """Write a figure as PDF, PNG (600 dpi) or SVG, by the suffix of `path`, whole or not at all.
 
-    The file appears complete or not at all, and its bytes depend on the picture and the caption
-    alone, which its metadata keep.
+    Its bytes depend on the picture and the caption alone; the caption is kept in the metadata.
     """
     if path.suffix not in _METADATA:
-        raise ValueError(f"figures are saved as {', '.join(_METADATA)}, not as {path.suffix!r}")
+        raise ValueError(f"{path}: unknown type of figure; choose one of {', '.join(_METADATA)}")
     described = {"Subject" if path.suffix == ".pdf" else "Description": caption}
     metadata = _METADATA[path.suffix] | (described if caption else {})
     settle(picture)

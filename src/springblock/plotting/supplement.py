@@ -1,6 +1,6 @@
-"""Figures of the supplement: what the paper leaves open, and surfaces of one's own.
+"""Figures of the supplement: choices that the paper leaves open, and surfaces of one's own.
 
-Each function takes runs by the values of the keys that its declaration names.
+Each function takes runs by the values of the keys in its declaration.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,10 +22,10 @@ _CLOSE = 0.85  #: share of the maximum from which the force on three levels is s
 _SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)  #: of subsets of an ensemble
 _MILLI = 1e3  #: 10⁻³ per unit
 _NORMAL = 1.96  #: half a 95 % interval in standard errors
-_TIMES = (0.8, 0.9, 1.0)  #: over t_max, up to which blocks are counted that let go again
+_TIMES = (0.8, 0.9, 1.0)  #: t/t_max up to which repeated detachments are counted
 _ROW = 62.0  #: mm, height of the panels of a surface and of its name
 _TITLE = "$n_p/n_s$ of each level: lesser peak"  #: of the legends of levels
-_LINE = 120  #: letters that fit above a row
+_LINE = 120  #: characters that fit above a row
 
 
 def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Figure:
@@ -63,9 +63,9 @@ def supplement_size(ensembles: Mapping[tuple[int, int, str, int], Sequence[Run]]
 
 
 def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
-    """Draw what changes with the angle between sliding and grooves.
+    """Draw three observables against the angle between sliding direction and grooves.
 
-    That is a) static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
+    a) Static friction, b) t_max - t_avg and c) the prominence of the lesser load peak.
     """
     label = "angle between sliding and grooves (°)"
     quantities = (curves.FRICTION, curves.LAG, "lesser peak (% of force)")
@@ -79,7 +79,7 @@ def supplement_angle(ensembles: Mapping[str, Sequence[Run]]) -> Figure:
             color = style.direction_color(names[angle])
             spread = _SPREAD * np.linspace(-1.0, 1.0, len(sample))
             ax.plot(angle + spread, sample, color=color, **curves.DOT)
-            if samples is not lag:  # whose mean lies between two clusters of realisations
+            if samples is not lag:  # its mean would lie between two clusters of realisations
                 look: Look = {"linestyle": "none", "marker": "o", "zorder": 3}
                 curves.draw_means(ax, {angle: sample}, color, **look)
         ax.set_xticks(list(samples))
@@ -132,9 +132,9 @@ def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
 
 
 def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
-    """Draw how many blocks have let go again up to three times, for each surface.
+    """Draw the share of blocks that have detached again by three times, for each surface.
 
-    Up to the force maximum the rule of re-sticking can matter for these blocks alone.
+    The rule for re-sticking can affect the force maximum through these blocks alone.
     """
     picture, (ax,) = style.panels(style.COLUMN, 66.0)
     keys = style.in_order(ensembles)
@@ -146,21 +146,21 @@ def supplement_restick(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
         curves.draw_realisations(ax, samples, color, label=label)
     names = [style.surface_look(key)["label"] for key in keys]
     ax.set_xticks(range(len(keys)), names, rotation=35.0, ha="right", rotation_mode="anchor")
-    ax.set(xlabel="surface", ylabel="let go again (% of blocks)", ylim=(0.0, None))
-    ax.legend(loc="upper left", title="up to")
+    ax.set(xlabel="surface", ylabel="detached again (% of blocks)", ylim=(0.0, None))
+    ax.legend(loc="upper left")
     return picture
 
 
 def let_go_again(run: Run) -> Array:
-    """Return all but the first switches from rest to sliding up to `_TIMES`, (3,) % of blocks."""
+    """Return the repeated switches from rest to sliding up to `_TIMES`, (3,) % of blocks."""
     again = np.cumsum(percent(run, run.switches) - percent(run, run.detachments))
     return np.interp(_TIMES, run.time / run.t_max, again)
 
 
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
-    """Draw mask, mean t_det/t_max and force of each surface below the one before.
+    """Draw mask, mean t_det/t_max and force of each surface, a row each.
 
-    A block that has not let go in one of the runs has no mean time.
+    A block that has not detached in one of the runs has no mean time.
     """
     size = (style.DOUBLE * style.MM, len(ensembles) * _ROW * style.MM)
     picture = Figure(figsize=size, layout="constrained")

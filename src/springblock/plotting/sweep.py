@@ -1,4 +1,4 @@
-"""Any observable of ensembles over anything that tells them apart."""
+"""Any observable of ensembles against any parameter in which they differ."""
 
 import math
 import re
@@ -33,23 +33,22 @@ OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
 _COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, GREY)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
-#: Observables with two clusters of realisations where a run has two load peaks.
+#: Observables that form two clusters of realisations where runs have two load peaks.
 _CLUSTERED = ("t_max", "t_max-t_avg")
 _WIDE = 24  #: characters of a line's name from which on names stand below each other
 _LINE = 3.6  #: mm, of the legend
 
 
 def caption(found: Lines) -> str:
-    """Return what is drawn of lines, and of which surfaces and seeds, in words."""
+    """Return the caption of lines: observables, surfaces, seeds and marks."""
     seeds: dict[Scene, list[int]] = {}
     for row in drawn(found):
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     return (
-        "Means over realisations with their 95 % t intervals; a single realisation has none. Of "
-        "t_max and t_max - t_avg every realisation, as a dot, and the median. Lines join ensembles "
-        "that differ in nothing else, a little apart where their places are the same. "
-        f"{sample_in_words(sample)}"
+        "Observables of ensembles; lines join those that differ in no other parameter, slightly "
+        f"offset. {sample_in_words(sample)} Symbols: means; bars: 95 % t intervals over "
+        "realisations. t_max and t_max - t_avg: dots: realisations; dashes: medians."
     )
 
 
@@ -61,18 +60,18 @@ def drawn(found: Lines) -> list[Row]:
 def lines(rows: Iterable[Row], over: str) -> Lines:
     """Return rows of the table `realisations` by place on an axis, for each line.
 
-    A line is named by what tells its scenes from others.
-    Scenes that share a line with no other are left out, if some do.
+    A line is named by the parameters in which it differs from the others. Lines of a single place
+    are left out, if there are others.
     """
     rows = list(rows)
     if over not in AXES and not all(over in law_units(row) for row in rows):
-        raise ValueError(f"{over!r} is no axis; there are {', '.join(AXES)}")
+        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
     found: dict[Names, dict[float, list[Row]]] = {}
     for row in rows:
         found.setdefault(_others(row, over), {}).setdefault(_place(row, over), []).append(row)
     places = {place for line in found.values() for place in line}
     if len(places) < 2:
-        raise ValueError(f"{over} is the same in all realisations: nothing to draw over it")
+        raise ValueError(f"{over} has the same value in all realisations; choose another axis")
     swept = {names: line for names, line in found.items() if len(line) > 1} or found
     common = set.intersection(*(set(names) for names in swept))
     ordered = sorted(swept, key=lambda names: [value for _, value in names])
@@ -88,7 +87,7 @@ def _place(row: Row, over: str) -> float:
 
 
 def _others(row: Row, over: str) -> Names:
-    """Return what else tells a scene from others; n_s in proportion, where pillars grow."""
+    """Return the other parameters of a scene; n_s over n_p, if n_p varies."""
     scene = Scene.from_row(row)
     named = {"N" if key == "n_blocks" else key: value for key, value in scene.named.items()}
     if over == "n_p" and scene.n_p:
@@ -134,7 +133,7 @@ def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
 
 
 def _axis(over: str, row: Row) -> str:
-    """Return the meaning and unit of an axis, as the tables say."""
+    """Return the name and unit of an axis, as in the tables."""
     units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
     units |= {"direction": "degrees"}
     of_law = law_units(row)

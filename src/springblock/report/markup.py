@@ -13,6 +13,8 @@ from springblock.claims.page import anchor
 
 #: The paper's symbols, which it prints with their indices below the line.
 _SYMBOL = re.compile(r"\b(?:(n)_([ps][23]?)|(l)_([cpz])|(t)_(max|avg|det)|(μ)_([sd]))\b")
+#: Line that opens or closes a part to be folded, the only HTML in a page of the study.
+_FOLD = re.compile(r"<details><summary>([^<>]*)</summary>|</details>")
 _SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
 _MANY = 20  #: chapters from which on the numbered ones are folded
 
@@ -30,7 +32,7 @@ def typeset(text: str) -> Markup:
 def rendered(name: str, markdown: str) -> tuple[str, Markup]:
     """Title of a page, its first heading or else its name, and the page as HTML.
 
-    Headings, and links to them, are marked with its name. What is HTML in it is shown as it stands.
+    Headings, and links to them, are marked with its name. HTML is shown as text, but for <details>.
     """
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
     parser.add_render_rule("table_open", lambda *_: '<div class="table" tabindex="0"><table>\n')
@@ -42,6 +44,7 @@ def rendered(name: str, markdown: str) -> tuple[str, Markup]:
     _mark(name, tokens)
     chapters = sum(token.type == "heading_open" and token.tag == "h2" for token in tokens)
     tokens = _folded(tokens) if chapters > _MANY else tokens
+    _fold(tokens)
     return title, Markup(parser.renderer.render(tokens, parser.options, {}))
 
 
@@ -58,6 +61,18 @@ def _mark(name: str, tokens: Sequence[Token]) -> None:
                 child.attrSet("href", f"#{name}-{target[1:]}")
             if child.type == "text":
                 child.type, child.content = "html_inline", str(typeset(child.content))
+
+
+def _fold(tokens: list[Token]) -> None:
+    """Turn paragraphs that open or close a folded part into HTML."""
+    for i, token in enumerate(tokens):
+        found = _FOLD.fullmatch(token.content) if token.type == "inline" else None
+        if found and tokens[i - 1].type == "paragraph_open":
+            title = found[1]
+            text = (
+                "</details>" if title is None else f"<details><summary>{typeset(title)}</summary>"
+            )
+            tokens[i - 1 : i + 2] = [*_html(text), *_html(" "), *_html(" ")]
 
 
 def _width(content: str) -> str:
