@@ -149,8 +149,10 @@ def test_pages_of_the_report_link_to_each_other():
 
 
 def test_a_page_tells_what_opens_it_and_answers_its_chapters():
-    page = markup.rendered("a", "# T\n\none\n\ntwo\n\n## Q?\n\n- x\n\nyes\n\nbecause\n")
-    assert list(page.opening) == ["<p>one</p>\n", "<p>two</p>\n"]
+    page = markup.rendered("a", "# T\n\none\n\n1. two\n\n## Q?\n\n### R\n\nyes\n\nso\n")
+    one, two = page.opening
+    assert one == "<p>one</p>\n"
+    assert two.startswith("<ol>")
     assert page.answers == {"Q?": "<p>yes</p>\n"}
 
 

@@ -1,7 +1,7 @@
 """Text, pages in Markdown and tables, as HTML or ready for it."""
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pyarrow as pa
@@ -20,7 +20,7 @@ _MANY = 20  #: chapters from which on the numbered ones are folded
 
 
 class Page(NamedTuple):
-    """A page as HTML, with its title and the paragraphs that open it and each of its chapters."""
+    """A page as HTML, with its title, and what opens it and each of its chapters."""
 
     title: str
     body: Markup = Markup()
@@ -65,21 +65,23 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
 
     starts = [i for i, token in enumerate(tokens) if _is_chapter(token)]
     body = html(_folded(tokens) if len(starts) > _MANY else tokens)
-    opening = [html(part) for part in _paragraphs(tokens[: [*starts, len(tokens)][0]])]
-    chapters = {tokens[i + 1].content: _paragraphs(tokens[i + 3 :]) for i in starts}
-    return Page(
-        title, body, opening, {key: html(part[0]) for key, part in chapters.items() if part}
-    )
+    opening = [html(block) for block in _blocks(tokens[: [*starts, len(tokens)][0]])]
+    answers = {tokens[i + 1].content: html(next(_blocks(tokens[i + 3 :]), [])) for i in starts}
+    return Page(title, body, opening, answers)
 
 
 def _is_chapter(token: Token) -> bool:
     return token.type == "heading_open" and token.tag == "h2"
 
 
-def _paragraphs(tokens: Sequence[Token]) -> list[Sequence[Token]]:
-    """Return the paragraphs that stand at the level of chapters."""
-    starts = (i for i, t in enumerate(tokens) if t.type == "paragraph_open" and not t.level)
-    return [tokens[i : i + 3] for i in starts]
+def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
+    """Yield the paragraphs and lists at the level of chapters."""
+    first = 0
+    for i, token in enumerate(tokens):
+        if not token.level and token.nesting == 1:
+            first = i
+        if not token.level and token.type in ("paragraph_close", "ordered_list_close"):
+            yield tokens[first : i + 1]
 
 
 def _formula(found: re.Match[str]) -> str:

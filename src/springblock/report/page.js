@@ -151,12 +151,12 @@ for (const frame of document.querySelectorAll(".frame")) {
   button.addEventListener("click", () => {
     const canvas = make("canvas", { width: picture.naturalWidth, height: picture.naturalHeight });
     canvas.getContext("2d").drawImage(picture, 0, 0);
-    canvas.toBlob((blob) => save(`${frame.parentNode.id}.png`, blob));
+    canvas.toBlob((blob) => save(`${frame.closest("[id]").id}.png`, blob));
   });
   frame.after(button);
 }
 
-document.querySelector(".find").hidden = false;
+field.closest(".find").hidden = false;
 field.addEventListener("input", find);
 field.addEventListener("keydown", (event) => event.key === "Escape" && ((field.value = ""), find()));
 addEventListener("hashchange", show);

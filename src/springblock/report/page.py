@@ -31,8 +31,6 @@ SHOWN = {
     "peaks": ("figure_9",),
     "errors": (),
 }
-#: Which paragraphs at the beginning of the page on the mechanism explain a finding.
-REASONS = {"friction": slice(1), "peaks": slice(1, 2)}
 #: Verdicts in the order in which they are listed.
 VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
 _FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
@@ -76,11 +74,13 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
     found = findings.findings(rows)
     placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
     judged = statements(rows.get("claims", []))
-    mechanism = pages["mechanism"].opening if "mechanism" in pages else []
-    return _rendered(
+    mechanism = pages.get("mechanism", markup.Page(""))
+    peaks = [text for heading, text in mechanism.answers.items() if "two load peaks" in heading]
+    return rendered(
+        "page.html",
         findings=found,
         SHOWN=SHOWN,
-        reasons={name: mechanism[REASONS.get(name, slice(0))] for name in found},
+        reasons={"friction": mechanism.opening, "peaks": peaks},
         n_runs=len(rows.get("realisations", [])),
         model=figures.get(MODEL),
         figures=figures,
@@ -91,7 +91,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         films=[media.moving(file, batch) for file, batch in films.items()],
         tables=[markup.shown(name, table) for name, table in data.items()],
         files={file.stem: media.embedded(file) for file in kinds[".parquet"]},
-        origin=_origin(data),
+        origin=origin(data),
         version=version("springblock"),
     )
 
@@ -118,8 +118,8 @@ def counted(made: Sequence[Row]) -> dict[str, int]:
     return {verdict: found[verdict] for verdict in VERDICTS if found[verdict]}
 
 
-def _rendered(**content: Any) -> str:
-    """Fill the template; every string is escaped that is not marked as HTML of our own."""
+def rendered(template: str, **content: Any) -> str:
+    """Fill a template; every string is escaped that is not marked as HTML of our own."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,
@@ -130,7 +130,7 @@ def _rendered(**content: Any) -> str:
     environment.filters |= {"typeset": markup.typeset, "symbols": markup.symbols, "listed": listed}
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
-    return environment.get_template("page.html").render(
+    return environment.get_template(template).render(
         style=Markup(style), script=Markup(script), digest=digest, **content
     )
 
@@ -150,8 +150,8 @@ def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str])
     return parts
 
 
-def _origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
-    """What made the table of realisations."""
+def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
+    """Return what the table of realisations was made with."""
     kept = data["realisations"].schema.metadata if "realisations" in data else {}
     names = {"code version": b"code_version", "configuration": b"configuration_digest"}
     return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}
