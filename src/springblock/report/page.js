@@ -104,6 +104,7 @@ function search(bar, table, rows, same) {
 
 function sort(table, body, rows) {
   table.querySelectorAll("thead th").forEach((head, column) => {
+    if (!head.textContent.trim()) return;
     const button = make("button", {});
     button.append(...head.childNodes);
     head.append(button);
