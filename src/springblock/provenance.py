@@ -24,7 +24,16 @@ STEPS: dict[str, tuple[str, ...]] = {
     "beyond": ("model", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
     "plot": ("model", "analysis", "mechanism", "plotting"),
-    "report": ("model", "analysis", "mechanism", "plotting", "report"),
+    "report": (
+        "model",
+        "analysis",
+        "accuracy",
+        "mechanism",
+        "claims",
+        "beyond",
+        "plotting",
+        "report",
+    ),
 }
 #: Folders whose docstrings are part of the results: the statements of the paper.
 _SAYING = {"claims"}

@@ -1,8 +1,15 @@
 """The report of a study, clicked through in a browser, wide and narrow."""
 
+import numpy as np
+import pandas as pd
+import pyarrow as pa
 import pytest
+from PIL import Image
+from playwright.sync_api import expect
 
 from springblock.cli import main
+from springblock.io.parquet import write
+from springblock.report.page import page as written
 from studies import ROOT
 
 #: Pictures and films without words for those who do not see them.
@@ -35,6 +42,7 @@ def click_through(page):
     for name in names:
         page.locator(f"nav a[href='#{name}']").click()
         assert shown(page) == [name]
+        expect(page.locator("nav a[aria-current]")).to_be_in_viewport(ratio=0.99)
         for fold in page.locator(f"#{name} details:not([open]) > summary").element_handles():
             fold.click()
         assert page.evaluate(OVERFLOW) <= 0, name
@@ -44,7 +52,7 @@ def click_through(page):
 
 def test_every_part_of_the_report_is_shown(study, opened):
     names = click_through(opened(study / "results/report.html"))
-    assert names == ["overview", "figures", "supplement", "films", "claims", "tables"]
+    assert names == ["findings", "claims", "figures", "films", "tables"]
 
 
 def test_every_page_of_a_whole_study_is_shown(every_page, opened):
@@ -54,7 +62,9 @@ def test_every_page_of_a_whole_study_is_shown(every_page, opened):
 
 def test_a_link_to_a_statement_opens_it(study, opened):
     page = opened(study / "results/report.html")
-    statement = page.locator("#overview .statement").first
+    page.locator("nav a[href='#claims']").click()
+    page.locator(".verdicts > summary").first.click()
+    statement = page.locator(".verdicts .statement").first
     statement.locator("summary").click()
     link = statement.get_by_text("All that was found")
     target = page.locator(f"[id='{link.get_attribute('href')[1:]}']")
@@ -67,7 +77,7 @@ def test_tables_are_searched_and_sorted(study, opened):
     page = opened(study / "results/report.html")
     page.locator("nav a[href='#tables']").click()
     table = page.locator("#table-claims")
-    table.locator("summary").click()
+    table.locator("summary").first.click()
     rows = table.locator("tbody tr:visible")
     everything = rows.count()
     table.locator("input[type=search]").fill("pillars FLAT")
@@ -76,6 +86,10 @@ def test_tables_are_searched_and_sorted(study, opened):
     assert all("flat" in text and "pillars" in text for text in found)
     table.locator("input[type=search]").fill("nothing holds this")
     assert rows.count() == 0
+    table.locator("input[type=search]").fill("")
+    table.locator("input[type=search]").fill("form=universal pillars")
+    assert 0 < rows.count() < everything
+    assert all("universal" in text for text in rows.all_inner_texts())
     table.locator("input[type=search]").fill("")
     head = table.locator("th", has_text="section")
     firsts = []
@@ -86,16 +100,71 @@ def test_tables_are_searched_and_sorted(study, opened):
     assert firsts[0] < firsts[1]
 
 
+def test_a_search_of_a_table_compares_numbers(opened, tmp_path):
+    """On columns, and on what is the same in all rows and stands above them."""
+    held, report = tmp_path / "held.parquet", tmp_path / "report.html"
+    sizes = [6, 20, 60] * 10
+    write(pa.table({"n_p": sizes, "t_max": [1e-6 * n for n in sizes], "N": [120] * 30}), held, {})
+    report.write_text(written([held], {}), encoding="utf-8")
+    page = opened(report)
+    page.locator("nav a[href='#tables']").click()
+    table = page.locator("#table-held")
+    table.locator("summary").first.click()
+    rows, numbers = table.locator("tbody tr:visible"), []
+    for condition in ("n_p=6", "n_p > 6", "t_max<=2e-5", "N=120 n_p=60.0", "N=12", "n_s=6"):
+        table.locator("input[type=search]").fill(condition)
+        numbers.append(rows.count())
+    assert numbers == [10, 20, 20, 10, 0, 0]
+
+
+def test_a_search_of_the_report_leads_to_what_it_finds(study, opened):
+    page = opened(study / "results/report.html")
+    page.locator("#search").fill("n_p2 pawls")
+    results = page.locator("#results button")
+    assert results.count() > 0
+    results.last.click()
+    found = page.locator(".found")
+    expect(found).to_be_in_viewport()
+    assert "pawls" in found.inner_text()
+    page.locator("#search").fill("nothing holds this")
+    assert results.count() == 0
+
+
+def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
+    page = opened(study / "results/report.html")
+
+    def saved(button):
+        with page.expect_download() as download:
+            button.click()
+        file = tmp_path / download.value.suggested_filename
+        download.value.save_as(file)
+        return file
+
+    page.locator("nav a[href='#figures']").click()
+    with Image.open(saved(page.locator("#figure_4 .save"))) as picture:
+        assert picture.format == "PNG"
+        assert picture.width == page.locator("#figure_4 img").evaluate("i => i.naturalWidth")
+    page.locator("nav a[href='#tables']").click()
+    table = page.locator("#table-realisations")
+    table.locator("summary").first.click()
+    kept = study / "results/tables/realisations.parquet"
+    assert saved(table.locator("a.save")).read_bytes() == kept.read_bytes()
+    whole, read = pd.read_parquet(kept), pd.read_csv(saved(table.locator("button.save")))
+    assert len(read) == len(whole)
+    assert np.allclose(read["static_friction"], whole["static_friction"], rtol=1e-5)
+    assert set(read["integrator"]) == {"leapfrog"}  # said above the table
+
+
 def test_figures_can_be_enlarged_in_their_own_box(study, opened):
     page = opened(study / "results/report.html")
-    page.locator("nav a[href='#figures']").click()
     frame = page.locator("#figure_6 .frame")
     widths = []
     for _ in range(2):
         widths.append(frame.locator("img").bounding_box()["width"])
         frame.press("Enter")
         assert page.evaluate(OVERFLOW) <= 0
-    assert widths[0] <= frame.bounding_box()["width"] < widths[1]
+    assert widths[0] < widths[1]
+    assert frame.bounding_box()["width"] < widths[1]
 
 
 def test_films_wait_until_they_are_started(study, opened):
@@ -112,7 +181,7 @@ def test_without_scripts_all_parts_can_be_read(study, browser):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((study / "results/report.html").as_uri())
-    for name in ("overview", "figures", "films", "claims", "tables"):
+    for name in ("findings", "figures", "films", "claims", "tables"):
         assert page.locator(f"#{name} h1").is_visible()
     context.close()
 

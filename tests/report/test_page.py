@@ -1,6 +1,5 @@
 """What the report says, and that it takes nothing for its own that was only given to it."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -35,51 +34,85 @@ def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
     ]
 
 
-def told(*samples):
-    runs = findings.main_runs([row for sample in samples for row in sample])
-    return {headline.subject: headline.text for headline in findings.headlines(runs)}
+def found(*samples, claims=()):
+    rows = [row for sample in samples for row in sample]
+    return findings.findings({"realisations": rows, "claims": claims})
 
 
-def test_findings_follow_the_numbers_and_not_the_paper():
-    flat, pillars = realisations(0.80), realisations(0.64, n_p=6, n_s=6)
-    large = realisations(0.72, lag=3e-6, n_p=60, n_s=60)
-    found = told(flat, pillars, large)
-    size = found["Friction and the size of pillars"]
-    assert "on pillars of n_p = 6, the lowest mean of those simulated: lower by 0.1" in size
-    assert re.search("On the largest, n_p = 60, it is .*: higher by 0.0", size)
-    order = found["Force and detachments"]
-    assert "before the mean first detachment on the flat surface and pillars of n_p = 6" in order
-    assert order.endswith("; after it on pillars of n_p = 60.")
-    turned = told(realisations(0.64), realisations(0.80, n_p=6, n_s=6))
-    assert "the only ones simulated: higher by" in turned["Friction and the size of pillars"]
+def test_the_size_of_least_friction_follows_the_numbers_and_not_the_paper():
+    flat, small = realisations(0.80), realisations(0.72, n_p=6, n_s=6)
+    large = realisations(0.64, lag=3e-6, n_p=60, n_s=60)
+    friction = found(flat, small, large)["friction"]
+    assert friction["size"] == 60
+    assert friction["sizes"] == [6, 60]
+    assert friction["change"].startswith("is lower by 0.16")
+    assert [row[0] for row in friction["rows"]] == ["flat", "n_p = 6", "n_p = 60"]
+    assert found(flat, small, large)["order"]["peaks"]["after"] == [60]
+    turned = found(realisations(0.64), realisations(0.80, n_p=6, n_s=6))["friction"]
+    assert turned["change"].startswith("is higher by 0.16")
 
 
-def test_what_the_intervals_do_not_tell_apart_is_not_said_to_differ():
-    """Means that differ by less than their scatter, and single runs, which have none."""
-    close = told(realisations(0.7, scatter=0.1), realisations(0.701, scatter=0.1, n_p=6, n_s=6))
-    assert "not told apart" in close["Friction and the size of pillars"]
-    single = told(realisations(0.8, seeds=1), realisations(0.6, seeds=1, n_p=6, n_s=6))
-    assert "not told apart" in single["Friction and the size of pillars"]
-    assert "[no interval]" in single["Friction and the size of pillars"]
-    assert (
-        "not told from the mean first detachment on the flat surface"
-        in single["Force and detachments"]
+def test_no_minimum_is_claimed_where_the_statement_was_not_tested():
+    flat, pillars = realisations(0.80), realisations(0.72, n_p=6, n_s=6)
+    claims = rows(CLAIMS, Evidence())
+    assert found(flat, pillars, claims=claims)["friction"]["below"] == []
+    assert found(claims=claims) == {}
+
+
+def judged(claim, case, value, verdict="reproduced", outcome="holds"):
+    """A row of the table of statements, on one that the study does test."""
+    assert claim in {each.name for each in CLAIMS}
+    limits = {"together_low": value - 0.01, "together_high": value + 0.01, "claimed_low": 0.01}
+    return (
+        limits
+        | {"claim": claim, "case": case, "value": value}
+        | {
+            "verdict": verdict,
+            "outcome": outcome,
+        }
     )
 
 
-def test_grooves_are_compared_along_and_across():
-    lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    along, across = (realisations(f, **lengths, direction=d) for f, d in ((0.7, "x"), (0.6, "y")))
-    assert told(along, across)["Grooves"].endswith("is higher on 1 of 1 grooved surfaces.")
-    (row,) = findings.grooves(findings.main_runs([*along, *across]))
-    assert row[0] == "n_p/n_s = 58/62, n_p2/n_s2 = 8/2"
-    assert "Grooves" not in told(along)
+def test_findings_take_their_numbers_from_the_statements():
+    length, peaks = (
+        "Correlation length of about three blocks or more",
+        "Two load peaks along grooves",
+    )
+    claims = [
+        judged("Lowest static friction at an intermediate n_p", "", 0.17),
+        judged("Order of detachment on a pillar", "n_p = 6", 0.1),
+        judged("The order of detachment never changes", "n_p = 6", 0.33, "not reproduced", "fails"),
+        judged(length, "A = 1, n_p = 20", 2.7),
+        judged(length, "A = free, n_p = 20", 3.6),
+        judged("Correlation length grows with n_p", "", -0.005, "not settled", "open"),
+        judged(peaks, "n_p2 = 4", 0.004, outcome="fails"),
+        judged(peaks, "n_p2 = 8", 0.028),
+        judged("Without hierarchy one load peak", "surface = grooves", 0.027, outcome="fails"),
+        judged("Square pawls have one load peak", "", 0.002),
+    ]
+    told = found(realisations(0.80), realisations(0.63, n_p=6, n_s=6), claims=claims)
+    assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
+    assert told["order"]["inward"]
+    assert told["order"]["shares"] == [(6, "0.33 [0.32, 0.34]")]
+    assert [name for name, _ in told["correlation"]["fits"]] == ["free", "1"]
+    assert told["correlation"]["growth"] == [("", "-0.005 [-0.015, 0.005]")]
+    assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
+    assert told["peaks"]["others"] == [("grooves", "0.027 [0.017, 0.037]")]
+
+
+def test_differences_within_the_scatter_are_not_significant():
+    """Means that differ by less than their scatter, and single runs, which have none."""
+    close = found(realisations(0.7, scatter=0.1), realisations(0.701, scatter=0.1, n_p=6, n_s=6))
+    assert "not differ significantly" in close["friction"]["change"]
+    single = found(realisations(0.8, seeds=1), realisations(0.6, seeds=1, n_p=6, n_s=6))
+    assert "[no interval]" in single["friction"]["change"]
+    assert single["order"]["peaks"]["unsettled"] == [0, 6]
 
 
 def test_constants_of_their_own_are_left_out_of_the_findings():
     varied = realisations(0.5, varied=(("pressure", 1e5),))
     assert findings.main_runs(varied) == {}
-    assert told() == {}
+    assert found(varied) == {}
 
 
 def test_each_statement_belongs_to_a_figure():
@@ -90,7 +123,7 @@ def test_statements_link_to_where_their_page_says_more():
     from springblock.claims.page import page as claims_page
 
     table = rows(CLAIMS, Evidence())
-    _, body = markup.rendered("claims", claims_page(table))
+    body = markup.rendered("claims", claims_page(table)).body
     made = statements(table)
     assert counted(made) == {"not tested": len(CLAIMS)}
     assert all(f'id="{statement["anchor"]}"' in body for statement in made)
@@ -99,7 +132,7 @@ def test_statements_link_to_where_their_page_says_more():
 def test_links_headings_and_symbols_of_a_page_are_set():
     """Links within it and headings become its own; symbols are set in words, not in code."""
     text = "# T\n\n[to](#the-end) [out](https://x.org) n_p, `n_p`\n\n## The end\n\n| l_c |\n|---|\n"
-    title, body = markup.rendered("a", text)
+    title, body, *_ = markup.rendered("a", text)
     assert title == "T"
     assert '<a href="#a-the-end">to</a>' in body
     assert '<h2 id="a-the-end">' in body
@@ -110,24 +143,57 @@ def test_links_headings_and_symbols_of_a_page_are_set():
 
 def test_folded_parts_are_the_only_html_of_a_page():
     text = "<details><summary>n_p <= 3</summary>\n\nb\n\n</details>\n\n<details><b>\n"
-    _, body = markup.rendered("a", text.replace("<=", "and"))
+    body = markup.rendered("a", text.replace("<=", "and")).body
     assert "<details><summary><var>n<sub>p</sub></var> and 3</summary>" in body
     assert body.count("<details>") == body.count("</details>") == 1
-    _, body = markup.rendered("a", text)  # not a plain title
+    body = markup.rendered("a", text).body  # not a plain title
     assert "<summary>" not in body
+
+
+def test_pages_of_the_report_link_to_each_other():
+    text = "[a](docs/model.md) [b](claims.md#the-rule) `docs/claims.md` `docs/model.md`\n"
+    body = markup.rendered("a", text, pages={"claims"}).body
+    assert '<a href="#claims-the-rule">b</a> <a href="#claims">claims</a>' in body
+    assert body.count("href") == 2  # pages that the report lacks lead nowhere
+
+
+def test_a_page_tells_what_opens_it_and_answers_its_chapters():
+    page = markup.rendered("a", "# T\n\none\n\n1. two\n\n## Q?\n\n### R\n\nyes\n\nso\n")
+    one, two = page.opening
+    assert one == "<p>one</p>\n"
+    assert two.startswith("<ol>")
+    assert page.answers == {"Q?": "<p>yes</p>\n"}
+
+
+def test_formulas_are_written_in_plain_characters():
+    body = markup.rendered("a", r"If $\mu_s F_n > \sqrt{2\pi} w$." "\n").body
+    assert "<var>μ<sub>s</sub></var> <var>F<sub>n</sub></var> &gt; √(2π) w." in body
+
+
+def test_anchors_of_the_glossary_are_targets():
+    text = '# G\n\n| term | meaning |\n|---|---|\n| <a id="l-c"></a>l_c | length |\n'
+    assert '<span id="glossary-l-c"></span>' in markup.rendered("glossary", text).body
 
 
 def test_symbols_are_set_and_nothing_but_symbols():
     assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
     assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"
-    for name in ("supplement_n_p", "n_p_x", "t_maximum", "static_friction", "n_blocks"):
+    assert typeset("c_x of `rk4`") == "<var>c<sub>x</sub></var> of <code>rk4</code>"
+    for name in (
+        "level-1/n_p-2/n_s-2",
+        "supplement_n_p",
+        "n_p_x",
+        "t_maximum",
+        "static_friction",
+        "n_blocks",
+    ):
         assert typeset(name) == name
 
 
 def test_a_table_leaves_out_what_is_the_same_in_all_rows():
     table = pa.table({"a": [1.0, 2.0], "b": [5.0, 5.0], "c": [np.nan, 0.123456789], "d": ["", ""]})
     shown = markup.shown("t", table)
-    assert shown["same"] == ["b = 5"]
+    assert [(column["name"], value) for column, value in shown["same"]] == [("b", "5")]
     assert [column["name"] for column in shown["columns"]] == ["a", "c"]
     assert shown["rows"] == [("1", ""), ("2", "0.123457")]
 
@@ -145,9 +211,11 @@ def test_a_film_is_told_in_words(tmp_path):
 
 
 def test_captions_are_those_that_pictures_keep(picture):
-    written = page([picture("figure_6.png", "N = 120, seeds 0 to 19.")], {})
-    assert "<figcaption>N = 120, seeds 0 to 19.</figcaption>" in written
-    assert FIGURES["figure_6"].title in written
+    declared = FIGURES["figure_6"]
+    shown = media.picture(picture("figure_6.png", f"{declared.caption} N = 120, seeds 0 to 19."))
+    assert (shown["caption"], shown["sample"]) == (declared.caption, "N = 120, seeds 0 to 19.")
+    assert declared.title in shown["title"]
+    assert media.picture(picture("sweep_x.png", "Another."))["caption"] == "Another."
 
 
 def test_nothing_given_becomes_part_of_the_page(nasty):

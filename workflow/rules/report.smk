@@ -37,6 +37,7 @@ rule report:
         production=rules.production_table.output if config["production"] else [],
         mechanism=rules.mechanism.output if config["mechanism"] else [],
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
+        glossary=[file for file in ["docs/glossary.md"] if Path(file).exists()],
         films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
         runs=[batches([shown])[0] for shown in FILMS.values()],
     output:

@@ -1,26 +1,26 @@
-"""What a study has found, in words, from its tables: right for any study, large or small."""
+"""Numbers of a study's findings, from its tables; `findings.html` puts them into prose."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from typing import Any
 
+import numpy as np
+
+from springblock.accuracy.budget import Bias, choices, finest_bias, measured
+from springblock.accuracy.conventions import ENSEMBLE
+from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.beyond.question import by_scene, number
-from springblock.io.rows import Row
+from springblock.io.rows import Row, select
+from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
-from springblock.plotting.caption import surface_in_words
 from springblock.plotting.style import MICRO
 
+Tables = Mapping[str, Sequence[Row]]  #: rows by name of the table
 Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
 
-
-class Headline(NamedTuple):
-    """What was found on a subject, in one or a few sentences, and the figure that shows it."""
-
-    subject: str
-    text: str
-    figure: str = ""
+_FINE = STEP / 2.0  #: s, the step that the default is compared with
 
 
 def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
@@ -35,131 +35,171 @@ def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
     return {s: rows for s, rows in found.items() if common <= s.n_blocks <= 1.1 * common}
 
 
-def headlines(runs: Runs) -> list[Headline]:
-    """Say what became of static friction, of its time and of grooves, and of energy."""
-    told = [_friction(runs), _order(runs), _grooves(runs), _energy(runs)]
-    return [headline for headline in told if headline]
+def findings(tables: Tables) -> dict[str, dict[str, Any]]:
+    """Return the numbers of each finding that the study has, by its name and theirs."""
+    family = _family(main_runs(tables.get("realisations", [])))
+    found = {
+        "friction": _friction(tables, family),
+        "order": _order(tables, family),
+        "correlation": _correlation(tables),
+        "peaks": _peaks(tables),
+        "errors": _errors(measured(tables.get("production", []), ("t_avg",))),
+    }
+    rest_on = {"correlation": ["correlation_length", "claims"], "errors": ["production"]}
+    usual = ["realisations", "claims"]
+    return {
+        name: numbers | {"tables": [table for table in rest_on.get(name, usual) if table in tables]}
+        for name, numbers in found.items()
+        if numbers
+    }
 
 
-def sizes(runs: Runs, lengths: Sequence[Row]) -> list[list[str]]:
-    """Return rows for the flat surface and for pillars of each size, as far apart as wide.
-
-    They hold the surface, the number of runs, static friction, t_max - t_avg in µs, and l_c along
-    x and along y in blocks, empty where it was not measured.
-    """
-    return [
-        [
-            f"n_p = n_s = {scene.n_p}" if scene.n_p else "flat",
-            str(len(rows)),
-            number(mean_interval(_static(rows))),
-            number(_lag(rows), factor=MICRO),
-            *(_l_c(scene, side, lengths) for side in "xy"),
-        ]
-        for scene, rows in _family(runs).items()
-    ]
-
-
-def grooves(runs: Runs) -> list[list[str]]:
-    """Return rows for patterns of grooves that were pulled both along them and across.
-
-    They hold the surface, both numbers of runs, static friction along the grooves and across them,
-    and the difference.
-    """
-    return [
-        [
-            surface_in_words(along.lengths),
-            f"{len(runs[along])}, {len(runs[across])}",
-            number(mean_interval(_static(runs[along]))),
-            number(mean_interval(_static(runs[across]))),
-            number(difference),
-        ]
-        for along, across, difference in _along_and_across(runs)
-    ]
-
-
-def _along_and_across(runs: Runs) -> list[tuple[Scene, Scene, Interval]]:
-    """Return grooved pillars by direction, and the mean difference of friction, seed by seed."""
-    found = []
-    for along in runs:
-        across = replace(along, direction="y")
-        if along.level == 2 and along.direction == "x" and across in runs:
-            first, second = (
-                {row["seed"]: row["static_friction"] for row in runs[each]}
-                for each in (along, across)
-            )
-            common = sorted(first.keys() & second.keys())
-            difference = mean_interval([first[seed] - second[seed] for seed in common])
-            found.append((along, across, difference))
-    return found
-
-
-def _family(runs: Runs) -> dict[Scene, Sequence[Row]]:
-    """Flat surfaces and pillars with n_s = n_p that slide along x, by size."""
+def _family(runs: Runs) -> dict[int, Sequence[Row]]:
+    """Runs on the flat surface, at 0, and on pillars as far apart as wide, along x, by n_p."""
     plain = [s for s in runs if s.lengths.keys() <= {"n_p", "n_s"} and s.direction == "x"]
     simple = [s for s in plain if s.n_s == s.n_p]
-    return {scene: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
+    return {scene.n_p: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
 
 
-def _friction(runs: Runs) -> Headline | None:
-    """Static friction of flat surfaces and pillars."""
-    scenes = list(_family(runs))
-    if len(scenes) < 2 or scenes[0].n_p:
-        return None
-    flat, *pillars = scenes
-    lowest = min(pillars, key=lambda scene: float(mean_interval(_static(runs[scene])).mean))
-    text = f"Static friction is {_stated(runs[flat])} on a flat surface, and "
-    text += f"{_stated(runs[lowest])} on pillars of n_p = {lowest.n_p}, "
-    text += "the lowest mean of those simulated" if pillars[1:] else "the only ones simulated"
-    text += f": {_told(runs[lowest], runs[flat])}."
-    if (largest := pillars[-1]) != lowest:
-        text += f" On the largest, n_p = {largest.n_p}, it is {_stated(runs[largest])}: "
-        text += f"{_told(runs[largest], runs[lowest])}."
-    return Headline("Friction and the size of pillars", text, "figure_6")
+def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
+    """Static friction on a flat surface and on pillars of each size."""
+    samples = {size: np.array([row["static_friction"] for row in family[size]]) for size in family}
+    flat = samples.pop(0, None)
+    if flat is None or not samples:
+        return {}
+    least = lowest(samples)
+    size = int(least.place)
+    rows = _tested(tables, "Lowest static friction at an intermediate n_p")
+    below = [_quoted(row) for row in rows if row["verdict"] == "reproduced"]
+    at_least = f"Static friction is lowest on pillars of {size} blocks"
+    return {
+        "title": at_least if below else "Static friction and the size of pillars",
+        "n_blocks": family[size][0]["n_blocks"],
+        "flat": number(mean_interval(flat)),
+        "least": number(mean_interval(samples[size])),
+        "size": size,
+        "sizes": list(samples),
+        "alike": [f"{each:g}" for each in least.alike if each != size],
+        "change": _change(difference_interval(samples[size], flat)),
+        "below": below,
+        "rows": [
+            (
+                f"n_p = {n_p}" if n_p else "flat",
+                str(len(rows)),
+                number(mean_interval([row["static_friction"] for row in rows])),
+                number(_lag(rows), factor=MICRO),
+            )
+            for n_p, rows in family.items()
+        ],
+    }
 
 
-def _order(runs: Runs) -> Headline | None:
-    """Whether the force peaks before or after the mean detachment."""
-    kinds: dict[str, list[Scene]] = {}
-    for scene, rows in _family(runs).items():
-        kind = _sign(_lag(rows), "before", "after", "not told from")
-        kinds.setdefault(kind, []).append(scene)
-    if not kinds:
-        return None
-    first, *others = [f"{kind} {{}} on {_listed(scenes)}" for kind, scenes in kinds.items()]
-    told = [first.format("the mean first detachment"), *(other.format("it") for other in others)]
-    text = f"The time of the largest force is {'; '.join(told)}."
-    return Headline("Force and detachments", text, "figure_6")
+def _order(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
+    """Order of detachment on pillars, and whether the force peaks before the mean detachment."""
+    inward = select(_tested(tables, "Order of detachment on a pillar"), verdict="reproduced")
+    alone = _by_size(_tested(tables, "The order of detachment never changes"))
+    precursors = _tested(tables, "Precursors are negligible on very large pillars")
+    peaks: dict[str, list[int]] = {"before": [], "after": [], "unsettled": []}
+    for size, rows in family.items():
+        peaks[_sign(_lag(rows), "before", "after", "unsettled")].append(size)
+    numbers = {
+        "inward": bool(inward),
+        "shares": [(size, _quoted(alone[size])) for size in (6, 20, 60) if size in alone],
+        "precursors": [_quoted(row) for row in precursors],
+        "peaks": peaks if family else {},
+    }
+    title = "Pillars detach from their edges inward" if inward else "The order of detachment"
+    return {"title": title, **numbers} if any(numbers.values()) else {}
 
 
-def _listed(scenes: Sequence[Scene]) -> str:
-    """Name flat surfaces and pillars."""
-    pillars = ", ".join(str(scene.n_p) for scene in scenes if scene.n_p)
-    flat = ["the flat surface"] * (not scenes[0].n_p)
-    return " and ".join(flat + [f"pillars of n_p = {pillars}"] * bool(pillars))
+def _correlation(tables: Tables) -> dict[str, Any]:
+    """Correlation length of first detachment times along the sides of pillars, in blocks."""
+    rows = _tested(tables, "Correlation length of about three blocks or more")
+    values = [row["value"] for row in rows]
+    growth = _tested(tables, "Correlation length grows with n_p")
+    if not rows:
+        return {}
+    span = f"{min(values):.1f} to {max(values):.1f}"
+    return {
+        "title": f"Detachments along the sliding direction are correlated over {span} blocks",
+        "fits": [
+            (name, [(size, _quoted(row)) for size, row in _by_size(own).items()])
+            for name in ("free", "1")
+            if (own := [row for row in rows if f"A = {name}" in row["case"]])
+        ],
+        "growth": [
+            (_sign(_interval(row), "decreases", "increases", ""), _quoted(row)) for row in growth
+        ],
+    }
 
 
-def _grooves(runs: Runs) -> Headline | None:
-    """Static friction along grooves and across them."""
-    words = ("lower", "higher", "not told apart")
-    found = Counter(_sign(difference, *words) for _, _, difference in _along_and_across(runs))
-    if not found:
-        return None
-    told = ", ".join(f"{word} on {number}" for word, number in found.items())
-    which = "Static friction along the grooves, compared with that across them, is"
-    return Headline("Grooves", f"{which} {told} of {found.total()} grooved surfaces.", "figure_9")
+def _peaks(tables: Tables) -> dict[str, Any]:
+    """How far the force falls between two load peaks: with pillars and grooves, and with either."""
+    along = _by_size(_tested(tables, "Two load peaks along grooves"))
+    square = _tested(tables, "Square pawls have one load peak")
+    others = _tested(tables, "Without hierarchy one load peak")
+    others += [row | {"case": "square pawls"} for row in square]
+    if not along:
+        return {}
+    others = select(others, outcome="fails")
+    ordered = sorted(along.items(), key=lambda pair: -pair[1]["value"])
+    return {
+        "title": "Two load peaks do not need hierarchy" if others else "When the load peaks twice",
+        "least": f"{ordered[0][1]['claimed_low']:g}",
+        "along": [(size, _quoted(row)) for size, row in ordered],
+        "others": [(row["case"].removeprefix("surface = "), _quoted(row)) for row in others],
+    }
 
 
-def _energy(runs: Runs) -> Headline | None:
-    """How well the balance of energy closes."""
-    errors = [abs(row["energy_error"]) for rows in runs.values() for row in rows]
-    if not errors:
-        return None
-    closes = f"closes to {max(errors):.1e} of the slider's work or better"
-    return Headline("Energy", f"The balance of energy of all {len(errors)} realisations {closes}.")
+def _errors(cases: Mapping[tuple[str, str], list[Row]]) -> dict[str, Any]:
+    """Bias of the mean t_avg at the default step, and what half that step costs and gains."""
+    if not cases:
+        return {}
+    biases, scatter = {}, {}
+    for (_, scene), rows in cases.items():
+        (row,) = select(rows, step=STEP)
+        biases[scene] = Bias.of(row).high + finest_bias(rows)
+        scatter[scene] = row["deviation"] / row["scale"] / np.sqrt(ENSEMBLE)
+    pillars = {row["step"]: row for row in cases["t_avg", "pillared"]}
+    seconds = {each.step: each.spent(10) for each in choices(pillars.values())}
+    return {
+        "title": f"The time step biases t_avg by at most {max(biases.values()):.2%}",
+        "step": f"{STEP:.0e}",
+        "fine": f"{_FINE:.0e}",
+        "seeds": ENSEMBLE,
+        "cases": [(name, f"{biases[name]:.2%}", f"{scatter[name]:.2%}") for name in biases],
+        "seconds": [f"{seconds[step]:.1f}" for step in (STEP, _FINE)],
+        "biases": [_in_percent(pillars[step]) for step in (STEP, _FINE)],
+        "change": f"{abs(pillars[STEP]['value'] / pillars[_FINE]['value'] - 1.0):.2%}",
+    }
 
 
-def _static(rows: Sequence[Row]) -> list[float]:
-    return [row["static_friction"] for row in rows]
+def _tested(tables: Tables, claim: str) -> list[Row]:
+    """Return the rows of a statement that the study has tested."""
+    rows = select(tables.get("claims", []), claim=claim)
+    return [row for row in rows if row["verdict"] != "not tested"]
+
+
+def _by_size(rows: Iterable[Row]) -> dict[int, Row]:
+    """Return rows of the table `claims` by the size, n_p or n_p2, that their case names."""
+    found = ((re.search(r"n_p2? = (\d+)", row["case"]), row) for row in rows)
+    return {int(size[1]): row for size, row in found if size}
+
+
+def _interval(row: Row) -> Interval:
+    return Interval(row["value"], row["together_low"], row["together_high"])
+
+
+def _quoted(row: Row) -> str:
+    """Write the value of a finding on a statement as the page of statements does."""
+    value, low, high = _interval(row)
+    return f"{value:.3g} [{low:.3g}, {high:.3g}]"
+
+
+def _in_percent(row: Row) -> str:
+    """Write a bias of the table `production` with its interval."""
+    bias, low, high = (100.0 * row[key] / row["scale"] for key in ("bias", "ci_low", "ci_high"))
+    return f"{bias:.3f} [{low:.3f}, {high:.3f}]"
 
 
 def _lag(rows: Sequence[Row]) -> Interval:
@@ -167,29 +207,16 @@ def _lag(rows: Sequence[Row]) -> Interval:
 
 
 def _sign(difference: Interval, negative: str, positive: str, unknown: str) -> str:
-    """Return the word for what an interval tells of a sign."""
+    """Return the word for the sign that the interval leaves no doubt of."""
     if difference.high < 0.0:
         return negative
     return positive if difference.low > 0.0 else unknown
 
 
-def _told(first: Sequence[Row], second: Sequence[Row]) -> str:
-    """Say by how much static friction is lower or higher on the first surface."""
-    difference = difference_interval(_static(first), _static(second))
+def _change(difference: Interval) -> str:
+    """Say by how much static friction on pillars is lower or higher."""
     word = _sign(difference, "lower", "higher", "")
     if not word:
-        return f"not told apart by their difference, {number(difference)}"
+        return f"does not differ significantly ({number(difference)})"
     low, high = sorted(map(abs, (difference.low, difference.high)))
-    return f"{word} by {number(Interval(abs(difference.mean), low, high))}"
-
-
-def _stated(rows: Sequence[Row]) -> str:
-    return f"{number(mean_interval(_static(rows)))} ({len(rows)} run{'s' * (len(rows) > 1)})"
-
-
-def _l_c(scene: Scene, side: str, lengths: Sequence[Row]) -> str:
-    """Correlation length of a scene's sides, if the table has it."""
-    for row in lengths:
-        if row["side"] == side and Scene.from_row(row) == scene:
-            return number(Interval(row["l_c"], row["ci_low"], row["ci_high"]))
-    return ""
+    return f"is {word} by {number(Interval(abs(difference.mean), low, high))}"

@@ -1,8 +1,8 @@
 """Text, pages in Markdown and tables, as HTML or ready for it."""
 
 import re
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import pyarrow as pa
 from markdown_it import MarkdownIt
@@ -11,44 +11,89 @@ from markupsafe import Markup, escape
 
 from springblock.claims.page import anchor
 
-#: The paper's symbols, which it prints with their indices below the line.
-_SYMBOL = re.compile(r"\b(?:(n)_([ps][23]?)|(l)_([cpz])|(t)_(max|avg|det)|(μ)_([sd]))\b")
-#: Line that opens or closes a part to be folded, the only HTML in a page of the study.
+#: Symbols with an index, which the paper prints below the line; parts of paths have none.
+_SYMBOL = re.compile(r"\b(mu|[A-Za-zμγσω])_(max|min|avg|det|int|[a-z][23]?|0)\b(?!-\w)")
+_ANCHOR = re.compile(r"&lt;a id=&#34;([\w-]+)&#34;&gt;&lt;/a&gt;")
+#: Line that opens or closes a folded part, the only other HTML in a page of the study.
 _FOLD = re.compile(r"<details><summary>([^<>]*)</summary>|</details>")
+_PAGE = re.compile(r"(?:docs/|\.\./)?(\w+)\.md")
 _SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
 _MANY = 20  #: chapters from which on the numbered ones are folded
 
 
+class Page(NamedTuple):
+    """A page as HTML, with its title, and what opens it and each of its chapters."""
+
+    title: str
+    body: Markup = Markup()
+    opening: Sequence[Markup] = ()
+    answers: Mapping[str, Markup] = {}  #: first paragraph of each chapter, by its heading
+
+
 def typeset(text: str) -> Markup:
-    """Return text as HTML, escaped but for what sets its symbols."""
-
-    def symbol(found: re.Match[str]) -> str:
-        letter, index = filter(None, found.groups())
-        return f"<var>{letter}<sub>{index}</sub></var>"
-
-    return Markup(_SYMBOL.sub(symbol, str(escape(text))))
+    """Return text as HTML, escaped but for what sets its symbols and what is code."""
+    parts = re.split("`([^`]+)`", str(escape(text)))
+    codes = (f"<code>{part}</code>" if i % 2 else symbols(part) for i, part in enumerate(parts))
+    return Markup("".join(codes))
 
 
-def rendered(name: str, markdown: str) -> tuple[str, Markup]:
-    """Title of a page, its first heading or else its name, and the page as HTML.
+def symbols(html: str) -> Markup:
+    """Return HTML with the indices of its symbols below the line."""
+    return Markup(_SYMBOL.sub(lambda found: _symbol(*found.groups()), html))
 
-    Headings, and links to them, are marked with its name. HTML is shown as text, but for <details>.
+
+def _symbol(letter: str, index: str) -> str:
+    return f"<var>{letter.replace('mu', 'μ')}<sub>{index}</sub></var>"
+
+
+def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
+    """Read a page: its title is its first heading, or else its name.
+
+    Headings, and links to them, are marked with its name; links to `pages` lead to these. HTML is
+    shown as text, except <details> and the anchors of a glossary.
     """
     parser = MarkdownIt("commonmark", {"html": False}).enable("table")
     parser.add_render_rule("table_open", lambda *_: '<div class="table" tabindex="0"><table>\n')
     parser.add_render_rule("table_close", lambda *_: "</table>\n</div>")
-    tokens = parser.parse(markdown)
+    tokens = parser.parse(re.sub(r"\$+([^$]+)\$+", _formula, markdown))
     title = name
     if tokens and tokens[0].tag == "h1":
         title, tokens = tokens[1].content, tokens[3:]
-    _mark(name, tokens)
-    chapters = sum(token.type == "heading_open" and token.tag == "h2" for token in tokens)
-    tokens = _folded(tokens) if chapters > _MANY else tokens
+    _mark(name, tokens, pages)
     _fold(tokens)
-    return title, Markup(parser.renderer.render(tokens, parser.options, {}))
+
+    def html(part: Sequence[Token]) -> Markup:
+        text = parser.renderer.render(part, parser.options, {})
+        return Markup(_ANCHOR.sub(rf'<span id="{name}-\1"></span>', text))
+
+    starts = [i for i, token in enumerate(tokens) if _is_chapter(token)]
+    body = html(_folded(tokens) if len(starts) > _MANY else tokens)
+    opening = [html(block) for block in _blocks(tokens[: [*starts, len(tokens)][0]])]
+    answers = {tokens[i + 1].content: html(next(_blocks(tokens[i + 3 :]), [])) for i in starts}
+    return Page(title, body, opening, answers)
 
 
-def _mark(name: str, tokens: Sequence[Token]) -> None:
+def _is_chapter(token: Token) -> bool:
+    return token.type == "heading_open" and token.tag == "h2"
+
+
+def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
+    """Yield the paragraphs and lists at the level of chapters."""
+    first = 0
+    for i, token in enumerate(tokens):
+        if not token.level and token.nesting == 1:
+            first = i
+        if not token.level and token.type in ("paragraph_close", "ordered_list_close"):
+            yield tokens[first : i + 1]
+
+
+def _formula(found: re.Match[str]) -> str:
+    """Write a formula of one line in plain characters."""
+    text = re.sub(r"\\sqrt\{(.*?)\}", r"√(\1)", found[1])
+    return text.replace(r"\mu", "μ").replace(r"\pi", "π").replace("*", r"\*").strip()
+
+
+def _mark(name: str, tokens: Sequence[Token], pages: Collection[str]) -> None:
     """Give headings anchors that are no other page's, keep short cells whole, and set symbols."""
     for i, token in enumerate(tokens):
         if token.type == "heading_open":
@@ -56,11 +101,25 @@ def _mark(name: str, tokens: Sequence[Token]) -> None:
         if token.type == "td_open":
             token.attrSet("class", _width(tokens[i + 1].content))
         for child in token.children or ():
-            target = str(child.attrGet("href") or "")
-            if target.startswith("#"):
-                child.attrSet("href", f"#{name}-{target[1:]}")
+            _link(name, child, pages)
             if child.type == "text":
-                child.type, child.content = "html_inline", str(typeset(child.content))
+                child.type, child.content = "html_inline", symbols(str(escape(child.content)))
+
+
+def _link(name: str, token: Token, pages: Collection[str]) -> None:
+    """Turn links to headings and pages, and names of pages, into links within the report."""
+    target, _, heading = str(token.attrGet("href") or "").partition("#")
+    page = _PAGE.fullmatch(token.content if token.type == "code_inline" else target)
+    if page and page[1] in pages:
+        place = f"#{page[1]}-{heading}" if heading else f"#{page[1]}"
+        if token.type == "link_open":
+            token.attrSet("href", place)
+        else:
+            token.type, token.content = "html_inline", f'<a href="{place}">{page[1]}</a>'
+    elif heading and not target:
+        token.attrSet("href", f"#{name}-{heading}")
+    elif page and token.type == "link_open":
+        del token.attrs["href"]  # a page of the documentation that the report lacks
 
 
 def _fold(tokens: list[Token]) -> None:
@@ -101,21 +160,21 @@ def _html(text: str) -> list[Token]:
 
 
 def shown(name: str, table: pa.Table) -> dict[str, Any]:
-    """Return what is the same in all rows of a table, as name = value unit, and the rest of it.
+    """Return the rows of a table, to six digits, what is the same in all of them, and its columns.
 
-    Of columns that is name, unit, meaning and whether they hold numbers, which have six digits.
+    Columns have a name, a unit, a meaning, and whether they hold numbers.
     """
-    columns = {field.name: _column(field) for field in table.schema}
-    values = {name: [_text(value) for value in table[name].to_pylist()] for name in columns}
-    same = {name: texts[0] for name, texts in values.items() if len(set(texts)) == 1}
-    if table.num_rows == 1:
-        same = {}
-    told = [
-        f"{name} = {text} {columns[name]['unit']}".strip() for name, text in same.items() if text
-    ]
-    kept = [name for name in columns if name not in same]
-    rows = list(zip(*(values[name] for name in kept), strict=True))
-    return {"name": name, "same": told, "columns": [columns[key] for key in kept], "rows": rows}
+    columns = [_column(field) for field in table.schema]
+    values = [[_text(value) for value in table[each["name"]].to_pylist()] for each in columns]
+    is_same = [table.num_rows > 1 and len(set(texts)) == 1 for texts in values]
+    every = list(zip(columns, values, is_same, strict=True))
+    kept = [texts for _, texts, same in every if not same]
+    return {
+        "name": name,
+        "same": [(column, texts[0]) for column, texts, same in every if same and texts[0]],
+        "columns": [column for column, _, same in every if not same],
+        "rows": list(zip(*kept, strict=True)),
+    }
 
 
 def _column(field: pa.Field) -> dict[str, Any]:

@@ -15,22 +15,22 @@ from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import MICRO
 
 _WIDE = 1800  #: pixels that a picture in the page has at least, if the file has them
-_SWEEPS = "Sweeps"
 
 
 def picture(path: Path) -> dict[str, Any]:
     """Read a figure for the page; its caption is the one that the file keeps."""
     declared, name = FIGURES.get(path.stem), path.stem
     with Image.open(path) as file:
-        caption = str(file.info.get("Description", ""))
+        written = str(file.info.get("Description", ""))
         size = 25.4 * file.width / float(file.info.get("dpi", (600.0,))[0])
         small = file.convert("RGB").reduce(max(1, file.width // _WIDE))
+    caption = declared.caption if declared and written.startswith(declared.caption) else written
     return {
         "name": name,
-        "category": declared.category if declared else _SWEEPS,
-        "label": _label(name),
-        "title": declared.title if declared else "",
+        "category": declared.category if declared else "Sweeps",
+        "title": _title(name, declared.title if declared else ""),
         "caption": caption,
+        "sample": written.removeprefix(caption).strip(),  # and what bands and symbols mean
         "source": _webp(small),
         "width": small.width,
         "height": small.height,
@@ -53,6 +53,11 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     }
 
 
+def embedded(file: Path) -> str:
+    """Return a file as an address that holds all of it."""
+    return _address("application/octet-stream", file.read_bytes())
+
+
 def in_words(run: Record) -> str:
     """Say what a film of a run shows: when how many blocks let go."""
     times = np.sort(run.t_det[np.isfinite(run.t_det)])
@@ -71,13 +76,10 @@ def in_words(run: Record) -> str:
     )
 
 
-def _label(name: str) -> str:
-    """Figure 6, Angle, ...: the name of a figure without its category."""
-    if name.startswith("figure_"):
-        return name.replace("_", " ").capitalize()
-    category, _, rest = name.partition("_")
-    own = rest if category in ("supplement", "beyond", "sweep") else name
-    return own.replace("_", " ").capitalize()
+def _title(name: str, declared: str) -> str:
+    """Figure 6: Force and detachments, ...: what a figure is called, numbered if in the paper."""
+    words = name.replace("_", " ").capitalize()
+    return f"{words}: {declared}" if name.startswith("figure_") else declared or words
 
 
 def _webp(image: Image.Image) -> str:

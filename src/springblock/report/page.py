@@ -4,6 +4,7 @@ from base64 import b64encode
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,35 +12,35 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from springblock.beyond.question import listed
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
 from springblock.io.parquet import load
 from springblock.io.rows import Row
 from springblock.report import findings, markup, media
 
-#: Parts of the page and their titles, in order; those of the study's own pages come last, as these
-#: are called by their first heading.
-FIGURES = {
-    "figures": "Figures of the paper",
-    "supplement": "What the paper leaves open",
-    "sweeps": "Sweeps",
-}
-PAGES = {
-    "claims": "What becomes of the paper's statements",
-    "mechanism": "Why friction has a minimum",
-    "accuracy": "What to trust",
-    "beyond": "Beyond the paper",
-    "benchmark": "How fast",
-    "reliability": "How reliable",
+#: Parts of the page in their order, before further pages, and the titles of those without a page.
+ORDER = ("claims", "figures", "mechanism", "accuracy", "beyond", "glossary")
+TITLES = {"figures": "Further figures"}
+#: The picture of the method, and the figures that findings show.
+MODEL = "figure_1"
+SHOWN = {
+    "friction": ("figure_6", "mechanism_friction"),
+    "order": ("figure_5",),
+    "correlation": ("figure_7",),
+    "peaks": ("figure_9",),
+    "errors": (),
 }
 #: Verdicts in the order in which they are listed.
 VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
 _FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
+Figures = dict[str, dict[str, Any]]  #: by name
+
 
 class Part(NamedTuple):
-    """A part of the page: what a page of the study says, and figures."""
+    """A part of the page: a page of the study, and figures."""
 
     name: str
     title: str
@@ -64,22 +65,34 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         kinds[file.suffix].append(file)
     data = {file.stem: load(file) for file in kinds[".parquet"]}
     rows = {name: table.to_pylist() for name, table in data.items()}
-    runs = findings.main_runs(rows.get("realisations", []))
+    figures = {file.stem: media.picture(file) for file in sorted(kinds[".png"])}
+    known = {file.stem for file in kinds[".md"]}
+    pages = {
+        file.stem: markup.rendered(file.stem, file.read_text("utf-8"), known)
+        for file in kinds[".md"]
+    }
+    found = findings.findings(rows)
+    placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
     judged = statements(rows.get("claims", []))
-    parts = _parts(kinds[".png"], kinds[".md"])
-    return _rendered(
-        headlines=findings.headlines(runs),
-        sizes=findings.sizes(runs, rows.get("correlation_length", [])),
-        grooves=findings.grooves(runs),
-        labels={each["name"]: each["label"] for part in parts for each in part.figures},
-        n_blocks=next(iter(runs)).n_blocks if runs else 0,
+    mechanism = pages.get("mechanism", markup.Page(""))
+    peaks = [text for heading, text in mechanism.answers.items() if "two load peaks" in heading]
+    return rendered(
+        "page.html",
+        findings=found,
+        SHOWN=SHOWN,
+        reasons={"friction": mechanism.opening, "peaks": peaks},
+        n_runs=len(rows.get("realisations", [])),
+        model=figures.get(MODEL),
+        figures=figures,
+        pages=pages,
         statements=judged,
         counted=counted(judged),
-        shown=[part for part in parts if part.name in FIGURES],
+        parts=_parts(figures, pages, placed),
         films=[media.moving(file, batch) for file, batch in films.items()],
-        written=[part for part in parts if part.name not in FIGURES],
         tables=[markup.shown(name, table) for name, table in data.items()],
-        origin=_origin(data),
+        files={file.stem: media.embedded(file) for file in kinds[".parquet"]},
+        origin=origin(data),
+        version=version("springblock"),
     )
 
 
@@ -105,8 +118,8 @@ def counted(made: Sequence[Row]) -> dict[str, int]:
     return {verdict: found[verdict] for verdict in VERDICTS if found[verdict]}
 
 
-def _rendered(**content: Any) -> str:
-    """Fill the template; every string is escaped that is not marked as HTML of our own."""
+def rendered(template: str, **content: Any) -> str:
+    """Fill a template; every string is escaped that is not marked as HTML of our own."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,
@@ -114,31 +127,31 @@ def _rendered(**content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["typeset"] = markup.typeset
+    environment.filters |= {"typeset": markup.typeset, "symbols": markup.symbols, "listed": listed}
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
-    return environment.get_template("page.html").render(
+    return environment.get_template(template).render(
         style=Markup(style), script=Markup(script), digest=digest, **content
     )
 
 
-def _parts(figures: Iterable[Path], pages: Iterable[Path]) -> list[Part]:
-    """Parts of the page that have something to show, in order; a page's figures follow its text."""
-    texts = {file.stem: markup.rendered(file.stem, file.read_text("utf-8")) for file in pages}
-    pictures: dict[str, list[dict[str, Any]]] = {}
-    for picture in map(media.picture, sorted(figures)):
-        pictures.setdefault(picture["category"].lower(), []).append(picture)
-    titles = FIGURES | PAGES | {name: title for name, (title, _) in texts.items()}
-    bodies = {name: body for name, (_, body) in texts.items()}
-    return [
-        Part(name, title, bodies.get(name, Markup()), pictures.get(name, []))
-        for name, title in titles.items()
-        if name in texts or name in pictures
-    ]
+def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str]) -> list[Part]:
+    """Parts that have something to show, in order; those that findings show have their place."""
+    left: dict[str, list[dict[str, Any]]] = {}
+    for name, figure in figures.items():
+        if name not in placed:
+            part = figure["category"].lower()
+            left.setdefault(part if part in pages else "figures", []).append(figure)
+    parts = []
+    for name in dict.fromkeys([*ORDER, *pages, *left]):
+        page = pages.get(name, markup.Page(TITLES.get(name, name.capitalize())))
+        if name in pages or name in left:
+            parts.append(Part(name, page.title, page.body, left.get(name, [])))
+    return parts
 
 
-def _origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
-    """What made the table of realisations."""
+def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
+    """Return what the table of realisations was made with."""
     kept = data["realisations"].schema.metadata if "realisations" in data else {}
     names = {"code version": b"code_version", "configuration": b"configuration_digest"}
     return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}
