@@ -32,6 +32,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The study cannot be run: {error}.") from None
 
 BEGUN = time.time()
+OWN = study.is_own(config)
 SETUP = study.setup(config)
 CONFIGURATION = configuration_digest(config)
 #: Groups of scenes, each a list of ensembles, and the ensemble in each folder of realisations.

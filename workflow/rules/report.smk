@@ -27,7 +27,8 @@ for surface, shown in FILMS.items():
 rule report:
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
-        claims=rules.claims.output,
+        claims=[] if OWN else rules.claims.output,
+        means=rules.means.output.page if OWN else [],
         tables=[rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]

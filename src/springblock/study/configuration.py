@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from itertools import combinations, product
+from dataclasses import dataclass, replace
+from itertools import chain, combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -106,11 +106,15 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    usual = setup(configuration)
-    for group, members in ensembles(configuration).items():
+    usual, groups = setup(configuration), ensembles(configuration)
+    if not any(groups.values()):
+        raise ValueError("scenes: no scenes are given; add a group, as config/README.md shows")
+    for group, members in groups.items():
         for ensemble in members:
             with _named(f"scenes.{group}"):
-                _check_ensemble(ensemble, group, usual)
+                _check_ensemble(ensemble, usual)
+                if not is_own(configuration):
+                    _check_for_figures(ensemble, group, usual)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
@@ -142,7 +146,12 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
         raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {known}")
 
 
-def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
+def is_own(configuration: Configuration) -> bool:
+    """Whether a study has scenes of one's own alone, without the paper's groups and figures."""
+    return configuration.get("study") == "own"
+
+
+def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
     scene, ones = ensemble.scene, np.ones(ensemble.scene.shape)
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
     own = setup.vary(dict(scene.varied))
@@ -151,6 +160,11 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         own.check_length(scene.contact, _threshold(scene, own.material), duration)
     if ensemble.duration is not None:
         count_samples(ensemble.duration, own.sample_interval)
+
+
+def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
+    """Refuse scenes that the paper's figures and the tables of correlations cannot take."""
+    scene, material = ensemble.scene, setup.vary(dict(ensemble.scene.varied)).material
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "its surfaces must be the paper's, square, with free edges and without files; "
@@ -159,7 +173,7 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"its scenes must be of level {_LEVELS[group]}, not {scene.level}")
     # Where nothing scatters one realisation is all there are, and no figure asks for its c(r).
-    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(own.material)
+    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(material)
     if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
         raise ValueError(
             f"correlations on pillars of {scene.n_p} blocks need {_CORRELATED} seeds or more"
@@ -228,11 +242,19 @@ def setup(configuration: Configuration) -> Setup:
     return Setup(material, **times)
 
 
-def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
+def for_figures(
+    configuration: Configuration, groups: Mapping[str, list[Ensemble]]
+) -> dict[str, list[Ensemble]]:
     """Ensembles that figures take by the names of groups: the paper's surfaces.
 
-    The group `surfaces`, which is drawn for itself, has those of one's own as well.
+    The group `surfaces`, which is drawn for itself, has those of one's own as well. In a study of
+    one's own there is no other group; it has each surface once in each direction.
     """
+    if is_own(configuration):
+        first: dict[Scene, Ensemble] = {}
+        for each in chain.from_iterable(groups.values()):
+            first.setdefault(replace(each.scene, varied=()), each)
+        return {"surfaces": list(first.values())}
     return {
         group: [each for each in members if each.scene.is_papers or group == "surfaces"]
         for group, members in groups.items()
@@ -306,7 +328,7 @@ def _masks(
             raise ValueError("mask cannot be given together with a topography or its cut")
         yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
     elif "topography" in grid:
-        spacing = dict(constants).get("spacing", configuration["material"]["spacing"])
+        spacing = dict(constants).get("spacing", setup(configuration).material.spacing)
         folder, file = Path(configuration["results"], "surfaces"), Path(grid["topography"])
         for values in product(*cuts.values()):
             cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))
