@@ -83,5 +83,5 @@ def test_ensembles_of_one_side_alone_are_named(springblock, batch, tmp_path):
 
 def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
     said = springblock("table", batch(0, 2), "--output", tmp_path / "a.txt", refused=True)
-    assert "a.txt must end in .csv, .parquet or .md" in said
+    assert "a.txt must end in .csv or .parquet" in said
     assert not (tmp_path / "a.txt").exists()

@@ -1,5 +1,6 @@
 # The configuration, checked and expanded, and what several steps ask of it.
 
+import atexit
 import os
 import re
 import shutil
@@ -104,6 +105,29 @@ def minutes(wildcards, attempt):
     ensemble = ENSEMBLE[wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
     return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, runs_of(wildcards))
+
+
+def expected(job):
+    """Time in s that a job is expected to take."""
+    if job.rule.name not in ("prelude", "simulate_batch"):
+        return cost.other_seconds(job.rule.name)
+    ensemble = ENSEMBLE[job.wildcards.scene]
+    setup = SETUP.vary(dict(ensemble.scene.varied))
+    return cost.seconds(ensemble.scene, setup, ensemble.duration, runs_of(job.wildcards))
+
+
+def tell_time():
+    """Print after a dry run, which calls none of Snakemake's hooks, how long its jobs will take."""
+    if not workflow.dryrun:
+        return
+    # which counts as finished what it has listed
+    jobs = workflow.dag.needrun_jobs(exclude_finished=False)
+    if times := [expected(job) for job in jobs]:
+        print(f"These jobs take {cost.in_words(times, workflow.cores)}.", file=sys.stderr)
+
+
+if workflow.is_main_process:
+    atexit.register(tell_time)
 
 
 def begin():

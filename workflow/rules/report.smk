@@ -28,8 +28,8 @@ rule report:
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
         claims=[] if OWN else rules.claims.output,
-        means=rules.means.output.page if OWN else [],
-        tables=[rules.aggregate.output, *rules.correlations.input],
+        own=rules.aggregate.output if OWN else [],
+        tables=[] if OWN else [rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]
             if config["accuracy"]
@@ -52,8 +52,9 @@ rule report:
     params:
         code=code("report"),
         files=lambda wildcards, input: [
-            file for file in input if file not in {*input.films, *input.runs}
+            file for file in input if file not in {*input.films, *input.runs, *input.own}
         ],
+        own=lambda wildcards, input: " ".join(f"--own {quote(table)}" for table in input.own),
         films=lambda wildcards, input: " ".join(
             f"--film {quote(film)} {quote(run)}"
             for film, run in zip(input.films, input.runs, strict=True)
@@ -61,5 +62,6 @@ rule report:
     message:
         "Writing the report"
     shell:
-        "springblock --code {params.code} report {params.files:q} {params.films} --output {output:q} "
+        "springblock --code {params.code} report {params.files:q} {params.films} {params.own} "
+        "--output {output:q} "
         "> {log:q} 2>&1"

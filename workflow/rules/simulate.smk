@@ -163,8 +163,7 @@ rule means:
     input:
         rules.aggregate.output,
     output:
-        table=f"{RESULTS}/tables/means.csv",
-        page=f"{RESULTS}/means.md",
+        f"{RESULTS}/tables/means.csv",
     log:
         f"{RESULTS}/logs/means.log",
     benchmark:
@@ -177,8 +176,7 @@ rule means:
     message:
         "Writing means of ensembles with their intervals"
     shell:
-        "springblock --code {params.code} table {input:q} --output {output.table:q} "
-        "--output {output.page:q} > {log:q} 2>&1"
+        "springblock --code {params.code} table {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule repair:

@@ -107,12 +107,20 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     multiple=True,
     help="MP4 file, and the batch whose first run it shows. Can be repeated.",
 )
+@click.option("--own", type=INPUT, help="Table of realisations of a study of one's own scenes.")
 @click.option("--output", type=OUTPUT, required=True, help="HTML file.")
-def report(files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], output: Path) -> None:
-    """Show FILES of a study in one page: pictures (PNG), pages (Markdown) and tables (Parquet)."""
-    from springblock.report.page import page  # needs what the study needs
+def report(
+    files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: Path | None, output: Path
+) -> None:
+    """Show FILES of a study in one page: pictures (PNG), pages (Markdown) and tables (Parquet).
+
+    With --own the page has means of that table first, and FILES are pictures.
+    """
+    from springblock.report import own as of_own  # need what the study needs
+    from springblock.report import page
 
     with one_sentence():
-        text = page(files, dict(films))
+        shown = dict(films)
+        text = of_own.page(own, files, shown) if own else page.page(files, shown)
         with whole_file(output) as partial:
             partial.write_text(text, encoding="utf-8")

@@ -37,16 +37,8 @@ _OF = click.option(
     help="Observable. May be given several times.",
 )
 _OUTPUT = click.option(
-    "--output",
-    "outputs",
-    type=OUTPUT,
-    multiple=True,
-    help="CSV or Parquet file of all numbers in SI units, or Markdown of what is shown, by suffix.",
+    "--output", type=OUTPUT, help="CSV or Parquet file of all numbers in SI units, by its suffix."
 )
-_PAGE = """# Means over realisations
-
-One row per ensemble: the mean with its 95 % interval of Student's t in brackets.
-"""
 
 
 @click.command("table")
@@ -55,7 +47,7 @@ One row per ensemble: the mean with its 95 % interval of Student's t in brackets
 @click.option("--by", multiple=True, help="Name to gather realisations by; all if unsaid.")
 @_OUTPUT
 def table(
-    paths: tuple[Path, ...], of: tuple[str, ...], by: tuple[str, ...], outputs: tuple[Path, ...]
+    paths: tuple[Path, ...], of: tuple[str, ...], by: tuple[str, ...], output: Path | None
 ) -> None:
     """Show a row per ensemble of the realisations in PATHS: files, or folders with all they hold.
 
@@ -67,7 +59,7 @@ def table(
         columns = {"runs": [len(each.rows) for each in members]}
         intervals = {name: [mean(each, name) for each in members] for name in of}
         _show([each.names for each in members], names, columns, intervals)
-        for output in outputs:
+        if output:
             _write([each.names for each in members], names, columns, intervals, output)
 
 
@@ -76,7 +68,7 @@ def table(
 @click.argument("second", type=_PATH)
 @_OF
 @_OUTPUT
-def compare(first: Path, second: Path, of: tuple[str, ...], outputs: tuple[Path, ...]) -> None:
+def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None) -> None:
     """Say what changes from the realisations in FIRST to those in SECOND: files or folders.
 
     For each ensemble that both hold, the difference of means with its 95 % interval, seed by seed
@@ -102,7 +94,7 @@ def compare(first: Path, second: Path, of: tuple[str, ...], outputs: tuple[Path,
         intervals = {name: [each.of(name) for each in found] for name in of}
         click.echo("Second minus first:")
         _show(every, names, columns, intervals)
-        for output in outputs:
+        if output:
             _write(every, names, columns, intervals, output)
 
 
@@ -140,28 +132,16 @@ def _show(
     columns: dict[str, list[Any]],
     intervals: dict[str, list[Interval]],
 ) -> None:
-    """Print a row per ensemble."""
-    rows = _cells(members, names, columns, intervals)
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        padded = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        click.echo("  ".join(padded).rstrip())
-
-
-def _cells(
-    members: Sequence[Names],
-    names: Sequence[str],
-    columns: dict[str, list[Any]],
-    intervals: dict[str, list[Interval]],
-) -> list[list[str]]:
-    """Return names of columns, and below them a row per ensemble, times in µs."""
+    """Print a row per ensemble, times in µs."""
     told: dict[str, list[Any]] = {name: [each.get(name, "") for each in members] for name in names}
     told |= columns
     for name, found in intervals.items():
         unit, factor = (" (µs)", 1e6) if name.startswith("t_") else ("", 1.0)
         told[name + unit] = [number(each, factor=factor) for each in found]
     lines = [[name, *map(str, cells)] for name, cells in told.items()]
-    return [list(row) for row in zip(*lines, strict=True)]
+    padded = [[cell.ljust(max(map(len, line))) for cell in line] for line in lines]
+    for row in zip(*padded, strict=True):
+        click.echo("  ".join(row).rstrip())
 
 
 def _write(
@@ -171,7 +151,7 @@ def _write(
     intervals: dict[str, list[Interval]],
     output: Path,
 ) -> None:
-    """Write the same as a page, or all digits with the limits of intervals in their own columns."""
+    """Write the same as CSV or Parquet, with the limits of intervals in columns of their own."""
     found: dict[str, list[Any]] = {name: [each.get(name) for each in members] for name in names}
     found |= columns
     for name, values in intervals.items():
@@ -185,9 +165,5 @@ def _write(
                 writer = csv.writer(file)
                 writer.writerow(found)
                 writer.writerows(zip(*found.values(), strict=True))
-        elif output.suffix == ".md":
-            head, *rows = _cells(members, names, columns, intervals)
-            lines = [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
-            partial.write_text("\n".join([_PAGE, *lines, ""]), encoding="utf-8")
         else:
-            raise ValueError(f"{output} must end in .csv, .parquet or .md")
+            raise ValueError(f"{output} must end in .csv or .parquet")

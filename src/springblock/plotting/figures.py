@@ -245,7 +245,7 @@ FIGURES: dict[str, Declaration] = {
     "surfaces": Declaration(
         title="Surfaces of one's own",
         module="supplement",
-        caption="""Each surface of the group `surfaces`. Left: which blocks are in contact; middle:
+        caption="""Surfaces, a row each. Left: blocks in contact; middle:
         first detachment times t_det over t_max, means over realisations; right: friction force over
         the normal force against time.""",
         source=RealisationsSource(groups=("surfaces",), keys=("folder",)),

@@ -67,7 +67,8 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
     runs = findings.main_runs(rows.get("realisations", []))
     judged = statements(rows.get("claims", []))
     parts = _parts(kinds[".png"], kinds[".md"])
-    return _rendered(
+    return rendered(
+        "page.html",
         headlines=findings.headlines(runs),
         sizes=findings.sizes(runs, rows.get("correlation_length", [])),
         grooves=findings.grooves(runs),
@@ -79,7 +80,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
         films=[media.moving(file, batch) for file, batch in films.items()],
         written=[part for part in parts if part.name not in FIGURES],
         tables=[markup.shown(name, table) for name, table in data.items()],
-        origin=_origin(data),
+        origin=origin(data),
     )
 
 
@@ -105,8 +106,8 @@ def counted(made: Sequence[Row]) -> dict[str, int]:
     return {verdict: found[verdict] for verdict in VERDICTS if found[verdict]}
 
 
-def _rendered(**content: Any) -> str:
-    """Fill the template; every string is escaped that is not marked as HTML of our own."""
+def rendered(template: str, **content: Any) -> str:
+    """Fill a template; every string is escaped that is not marked as HTML of our own."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,
@@ -117,7 +118,7 @@ def _rendered(**content: Any) -> str:
     environment.filters["typeset"] = markup.typeset
     style, script = (_HERE.joinpath(f"page.{kind}").read_text("utf-8") for kind in ("css", "js"))
     digest = b64encode(sha256(script.encode()).digest()).decode()
-    return environment.get_template("page.html").render(
+    return environment.get_template(template).render(
         style=Markup(style), script=Markup(script), digest=digest, **content
     )
 
@@ -137,8 +138,8 @@ def _parts(figures: Iterable[Path], pages: Iterable[Path]) -> list[Part]:
     ]
 
 
-def _origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
-    """What made the table of realisations."""
+def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
+    """Return what the table of realisations was made with."""
     kept = data["realisations"].schema.metadata if "realisations" in data else {}
     names = {"code version": b"code_version", "configuration": b"configuration_digest"}
     return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}

@@ -1,12 +1,22 @@
 """What a job takes of a machine, from measured rates: what a queue is to be asked for."""
 
 import math
+from collections.abc import Sequence
 
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 
 #: CPU seconds per block and step with all blocks moving; `make bench` measures them.
 _RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
+#: s of wall time until a job computes, measured, and of jobs that are no simulations by their rule.
+_QUICK_START, _OTHER = 2.5, 7.0
+_MEASURED = {
+    "compile": 35.0,
+    "compare_scene": 80.0,
+    "stability_table": 95.0,
+    "mechanism_part": 45.0,
+}
+_MEASURED |= {"claims": 70.0, "beyond": 110.0, "report": 25.0, "total_error": 40.0}
 _START = 10.0  #: s until a job computes, on a machine that is busy
 _MARGIN = 3.0  #: a slower processor; strong disorder, which takes up to 1.4 times as long to let go
 _BASE = 350  #: MB of Python and its libraries, measured as 250
@@ -22,6 +32,23 @@ def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
     """
     duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
     return duration / setup.step * math.prod(scene.shape) * _RATE[setup.integrator]
+
+
+def seconds(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> float:
+    """Expected time in s of a job on one core, as 1639 jobs of config/full.yaml had it to 20 %."""
+    return _QUICK_START + realisations * cpu_seconds(scene, setup, duration)
+
+
+def other_seconds(rule: str) -> float:
+    """Expected time in s of a job of a rule that simulates no scene."""
+    return _MEASURED.get(rule, _OTHER)
+
+
+def in_words(times: Sequence[float], cores: int) -> str:
+    """Say how long jobs of these times in s take together on so many cores."""
+    expected = max(sum(times) / cores, max(times)) / 60.0
+    said = f"{expected / 60.0:.1f} hours" if expected > 100.0 else f"{math.ceil(expected)} min"
+    return f"about {said} on {cores} core{'s' if cores > 1 else ''}"
 
 
 def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:
