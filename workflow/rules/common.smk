@@ -108,12 +108,12 @@ def minutes(wildcards, attempt):
 
 
 def expected(job):
-    """Time in s that a job is expected to take."""
+    """CPU time in s that a job is expected to take."""
     if job.rule.name not in ("prelude", "simulate_batch"):
-        return cost.other_seconds(job.rule.name)
+        return cost.expected_of(job.rule.name)
     ensemble = ENSEMBLE[job.wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
-    return cost.seconds(ensemble.scene, setup, ensemble.duration, runs_of(job.wildcards))
+    return cost.expected(ensemble.scene, setup, ensemble.duration, runs_of(job.wildcards))
 
 
 def tell_time():
