@@ -80,7 +80,7 @@ def _changes(rows: list[Row]) -> Iterator[list[str]]:
             others = {key: change.names[key] for key in apart if key in change.names}
             where = ", ".join(f"{key} = {value}" for key, value in others.items())
             difference = number(change.of("static_friction"))
-            yield [_with_unit(name), f"{low} to {high}", where, difference]
+            yield [_with_unit(name), f"{low} to {high}", where or "–", difference]
 
 
 def _with_unit(name: str) -> str:
