@@ -94,6 +94,10 @@ def test_the_howto_can_be_followed(study):
     assert (study / "surface.png").exists()
     made = {file.name for file in (study / "results/small/figures").iterdir()}
     assert {"figure_6.png", "surfaces.png", "sweep_speed.pdf"} <= made
+    own = {file.stem for file in (study / "results/mine/figures").iterdir()}
+    assert own == {"surfaces", "sweep_slider_velocity", "sweep_direction"}
+    report = (study / "results/mine/report.html").read_text(encoding="utf-8")
+    assert "slider_velocity (m/s)" in report
     assert set(names["table"].n_p) == {0, 4, 10, 12}
     assert (names["half"] > 0.0).all()
     assert len(names["runs"]) == 3

@@ -160,3 +160,26 @@ def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simu
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
+
+
+def test_a_study_of_own_scenes_has_none_of_the_papers(study):
+    """A group may have the name of one of the paper's, and few seeds on pillars with sides."""
+    grids = {
+        "pillars": {"n_p": [3, 6], "n_s": ["n_p"], "direction": ["x"], "seeds": 2},
+        "scatter": {"direction": ["y"], "seeds": 1, "material": {"gamma": [0.0, 1e3]}},
+    }
+    own = {"study": "own", "results": "own", "n_blocks": 36, "scenes": grids}
+    study.write("own.yaml", own)
+    jobs = study.planned(configuration=("own.yaml",))
+    drawn = {"surfaces", "sweep_n_p", "sweep_gamma", "aggregate", "means", "report", "all"}
+    films = {"film_pillars_n_p_3_n_s_3_N_36", "film_pillars_n_p_6_n_s_6_N_36", "film_flat_N_36"}
+    assert jobs.keys() == {"compile", "prelude", "simulate_batch", *drawn, *films}
+    assert jobs["simulate_batch"] == 4
+    study.write("own.yaml", {**own, "scenes": {"scatter": None}})
+    refused = study.run("--dry-run", configuration=("own.yaml",), refused=True)
+    assert "scenes: no scenes are given" in refused
+
+
+def test_a_dry_run_says_how_long_the_jobs_will_take(study):
+    said = study.run("--dry-run", "--config", "results=elsewhere", "--", "figure_6")
+    assert re.search(r"^These jobs take about \d+ min on \d+ cores?\.$", said, re.MULTILINE)

@@ -10,6 +10,7 @@ from pathlib import Path
 from string import ascii_lowercase
 
 import matplotlib
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
@@ -89,3 +90,13 @@ def test_figures_do_not_follow_the_settings_of_the_reader(tmp_path):
     with matplotlib.rc_context({"font.size": 20.0, "lines.linewidth": 5.0, "pdf.fonttype": 3}):
         style.save(draw(), tmp_path / "yours.pdf")
     assert (tmp_path / "mine.pdf").read_bytes() == (tmp_path / "yours.pdf").read_bytes()
+
+
+def test_sizes_of_pillars_have_colours_that_can_be_told_apart():
+    """Those of the paper keep theirs; others are spread over all shades."""
+    papers = style.pillar_looks((0, 6, 20))
+    assert papers == {n_p: style.pillar_look(n_p) for n_p in (0, 6, 20)}
+    looks = style.pillar_looks((12, 14, 15))
+    colors = np.array([look["color"][:3] for look in looks.values()])
+    assert np.linalg.norm(np.diff(colors, axis=0), axis=1).min() > 0.2
+    assert len({look["marker"] for look in looks.values()}) == 3

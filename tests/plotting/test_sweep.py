@@ -1,14 +1,17 @@
 """Any observable over anything that tells ensembles apart."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from springblock.analysis.statistics import mean_interval
+from springblock.model.blockmap import BlockMap
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.plotting import sweep
+from springblock.plotting.lines import Line, axes, lines
 from springblock.plotting.style import settle
 
 SPEEDS = (2.5e-4, 5e-4, 1e-3, 4e-3)
@@ -40,23 +43,23 @@ def two_lines():
 
 
 def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
-    found = sweep.lines(two_lines, "slider_velocity")
+    found = lines(two_lines, "slider_velocity")
     assert [list(line) for line in found.values()] == [list(SPEEDS)] * 2
     assert len(found) == 2
-    assert any("$n_{p}$ = 20" in name for name in found)
+    assert [line.name for line in found] == ["flat", "$n_{p}$ = 20, $n_{s}$ = 20"]
 
 
 def test_coulombs_law_is_where_weakening_takes_no_way():
     weakening = ("law", "slip_weakening")
     laws = [(weakening, ("slip_distance", distance)) for distance in (1e-8, 1e-7)]
     table = [row for varied in ((), *laws) for row in rows(Scene(12, varied=varied), 0.7)]
-    (line,) = sweep.lines(table, "slip_distance").values()
+    (line,) = lines(table, "slip_distance").values()
     assert list(line) == [0.0, 1e-8, 1e-7]
 
 
 def test_the_caption_names_surfaces_and_seeds():
     runs = [row for speed in SPEEDS[:2] for row in rows(at(speed), 0.8, seeds=3)]
-    said = sweep.caption(sweep.lines(runs, "slider_velocity"))
+    said = sweep.caption(lines(runs, "slider_velocity"))
     assert "N = 120, sliding direction x. Flat surface, " in said
     assert "slider_velocity=0.00025 (3 realisations, seeds 0 to 2)" in said
 
@@ -64,17 +67,17 @@ def test_the_caption_names_surfaces_and_seeds():
 def test_a_surface_with_one_place_is_neither_drawn_nor_named(two_lines):
     alone = rows(at(SPEEDS[0], n_p=60, n_s=60), 0.7)
     everything = two_lines + alone
-    found = sweep.lines(everything, "slider_velocity")
-    assert found == sweep.lines(two_lines, "slider_velocity")
+    found = lines(everything, "slider_velocity")
+    assert found == lines(two_lines, "slider_velocity")
     assert "60" not in sweep.caption(found)
 
 
 def test_points_are_means_and_bars_t_intervals(two_lines):
-    found = sweep.lines(two_lines, "slider_velocity")
+    found = lines(two_lines, "slider_velocity")
     ax = sweep.draw(found, "slider_velocity", ["static_friction"]).axes[0]
-    (flat, *_) = (c for c in ax.containers if "level = 0" in str(c.get_label()))
-    runs = found[str(flat.get_label())]
-    (pillars,) = (c for c in ax.containers if c is not flat)
+    flat, pillars = ax.containers
+    assert flat.get_label() == "flat"
+    runs = found[Line("flat")]
     means = [mean_interval([row["static_friction"] for row in line]) for line in runs.values()]
     left, right = (np.asarray(c.lines[0].get_xdata(), float) for c in (flat, pillars))
     np.testing.assert_allclose(np.sqrt(left * right), SPEEDS)  # on both sides of their places
@@ -90,25 +93,28 @@ def test_points_are_means_and_bars_t_intervals(two_lines):
 def test_distances_grow_with_pillars():
     made = [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, n_p), 0.7)]
     made += [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, 2 * n_p), 0.7)]
-    assert list(sweep.lines(made, "n_p")) == ["$n_{s}$/$n_{p}$ = 1", "$n_{s}$/$n_{p}$ = 2"]
+    assert [line.name for line in lines(made, "n_p")] == [
+        "$n_{s}$/$n_{p}$ = 1",
+        "$n_{s}$/$n_{p}$ = 2",
+    ]
 
 
 def test_a_panel_for_each_observable(two_lines):
-    found = sweep.lines(two_lines, "slider_velocity")
+    found = lines(two_lines, "slider_velocity")
     picture = sweep.draw(found, "slider_velocity", ["t_max", "t_max-t_avg"])
     assert [ax.get_ylabel() for ax in picture.axes] == [
         r"$t_\mathrm{max}$ (µs)",
         r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)",
     ]
-    lines = picture.axes[1].get_lines()[1:]  # behind that at zero
-    *realisations, medians = lines[: len(lines) // 2]  # of one surface
+    drawn = picture.axes[1].get_lines()[1:]  # behind that at zero
+    *realisations, medians = drawn[: len(drawn) // 2]  # of one surface
     assert [dots.get_ydata().tolist() for dots in realisations] == [[pytest.approx(10.0)] * 5] * 4
     assert medians.get_ydata() == pytest.approx([10.0] * 4)
 
 
 def test_numbers_below_a_logarithmic_axis_do_not_touch():
     speeds = (5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 1e-3)
-    found = sweep.lines([r for s in speeds for r in rows(at(s), 0.8)], "slider_velocity")
+    found = lines([r for s in speeds for r in rows(at(s), 0.8)], "slider_velocity")
     picture = sweep.draw(found, "slider_velocity", ["t_avg"])
     settle(picture)
     (ax,) = picture.axes
@@ -119,9 +125,64 @@ def test_numbers_below_a_logarithmic_axis_do_not_touch():
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
 
 
+def test_error_bars_and_numbers_do_not_overlap():
+    """Six lines at places close to each other, linear or logarithmic, with wide bars."""
+    for speeds in ((3e-4, 4e-4, 5e-4, 6e-4), (5e-5, 4e-4, 5e-4, 1e-3)):
+        sizes = (10, 12, 15, 20, 30, 60)
+        table = [r for s in speeds for n in sizes for r in rows(at(s, n_p=n, n_s=n), 0.8)]
+        picture = sweep.draw(lines(table, "slider_velocity"), "slider_velocity", ["t_avg"])
+        settle(picture)
+        (ax,) = picture.axes
+        caps = [line for bars in ax.containers for line in bars.lines[1]]
+        width = caps[0].get_markersize() * picture.dpi / 72.0
+        lower = [ax.transData.transform(line.get_xydata())[:, 0] for line in caps[::2]]
+        assert np.diff(np.sort(np.concatenate(lower))).min() > width
+        boxes = [text.get_window_extent() for text in ax.get_xticklabels() if text.get_text()]
+        assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
+
+
+def test_directions_stand_side_by_side_with_equal_axes():
+    made = [r for s in SPEEDS for way in ("x", "y") for r in rows(at(s, direction=way), 0.8 + s)]
+    found = lines(made, "slider_velocity")
+    assert [line.direction for line in found] == ["x", "y"]
+    picture = sweep.draw(found, "slider_velocity", ["static_friction", "t_avg"])
+    settle(picture)
+    left, right, *_ = picture.axes
+    assert left.get_ylim() == right.get_ylim()
+    assert left.get_position().y0 == right.get_position().y0
+    assert [ax.get_title("right") for ax in (left, right)] == ["sliding along x", "sliding along y"]
+
+
+def test_a_line_is_named_by_its_mask():
+    """Without the digest, unless two files have one name."""
+    masks = {n: BlockMap(f"islands-{n:08x}", np.eye(12) > 0) for n in (1, 2)}
+    one, two = (
+        [r for s in SPEEDS for r in rows(replace(at(s), n_blocks=12, mask=mask), 0.8)]
+        for mask in masks.values()
+    )
+    assert [line.name for line in lines(one, "slider_velocity")] == ["islands"]
+    names = [line.name for line in lines(one + two, "slider_velocity")]
+    assert names == ["islands-00000001", "islands-00000002"]
+    assert sweep.draw(lines(one, "slider_velocity"), "slider_velocity", ["t_avg"]).legends
+
+
+def test_constants_of_the_study_are_named_where_other_lines_vary_them():
+    made = [r for s in SPEEDS[:2] for way in ("x", "y") for r in rows(at(s, direction=way), 0.8)]
+    names = [line.name for line in lines(made, "direction")]
+    assert names == ["slider velocity = 0.00025", "slider velocity = 0.0005"]
+
+
+def test_axes_are_numbers_in_which_two_scenes_differ_that_are_otherwise_alike():
+    """n_s follows n_p, and a mask is no number."""
+    pillars = [Scene(120, n, n, direction=way) for n in (6, 10) for way in ("x", "y")]
+    assert axes(pillars) == ["n_p", "direction"]
+    assert axes([at(s) for s in SPEEDS]) == ["slider_velocity"]
+    assert axes([Scene(120), Scene(120, 6, 6)]) == []
+
+
 def test_a_direction_is_an_angle():
     made = [row for way in ("x", "30", "y") for row in rows(Scene(120, direction=way), 0.8)]
-    (line,) = sweep.lines(made, "direction").values()
+    (line,) = lines(made, "direction").values()
     assert list(line) == [0.0, 30.0, 90.0]
 
 
@@ -131,4 +192,4 @@ def test_a_direction_is_an_angle():
 )
 def test_what_cannot_be_drawn_is_refused(two_lines, over, sentence):
     with pytest.raises(ValueError, match=sentence):
-        sweep.lines(two_lines, over)
+        lines(two_lines, over)

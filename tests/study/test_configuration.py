@@ -8,11 +8,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 import studies
 from springblock.model.scene import Scene
 from springblock.provenance import configuration_digest
-from springblock.study.configuration import Ensemble, check, completed, ensembles, for_figures
+from springblock.study.configuration import (
+    Ensemble,
+    check,
+    completed,
+    ensembles,
+    for_figures,
+    setup,
+)
 from studies import ROOT, SCHEMA, places
 
 SWEEPS = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
@@ -188,12 +196,24 @@ def test_errors_in_surfaces_from_files_name_the_key(surfaces, grid, sentence):
 def test_figures_of_the_paper_are_not_drawn_from_surfaces_of_ones_own(surfaces):
     own = surfaces(mask="corner.npy")["scenes"]["own"]
     groups = {"flat": PAPER["scenes"]["flat"], "sizes": own, "surfaces": own}
-    drawn = for_figures(ensembles(PAPER | {"scenes": groups}))
+    study = PAPER | {"scenes": groups}
+    drawn = for_figures(study, ensembles(study))
     assert {group: len(members) for group, members in drawn.items()} == {
         "flat": 1,
         "sizes": 0,
         "surfaces": 1,
     }
+
+
+def test_a_study_of_own_scenes_shows_each_surface_once_in_each_direction(surfaces):
+    """And a group may have the name of one of the paper's; constants are the paper's."""
+    grid = surfaces(mask="corner.npy")["scenes"]["own"]
+    scenes = {"pillars": grid | {"material": {"gamma": [0.0, 1e3]}, "direction": ["x", "y"]}}
+    study = yaml.safe_load((ROOT / "config/own.yaml").read_text()) | {"scenes": scenes}
+    check(study, SCHEMA)
+    assert setup(study) == setup(PAPER)
+    (shown,) = for_figures(study, ensembles(study)).values()
+    assert [each.scene.direction for each in shown] == ["x", "y"]
 
 
 def test_the_papers_groups_hold_its_own_surfaces(surfaces):

@@ -1,5 +1,6 @@
 # The configuration, checked and expanded, and what several steps ask of it.
 
+import atexit
 import os
 import re
 import shutil
@@ -32,6 +33,7 @@ except (TypeError, ValueError) as error:
     raise WorkflowError(f"The study cannot be run: {error}.") from None
 
 BEGUN = time.time()
+OWN = study.is_own(config)
 SETUP = study.setup(config)
 CONFIGURATION = configuration_digest(config)
 #: Groups of scenes, each a list of ensembles, and the ensemble in each folder of realisations.
@@ -114,6 +116,29 @@ def minutes(wildcards, attempt):
     ensemble = ENSEMBLE[wildcards.scene]
     setup = SETUP.vary(dict(ensemble.scene.varied))
     return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, runs_of(wildcards))
+
+
+def expected(job):
+    """CPU time in s that a job is expected to take."""
+    if job.rule.name not in ("prelude", "simulate_batch"):
+        return cost.expected_of(job.rule.name)
+    ensemble = ENSEMBLE[job.wildcards.scene]
+    setup = SETUP.vary(dict(ensemble.scene.varied))
+    return cost.expected(ensemble.scene, setup, ensemble.duration, runs_of(job.wildcards))
+
+
+def tell_time():
+    """Print after a dry run, which calls none of Snakemake's hooks, how long its jobs will take."""
+    if not workflow.dryrun:
+        return
+    # which counts as finished what it has listed
+    jobs = workflow.dag.needrun_jobs(exclude_finished=False)
+    if times := [expected(job) for job in jobs]:
+        print(f"These jobs take {cost.in_words(times, workflow.cores)}.", file=sys.stderr)
+
+
+if workflow.is_main_process:
+    atexit.register(tell_time)
 
 
 def begin():

@@ -2,7 +2,9 @@
 
 #: Scenes whose pillars have sides. Of a single realisation, where nothing scatters, there is no c(r).
 WITH_SIDES = [
-    each.scene.folder for each in ENSEMBLE.values() if each.scene.sides and len(each.seeds) > 1
+    each.scene.folder
+    for each in ENSEMBLE.values()
+    if not OWN and each.scene.sides and len(each.seeds) > 1
 ]
 
 

@@ -1,35 +1,47 @@
 # What is drawn: figures, sweeps and films, what each needs, and what its caption says.
 
 from springblock.plotting import figures as declared
+from springblock.plotting.caption import file_name
 from springblock.plotting.declaration import having
+from springblock.plotting.lines import axes
 
+#: Groups of scenes that figures are drawn from.
+SHOWN = study.for_figures(config, ENSEMBLES)
+SCENES = {group: [each.scene for each in members] for group, members in SHOWN.items()}
 #: Groups that questions beyond the paper look at.
 GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter", "variance"]
-GROUPS_BEYOND = [group for group in GROUPS_BEYOND if ENSEMBLES.get(group)]
+GROUPS_BEYOND = [group for group in GROUPS_BEYOND if SHOWN.get(group)]
 #: What figures declare whose groups of scenes and tables the study has.
-PAPERS = study.for_figures(ENSEMBLES)
-SCENES = {group: [each.scene for each in members] for group, members in PAPERS.items()}
 FIGURES = {
     name: figure
     for name, figure in declared.FIGURES.items()
     if figure.is_part_of(SCENES)
+    and (figure.category != "Figures" or not OWN)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
     and (figure.category != "Beyond" or GROUPS_BEYOND)
     and (not figure.upon_request or config["production"])
 }
+#: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
+SWEPT = {
+    axis: {"groups": list(ENSEMBLES), "over": axis}
+    for axis in axes(each.scene for each in ENSEMBLE.values())
+    if OWN
+}
 #: Observables over an axis of some groups that the study has.
 SWEEPS = {
     f"sweep_{name}": sweep
-    for name, sweep in config["figures"].get("sweeps", {}).items()
+    for name, sweep in config["figures"].get("sweeps", SWEPT).items()
     if all(ENSEMBLES.get(group) for group in sweep["groups"])
 }
 #: What is filmed, by group: the ensemble on the surface that a figure shows.
 FILMS = {
     group: ENSEMBLE[scene.folder]
     for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
-    for scene in having(config["figures"].get(figure, {}), SCENES[group])[:1]
+    for scene in having(config["figures"].get(figure, {}), SCENES.get(group, []))[:1]
 }
+if OWN:  # each surface, in the first of its directions
+    FILMS = {file_name(each.scene): each for each in reversed(SHOWN["surfaces"])}
 
 
 def needed(figure):
@@ -69,4 +81,4 @@ def caption(figure):
     if figure in SWEEPS:
         return ""
     lengths = config["figures"].get(figure, {})
-    return f"--caption {quote(FIGURES[figure].caption_in(PAPERS, lengths, SETUP.material))}"
+    return f"--caption {quote(FIGURES[figure].caption_in(SHOWN, lengths, SETUP.material))}"

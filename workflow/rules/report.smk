@@ -27,8 +27,9 @@ for surface, shown in FILMS.items():
 rule report:
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
-        claims=rules.claims.output,
-        tables=[rules.aggregate.output, *rules.correlations.input],
+        claims=[] if OWN else rules.claims.output,
+        own=rules.aggregate.output if OWN else [],
+        tables=[] if OWN else [rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]
             if config["accuracy"]
@@ -37,7 +38,7 @@ rule report:
         production=rules.production_table.output if config["production"] else [],
         mechanism=rules.mechanism.output if config["mechanism"] else [],
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
-        glossary=[file for file in ["docs/glossary.md"] if Path(file).exists()],
+        glossary=[] if OWN else [file for file in ["docs/glossary.md"] if Path(file).exists()],
         films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
         runs=[batches([shown])[0] for shown in FILMS.values()],
     output:
@@ -52,8 +53,9 @@ rule report:
     params:
         code=code("report"),
         files=lambda wildcards, input: [
-            file for file in input if file not in {*input.films, *input.runs}
+            file for file in input if file not in {*input.films, *input.runs, *input.own}
         ],
+        own=lambda wildcards, input: " ".join(f"--own {quote(table)}" for table in input.own),
         films=lambda wildcards, input: " ".join(
             f"--film {quote(film)} {quote(run)}"
             for film, run in zip(input.films, input.runs, strict=True)
@@ -61,5 +63,6 @@ rule report:
     message:
         "Writing the report"
     shell:
-        "springblock --code {params.code} report {params.files:q} {params.films} --output {output:q} "
+        "springblock --code {params.code} report {params.files:q} {params.films} {params.own} "
+        "--output {output:q} "
         "> {log:q} 2>&1"

@@ -200,6 +200,26 @@ rule aggregate:
         "--realisations {params.realisations} --output {output:q} > {log:q} 2>&1"
 
 
+rule means:
+    input:
+        rules.aggregate.output,
+    output:
+        f"{RESULTS}/tables/means.csv",
+    log:
+        f"{RESULTS}/logs/means.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/means.tsv"
+    resources:
+        mem_mb=600,
+        runtime=5,
+    params:
+        code=code("analyse"),
+    message:
+        "Writing means of ensembles with their intervals"
+    shell:
+        "springblock --code {params.code} table {input:q} --output {output:q} > {log:q} 2>&1"
+
+
 rule repair:
     log:
         f"{RESULTS}/logs/repair.log",

@@ -106,12 +106,20 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     multiple=True,
     help="MP4 file, and the batch whose first run it shows. Can be repeated.",
 )
+@click.option("--own", type=INPUT, help="Table of realisations of a study of one's own scenes.")
 @click.option("--output", type=OUTPUT, required=True, help="HTML file.")
-def report(files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], output: Path) -> None:
-    """Write the HTML report from FILES: pictures (PNG), pages (Markdown) and tables (Parquet)."""
-    from springblock.report.page import page  # needs the packages of the study
+def report(
+    files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: Path | None, output: Path
+) -> None:
+    """Write the HTML report from FILES: pictures (PNG), pages (Markdown) and tables (Parquet).
+
+    With --own the report begins with the means of that table, and FILES are pictures.
+    """
+    from springblock.report import own as of_own  # need the packages of the study
+    from springblock.report import page
 
     with one_sentence():
-        text = page(files, dict(films))
+        shown = dict(films)
+        text = of_own.page(own, files, shown) if own else page.page(files, shown)
         with whole_file(output) as partial:
             partial.write_text(text, encoding="utf-8")

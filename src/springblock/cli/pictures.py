@@ -12,6 +12,7 @@ from springblock.io.records import Record, read
 from springblock.io.schemas import SUMMARY
 from springblock.model.scene import Scene
 from springblock.plotting import film, still, sweep
+from springblock.plotting.lines import lines
 from springblock.plotting.style import save
 
 _SEED = click.option("--seed", type=int, help="Seed of the run to draw; the first run by default.")
@@ -71,7 +72,7 @@ def plot(
             picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
         else:
             rows = read_tables(files, SUMMARY).to_pylist()
-            found = sweep.lines(rows, over)
+            found = lines(rows, over)
             picture = sweep.draw(found, over, observables or ["static_friction"])
             caption = sweep.caption(found)
             if left_out := len(rows) - len(sweep.drawn(found)):

@@ -26,6 +26,7 @@ from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
 from springblock.model.scene import COLUMNS, Scene, Varied, in_order
 from springblock.plotting import sweep as plot
+from springblock.plotting.lines import axes, lines
 from springblock.plotting.style import save
 from springblock.simulation.setup import Setup
 
@@ -130,7 +131,7 @@ def sweep(
     with one_sentence():
         usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
         scenes = [
-            replace(surface, direction=direction, varied=varied)
+            replace(surface, direction=direction, varied=_own(varied, usual))
             for varied, direction in product(vary, directions)
         ]
         work = [
@@ -141,12 +142,16 @@ def sweep(
         _run(work, jobs)
         files = [job.file for job in work]
         table = _collected(files, output / "realisations.parquet", work[0])
-        for over in _axes(vary, directions):
-            rows = table.to_pylist()
-            found = plot.lines(rows, over)
+        for over in axes(scenes):
+            found = lines(table.to_pylist(), over)
             picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
             save(picture, output / f"{over}.png", plot.caption(found))
         click.echo(f"springblock table {output} shows the means")
+
+
+def _own(varied: Varied, usual: Setup) -> Varied:
+    """Return constants of a scene without those that all scenes have."""
+    return tuple((name, value) for name, value in varied if value != usual.constants.get(name))
 
 
 def _batches(scene: Scene, seeds: int, output: Path) -> Iterator[tuple[range, Path]]:
@@ -176,11 +181,3 @@ def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:
     table = read(files, SUMMARY).sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
     write(table, output, {"code_version": job.metadata["code_version"]})
     return table
-
-
-def _axes(vary: list[Varied], directions: list[str]) -> list[str]:
-    """Return the names of numerical constants, and of the direction, with several values."""
-    names = [name for name, _ in vary[0]]
-    several = [name for name in names if len({dict(each)[name] for each in vary}) > 1]
-    numbers = [name for name in several if isinstance(dict(vary[0])[name], float)]
-    return numbers + (["direction"] if len(directions) > 1 else [])

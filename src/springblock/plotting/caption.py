@@ -1,5 +1,6 @@
 """Data of a figure in words: surfaces, sliding directions, seeds and material."""
 
+import re
 from collections.abc import Iterable, Mapping
 
 from springblock.model.material import Material
@@ -43,6 +44,15 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
     sentences = [", ".join(_named(scenes, name) for name in shared)]
     sentences += [f"{named} {'; '.join(texts)}" for named, *texts in kinds.values()]
     return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences if text)
+
+
+def file_name(scene: Scene) -> str:
+    """Name a surface in letters, digits and _: of what is drawn or filmed of it."""
+    if scene.mask:
+        return re.sub(r"\W", "_", str(scene.mask))
+    sizes = scene.lengths | {"N": scene.n_blocks} | ({"rows": scene.n_rows} if scene.n_rows else {})
+    kind = _SURFACES[scene.n_p > 0][min(scene.level, 2)].replace(" ", "_")
+    return "_".join([kind, *(f"{name}_{size}" for name, size in sizes.items())])
 
 
 def _surface(scene: Scene) -> str:

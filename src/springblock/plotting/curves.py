@@ -206,12 +206,13 @@ def draw_realisations(ax: Axes, samples: Samples, color: Any, **look: Any) -> No
     ax.plot(list(samples), medians, color=color, **(MEDIAN | look))
 
 
-def name_places(ax: Axes, places: ArrayLike) -> None:
-    """Make the x axis logarithmic, with a tick at each place and labels that do not overlap."""
+def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:
+    """Set a tick at each place of the x axis, with labels that do not overlap."""
     ticks = np.unique(places)
-    ax.set_xscale("log")
-    along = np.log(ticks / ticks[0]) / max(1e-9, np.log(ticks[-1] / ticks[0]))
-    at = 0.8 * along * ax.bbox.width * 72.0 / ax.figure.dpi  # pt; margins take the rest
+    ax.set_xscale(scale)
+    even = np.log(ticks) if scale == "log" else ticks
+    along = (even - even[0]) / max(1e-300, even[-1] - even[0])
+    at = along * span(ax)
     names, end = [], -np.inf
     for place, tick in zip(at, ticks, strict=True):
         half = 0.32 * style.SMALL * len(f"{tick:g}")
@@ -244,6 +245,21 @@ def stacked(
     return picture, panels
 
 
+def span(ax: Axes) -> float:
+    """Return the length in pt from the first place of a horizontal axis to the last."""
+    return 0.8 * float(ax.bbox.width) * 72.0 / ax.figure.dpi  # margins take the rest
+
+
+def apart(every: Sequence[float], lines: int, log: bool) -> float:
+    """Return how far lines stand apart at one place, as a share of the axis.
+
+    That is 3 %, or less where lines of neighbouring places would meet.
+    """
+    even = np.unique(np.log(every) if log else every)
+    gaps = np.diff(even) / np.ptp(even)
+    return float(min([0.03, *(0.7 * gaps / lines)]))
+
+
 def aside(
     samples: Mapping[Any, T], every: Sequence[float], line: int, lines: int, log: bool
 ) -> dict[float, T]:
@@ -251,7 +267,8 @@ def aside(
 
     The offset is a share of the axis, logarithmic or linear, through `every` place.
     """
-    share, low, high = 0.03 * (line - 0.5 * (lines - 1)), min(every), max(every)
+    low, high = min(every), max(every)
+    share = apart(every, lines, log) * (line - 0.5 * (lines - 1))
     if log:
         return {x * (high / low) ** share: sample for x, sample in samples.items()}
     return {x + share * (high - low): sample for x, sample in samples.items()}

@@ -240,9 +240,9 @@ FIGURES: dict[str, Declaration] = {
     "surfaces": Declaration(
         title="Surfaces of one's own",
         module="supplement",
-        caption="""Left: blocks in contact; middle: first detachment time t_det over t_max, mean
-        over realisations; right: friction force over the normal force against time; for each
-        surface of the group `surfaces`.""",
+        caption="""One surface per row. Left: blocks in contact; middle: first detachment time t_det
+        over t_max, mean over realisations; right: friction force over the normal force against
+        time.""",
         source=RealisationsSource(groups=("surfaces",), keys=("folder",)),
         marks=f"""Middle: blue before the force maximum and red after it, on separate scales; grey
         without contact, or where the block has not detached in every realisation. Right: thick

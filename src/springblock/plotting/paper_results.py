@@ -120,8 +120,9 @@ def figure_6(ensembles: BySize) -> Figure:
     force, blocks, friction, lag = panels
     _draw_time(force, blocks, ensembles)
     highest, lags = curves.highest_and_lag(ensembles)
+    looks = style.pillar_looks(ensembles)
     for n_p in filter(None, ensembles):
-        look = style.pillar_look(n_p)
+        look = looks[n_p]
         curves.draw_means(friction, {n_p: highest[n_p]}, linestyle="none", **look)
         curves.draw_realisations(lag, {n_p: lags[n_p]}, look["color"])
     for ax, samples in ((friction, highest), (lag, lags)):
@@ -138,9 +139,9 @@ def figure_6(ensembles: BySize) -> Figure:
 
 def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     """Draw mean curves; on those of the force, markers at t_max and open ones at t_avg."""
-    highest = 0.0
+    highest, looks = 0.0, style.pillar_looks(ensembles)
     for n_p, runs in ensembles.items():
-        curve, look = statistics.whole_curve(runs), style.pillar_look(n_p)
+        curve, look = statistics.whole_curve(runs), looks[n_p]
         name = style.pillar_name(n_p)
         mean = curves.draw_mean_force(force, curve, label=name, spread=True, **look)
         curves.draw_detachments(blocks, curve, **look)

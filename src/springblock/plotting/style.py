@@ -5,6 +5,7 @@ style whatever the user's own settings are. `plotting.drawing` applies it to fig
 """
 
 from collections.abc import Iterable, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -166,6 +167,20 @@ def pillar_look(n_p: int) -> Look:
         return {"color": BLACK, "marker": "o"}
     place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
     return {"color": _SHADES(place), "marker": _MARKERS.get(n_p, "o")}
+
+
+def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
+    """Colours and markers of pillars of several sizes.
+
+    Those of `pillar_look`, or by their rank where one of the sizes has no marker there.
+    """
+    every = sorted(set(sizes))
+    looks = {n_p: pillar_look(n_p) for n_p in every}
+    if {*every} <= {0, *_MARKERS}:
+        return looks
+    colors, markers = shades(filter(None, every)), cycle(_MARKERS.values())
+    ranked = zip(colors.items(), markers, strict=False)
+    return looks | {int(n_p): {"color": color, "marker": m} for (n_p, color), m in ranked}
 
 
 def pillar_name(n_p: int) -> str:

@@ -31,9 +31,10 @@ _LINE = 120  #: characters that fit above a row
 def supplement_spacing(ensembles: Mapping[tuple[int, int], Sequence[Run]]) -> Figure:
     """Draw a) static friction and b) t_max - t_avg over n_s, a line for each n_p."""
     picture, panels = curves.stacked("distance between the pillars $n_s$ (blocks)")
-    for n_p in sorted({n_p for n_p, _ in ensembles}):
+    looks = style.pillar_looks(n_p for n_p, _ in ensembles)
+    for n_p in looks:
         by_gap = {n_s: runs for (size, n_s), runs in sorted(ensembles.items()) if size == n_p}
-        look, (highest, lag) = style.pillar_look(n_p), curves.highest_and_lag(by_gap)
+        look, (highest, lag) = looks[n_p], curves.highest_and_lag(by_gap)
         curves.draw_means(panels[0], highest, **look, label=style.pillar_name(n_p))
         curves.draw_realisations(panels[1], lag, look["color"])
     curves.name_places(panels[0], [n_s for _, n_s in ensembles])

@@ -1,24 +1,24 @@
-"""Any observable of ensembles against any parameter in which they differ."""
+"""Observables of ensembles against any parameter in which they differ."""
 
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
-from itertools import cycle
+from collections.abc import Callable, Mapping, Sequence
+from string import ascii_lowercase
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from springblock.io.rows import Row
-from springblock.io.schemas import AXES, SCENE, SETUP
-from springblock.model.direction import degrees
-from springblock.model.material import expanded, law_units
-from springblock.model.scene import LENGTHS, Scene
+from springblock.io.schemas import SCENE, SETUP
+from springblock.model.material import law_units
+from springblock.model.scene import Scene
 from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
+from springblock.plotting.lines import Lines, in_math
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
-
-Names = tuple[tuple[str, str], ...]
-Lines = dict[str, dict[float, list[Row]]]  #: rows by the name of their line and their place
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
@@ -35,8 +35,8 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the axis is logarithmic
 #: Observables that form two clusters of realisations where runs have two load peaks.
 _CLUSTERED = ("t_max", "t_max-t_avg")
-_WIDE = 24  #: characters of a line's name from which on names stand below each other
-_LINE = 3.6  #: mm, of the legend
+_SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
+_WIDTHS = (style.COLUMN, style.ONE_AND_A_HALF, style.DOUBLE)  #: mm, by the number of directions
 
 
 def caption(found: Lines) -> str:
@@ -57,79 +57,74 @@ def drawn(found: Lines) -> list[Row]:
     return [row for line in found.values() for runs in line.values() for row in runs]
 
 
-def lines(rows: Iterable[Row], over: str) -> Lines:
-    """Return rows of the table `realisations` by place on an axis, for each line.
-
-    A line is named by the parameters in which it differs from the others. Lines of a single place
-    are left out, if there are others.
-    """
-    rows = list(rows)
-    if over not in AXES and not all(over in law_units(row) for row in rows):
-        raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
-    found: dict[Names, dict[float, list[Row]]] = {}
-    for row in rows:
-        found.setdefault(_others(row, over), {}).setdefault(_place(row, over), []).append(row)
-    places = {place for line in found.values() for place in line}
-    if len(places) < 2:
-        raise ValueError(f"{over} has the same value in all realisations; choose another axis")
-    swept = {names: line for names, line in found.items() if len(line) > 1} or found
-    common = set.intersection(*(set(names) for names in swept))
-    ordered = sorted(swept, key=lambda names: [value for _, value in names])
-    labelled = {}
-    for names in ordered:
-        own = [f"{_math(key)} = {value}" for key, value in names if (key, value) not in common]
-        labelled[", ".join(own) or "as the study"] = dict(sorted(swept[names].items()))
-    return labelled
-
-
-def _place(row: Row, over: str) -> float:
-    return degrees(row[over]) if over == "direction" else float(expanded(row)[over])
-
-
-def _others(row: Row, over: str) -> Names:
-    """Return the other parameters of a scene; n_s over n_p, if n_p varies."""
-    scene = Scene.from_row(row)
-    named = {"N" if key == "n_blocks" else key: value for key, value in scene.named.items()}
-    if over == "n_p" and scene.n_p:
-        named["n_s/n_p"] = f"{scene.n_s / scene.n_p:.3g}"
-        del named["n_s"]
-    named.pop("N" if over == "n_blocks" else over, None)
-    if over in ("slip_distance", "speed_scale"):  # at zero they are Coulomb's law
-        named.pop("law", None)
-    return tuple(named.items())
-
-
-def _math(name: str) -> str:
-    """Write lengths as the paper prints them, other names in words."""
-    printed = re.sub(r"n_(\w+)", r"$n_{\1}$", name)
-    return printed if name in ("n_s/n_p", *LENGTHS) else name.replace("_", " ")
-
-
 @style.journal
 def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
-    """Draw observables of lines over an axis, a panel each."""
-    columns = 1 if max(map(len, found)) > _WIDE else 2
-    names = _LINE * math.ceil(len(found) / columns) if len(found) > 1 else 0.0
-    labels = [OBSERVABLES[name][0] for name in observables]
-    picture, panels = curves.stacked(_axis(over, drawn(found)[0]), labels, 15.0 + names)
+    """Draw observables of lines over an axis: a row of panels each, a column for each direction."""
+    names = list(dict.fromkeys(line.name for line in found))
+    directions = list(dict.fromkeys(line.direction for line in found))
+    is_named = len(names) > 1 or bool(drawn(found)[0]["mask"])
+    longest = max(len(re.sub(r"[${}_]", "", name)) for name in names)
+    columns = max(1, int(_WIDTHS[len(directions) - 1] / (_SIGN + _LETTER * longest)))
+    room = 15.0 + is_named * _LINE * math.ceil(len(names) / columns)
+    picture, grid = _panels(observables, directions, room)
     every = sorted({place for places in found.values() for place in places})
     log = 0.0 < _DECADE * every[0] <= every[-1]
-    for ax, name in zip(panels, observables, strict=True):
-        _, of = OBSERVABLES[name]
-        looks = zip(found.items(), cycle(_COLORS), cycle(_MARKERS), strict=False)
-        for i, ((line, runs), color, marker) in enumerate(looks):
-            moved = curves.aside(runs, every, i, len(found), log)
-            samples = {at: np.array([of(row) for row in rows]) for at, rows in moved.items()}
-            if name in _CLUSTERED:
-                look: Look = {"linestyle": "-", "linewidth": 0.7}
-                curves.draw_realisations(ax, samples, color, label=line, **look)
-            else:
-                curves.draw_means(ax, samples, color, marker=marker, label=line)
-        if log:
-            curves.name_places(ax, every)
-    if len(found) > 1:
-        style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
+    cap = 0.4 * curves.apart(every, len(names), log) * curves.span(grid[0, 0])
+    for line, runs in found.items():
+        i, column = names.index(line.name), grid[:, directions.index(line.direction)]
+        moved = curves.aside(runs, every, i, len(names), log)
+        look: Look = {"marker": _MARKERS[i % len(_MARKERS)], "label": line.name}
+        look |= {"capsize": min(cap, curves.BAR["capsize"])}
+        for ax, observable in zip(column, observables, strict=True):
+            _draw_line(ax, observable, moved, _COLORS[i % len(_COLORS)], look)
+    for ax in grid.flat:
+        curves.name_places(ax, every, "log" if log else "linear")
+    for ax in grid[-1]:
+        ax.set_xlabel(_axis(over, drawn(found)[0]))
+    if is_named:
+        style.legend_above(picture, *grid[0], loc="outside upper left", ncols=columns)
     return picture
+
+
+def _panels(
+    observables: Sequence[str], directions: Sequence[str], room: float
+) -> tuple[Figure, NDArray[Any]]:
+    """Return a panel for each observable and direction, (rows, columns), with equal axes in a row.
+
+    There are `room` mm around them.
+    """
+    shape = len(observables), len(directions)
+    letters = ascii_lowercase[: math.prod(shape)]
+    rows = (letters[i : i + shape[1]] for i in range(0, len(letters), shape[1]))
+    size = _WIDTHS[shape[1] - 1], room + 43.0 * shape[0]
+    picture, panels = style.panels(*size, ";".join(rows), sharex=True)
+    grid = np.reshape(np.array(panels), shape)
+    for row, observable in zip(grid, observables, strict=True):
+        for ax in row[1:]:
+            ax.sharey(row[0])
+            ax.tick_params(labelleft=False)
+        row[0].set_ylabel(OBSERVABLES[observable][0])
+        if OBSERVABLES[observable][0] == curves.LAG:
+            for ax in row:
+                ax.axhline(0.0, **curves.ZERO)
+    for ax, direction in zip(grid[0], directions, strict=True):
+        if direction:
+            at = f"along {direction}" if direction in ("x", "y") else f"at {direction}° from x"
+            ax.set_title(f"sliding {at}", loc="right")
+    return picture, grid
+
+
+def _draw_line(
+    ax: Axes, observable: str, runs: Mapping[float, Sequence[Row]], color: str, look: Look
+) -> None:
+    """Draw an observable of one line by place."""
+    _, value = OBSERVABLES[observable]
+    samples = {place: np.array([value(row) for row in rows]) for place, rows in runs.items()}
+    if observable in _CLUSTERED:
+        joined: Look = {"linestyle": "-", "linewidth": 0.7, "label": look["label"]}
+        curves.draw_realisations(ax, samples, color, **joined)
+    else:
+        curves.draw_means(ax, samples, color, **look)
 
 
 def _axis(over: str, row: Row) -> str:
@@ -137,5 +132,5 @@ def _axis(over: str, row: Row) -> str:
     units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
     units |= {"direction": "degrees"}
     of_law = law_units(row)
-    name, unit = (over, of_law[over]) if over in of_law else (_math(over), units[over])
+    name, unit = (over, of_law[over]) if over in of_law else (in_math(over), units[over])
     return name + ("" if unit in ("", "1") else f" ({unit})")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from itertools import combinations, product
+from itertools import chain, combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -107,11 +107,15 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
         raise ValueError(_sentence(error))
-    usual = setup(configuration)
-    for group, members in ensembles(configuration).items():
+    usual, groups = setup(configuration), ensembles(configuration)
+    if not any(groups.values()):
+        raise ValueError("scenes: no scenes are given; add a group, as config/README.md shows")
+    for group, members in groups.items():
         for ensemble in members:
             with _named(f"scenes.{group}"):
-                _check_ensemble(ensemble, group, usual)
+                _check_ensemble(ensemble, usual)
+                if not is_own(configuration):
+                    _check_for_figures(ensemble, group, usual)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
         _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
 
@@ -143,7 +147,12 @@ def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuratio
         raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {known}")
 
 
-def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
+def is_own(configuration: Configuration) -> bool:
+    """Whether a study has scenes of one's own alone, without the paper's groups and figures."""
+    return configuration.get("study") == "own"
+
+
+def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
     scene, ones = ensemble.scene, np.ones(ensemble.scene.shape)
     checked_surface(scene.contact, ones, ones, scene.is_periodic)
     own = setup.vary(dict(scene.varied))
@@ -155,6 +164,11 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
         count_samples(ensemble.duration, own.sample_interval)
     blocks, times = scene.contact.size, ensemble.snapshot_times
     snapshot_samples(times, own.sample_interval, blocks, ensemble.duration)
+
+
+def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
+    """Refuse scenes that the paper's figures and the tables of correlations cannot take."""
+    scene, material = ensemble.scene, setup.vary(dict(ensemble.scene.varied)).material
     if group in _LEVELS and not scene.is_papers:
         raise ValueError(
             "surfaces in this group must be square, with free edges and without files, as in the "
@@ -163,7 +177,7 @@ def _check_ensemble(ensemble: Ensemble, group: str, setup: Setup) -> None:
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"scenes must be of level {_LEVELS[group]}, not {scene.level}")
     # Without scatter one realisation suffices, and no figure needs its c(r).
-    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(own.material)
+    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(material)
     if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
         raise ValueError(
             f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
@@ -233,11 +247,19 @@ def setup(configuration: Configuration) -> Setup:
     return Setup(material, **times)
 
 
-def for_figures(groups: Mapping[str, list[Ensemble]]) -> dict[str, list[Ensemble]]:
+def for_figures(
+    configuration: Configuration, groups: Mapping[str, list[Ensemble]]
+) -> dict[str, list[Ensemble]]:
     """Return the ensembles for figures, by group: only surfaces of the paper's kind.
 
-    The group `surfaces`, which has a figure of its own, keeps all.
+    The group `surfaces`, which has a figure of its own, keeps all. A study of one's own has no
+    other group: each surface once in each direction.
     """
+    if is_own(configuration):
+        first: dict[Scene, Ensemble] = {}
+        for each in chain.from_iterable(groups.values()):
+            first.setdefault(replace(each.scene, varied=()), each)
+        return {"surfaces": list(first.values())}
     return {
         group: [each for each in members if each.scene.is_papers or group == "surfaces"]
         for group, members in groups.items()
@@ -316,7 +338,7 @@ def _masks(
             raise ValueError("mask cannot be combined with topography, bearing_area or height")
         yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
     elif "topography" in grid:
-        spacing = dict(constants).get("spacing", configuration["material"]["spacing"])
+        spacing = dict(constants).get("spacing", setup(configuration).material.spacing)
         folder, file = Path(configuration["results"], "surfaces"), Path(grid["topography"])
         for values in product(*cuts.values()):
             cut = Cut(file, float(spacing), **dict(zip(cuts, values, strict=True)))

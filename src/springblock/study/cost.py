@@ -1,12 +1,18 @@
 """Run time and memory of jobs, from measured rates, for requests to a queue."""
 
 import math
+from collections.abc import Sequence
 
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 
 #: CPU seconds per block and step with all blocks moving, measured by `make bench`.
 _RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
+#: CPU seconds of jobs of config/full.yaml: until a simulation begins, its work as a share of
+#: `cpu_seconds`, and those of other jobs by their rule.
+_BEGIN, _SHARE, _OTHER = 2.0, 0.65, 4.0
+_MEASURED = {"compile": 14.0, "report": 15.0, "claims": 42.0, "beyond": 100.0}
+_MEASURED |= {"compare_scene": 60.0, "stability_table": 55.0, "mechanism_part": 25.0}
 _START = 10.0  #: s to start a job on a busy machine
 _MARGIN = 3.0  #: for slower processors, and for strong disorder, with which runs last 1.4 times
 _BASE = 350  #: MB for Python and its libraries, measured: 250
@@ -22,6 +28,23 @@ def cpu_seconds(scene: Scene, setup: Setup, duration: float | None) -> float:
     """
     duration = duration or setup.loading_time(scene.contact, setup.material.mu_static)
     return duration / setup.step * math.prod(scene.shape) * _RATE[setup.integrator]
+
+
+def expected(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> float:
+    """CPU time in s that a job of realisations takes on average, a prelude as one realisation."""
+    return _BEGIN + _SHARE * realisations * cpu_seconds(scene, setup, duration)
+
+
+def expected_of(rule: str) -> float:
+    """CPU time in s that a job of another rule takes."""
+    return _MEASURED.get(rule, _OTHER)
+
+
+def in_words(times: Sequence[float], cores: int) -> str:
+    """Say how long jobs with these CPU times in s take together on so many cores."""
+    expected = max(sum(times) / cores, max(times)) / 60.0
+    said = f"{expected / 60.0:.1f} hours" if expected > 100.0 else f"{math.ceil(expected)} min"
+    return f"about {said} on {cores} core{'s' if cores > 1 else ''}"
 
 
 def minutes(scene: Scene, setup: Setup, duration: float | None, realisations: int = 1) -> int:
