@@ -254,10 +254,18 @@ def test_repeatability_is_the_share_of_variance_that_fields_have_in_common(rng):
     assert np.isnan(repeatability(noise[:2])).all()
 
 
-def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
-    intervals = [repeatability(rng.normal(size=(10, 50))) for _ in range(200)]
-    assert np.mean([low < 0.0 < high for _, low, high in intervals]) >= 0.95  # it is conservative
-    assert abs(np.mean([share for share, _, _ in intervals])) < 0.005
+def test_the_interval_of_repeatability_is_the_jackknifes(rng):
+    """Its error is k - 1 times that of the mean of k values, each with one field left out.
+
+    Fields of noise have nothing in common on average.
+    """
+    fields = rng.normal(size=(200, 8, 50))
+    found = np.transpose([repeatability(each) for each in fields])
+    assert abs(found[0].mean()) < 0.005
+    left_out = [repeatability(np.delete(fields[0], i, axis=0)).mean for i in range(8)]
+    half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
+    value = found[0, 0]
+    assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
 
 
 def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
