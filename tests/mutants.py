@@ -12,7 +12,6 @@ compiled and held against the tests of its module.
 
 import argparse
 import ast
-import copy
 import multiprocessing
 import os
 import re
@@ -136,16 +135,17 @@ def variants(node: ast.AST) -> Iterator[ast.AST]:
             yield ast.Call(owner, node.args, node.keywords)
 
 
-def sites(node: ast.AST) -> Iterator[tuple[ast.AST, str, int | None, ast.AST]]:
-    """Yield each expression that is computed: its parent, field and place in it, and itself."""
+def errors(node: ast.AST) -> Iterator[tuple[dict | list, str | int, ast.AST, ast.AST]]:
+    """Yield every error in what is computed: where an expression stands, it, and its variant."""
     for field, value in ast.iter_fields(node):
         if field in ("annotation", "returns", "decorator_list", "bases"):
             continue
-        for i, child in enumerate(value) if isinstance(value, list) else [(None, value)]:
-            if not isinstance(child, ast.AST) or isinstance(child, ast.Raise | ast.JoinedStr):
-                continue
-            yield node, field, i, child
-            yield from sites(child)
+        place = value if isinstance(value, list) else node.__dict__
+        for key in range(len(value)) if isinstance(value, list) else (field,):
+            child = place[key]
+            if isinstance(child, ast.AST) and not isinstance(child, ast.Raise | ast.JoinedStr):
+                yield from ((place, key, child, variant) for variant in variants(child))
+                yield from errors(child)
 
 
 class Mutant(NamedTuple):
@@ -162,18 +162,14 @@ class Mutant(NamedTuple):
         return self.file.partition("/")[0]
 
 
-def mutants_of(file: Path) -> Iterator[Mutant]:
-    """Yield every mutant of a file."""
+def mutant(file: Path, number: int) -> Mutant:
+    """Make one of the errors of a file."""
     tree = ast.parse(file.read_text())
-    for parent, field, i, node in list(sites(tree)):
-        for variant in variants(node):
-            place, key = (parent.__dict__, field) if i is None else (getattr(parent, field), i)
-            changed = ast.fix_missing_locations(ast.copy_location(copy.deepcopy(variant), node))
-            place[key] = changed
-            what = f"{ast.unparse(node)}  ->  {ast.unparse(changed)}"
-            name = file.relative_to(PACKAGE).as_posix()
-            yield Mutant(name, node.lineno, what, ast.unparse(tree))
-            place[key] = node
+    place, key, node, variant = list(errors(tree))[number]
+    change = f"{ast.unparse(node)}  ->  {ast.unparse(variant)}"
+    place[key] = ast.copy_location(variant, node)
+    source = ast.unparse(ast.fix_missing_locations(tree))
+    return Mutant(file.relative_to(PACKAGE).as_posix(), node.lineno, change, source)
 
 
 def drawn(number: int, seed: int, only: str) -> list[Mutant]:
@@ -184,10 +180,14 @@ def drawn(number: int, seed: int, only: str) -> list[Mutant]:
             continue
         place = PACKAGE / folder
         files = [place] if place.is_file() else sorted(place.glob("*.py"))
-        every = [mutant for file in files for mutant in mutants_of(file)]
-        count = min(len(every), number if only else round(number * plan.share))
-        found += [every[i] for i in rng.permutation(len(every))[:count]]
+        every = [(file, i) for file in files for i in range(_count(file))]
+        share = number if only else round(number * plan.share)
+        found += [mutant(*every[i]) for i in rng.permutation(len(every))[:share]]
     return found
+
+
+def _count(file: Path) -> int:
+    return len(list(errors(ast.parse(file.read_text()))))
 
 
 def interpretable(package: Path) -> None:
@@ -223,9 +223,7 @@ def run_tests(sources: Path, tests: str, interpreted: bool, answer: Connection) 
     os.environ |= {"PYTHONPATH": str(sources), "NUMBA_CACHE_DIR": str(sources.parent / "numba")}
     sys.path.insert(0, str(sources))
     numba.config.DISABLE_JIT = interpreted
-    sys.dont_write_bytecode = (
-        True  # of two files of one length and second, one would serve for both
-    )
+    sys.dont_write_bytecode = True  # it is found again by size and time, to the second
     first = FirstFailure()
     with Path(os.devnull).open("w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):
         code = pytest.main(options, plugins=[first])

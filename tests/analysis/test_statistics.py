@@ -134,10 +134,22 @@ def test_a_mean_goes_on_over_the_runs_that_are_left(rng):
     assert np.isnan([mean[4], low[4], high[4]]).all()
 
 
+@pytest.mark.parametrize(
+    ("lesser", "valley", "peaks"),
+    [(0.901, 0.5, [1, 3]), (0.899, 0.5, [1]), (0.95, 0.9399, [1, 3]), (0.95, 0.9401, [1])],
+)
+def test_a_load_peak_reaches_nine_tenths_and_stands_out_by_a_hundredth(lesser, valley, peaks):
+    """Both of the largest force, here 2 N."""
+    curve = 2.0 * np.array([0.0, 1.0, valley, lesser, 0.0])
+    assert load_peaks(curve, 0.0).tolist() == peaks
+
+
 def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
     assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
     assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+    three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
+    assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
 
 
 def test_bins_hold_whole_samples_and_every_detachment_once():
