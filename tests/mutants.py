@@ -52,7 +52,7 @@ _STEPS = "tests/validation/test_specification.py -k each_step and"
 PLANS = {
     "solver": Plan(
         0.35,
-        ("tests/validation/test_blocks.py",),
+        ("tests/simulation/test_simulation.py", "tests/validation/test_blocks.py"),
         (
             f"{_STEPS} flat and coulomb",
             " ".join(f"tests/solver/test_{name}.py" for name in ("release", "springs", "laws")),
