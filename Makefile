@@ -10,6 +10,8 @@
 # make full     the whole study, on which the pages in docs rest: some four CPU hours
 # make verify   hold results/ against its checksums and the code of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same
+# make mutants  put 300 errors into copies of the code, one into each, and count those that the tests
+#               catch: an hour on two cores
 # make docs     bring the pages in docs up to date with the study
 # make archive  pack the study, code and results, into one file to deposit
 # make redraw   draw all figures and pages again from results at hand, as those of an archive
@@ -27,7 +29,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full test browser test-slurm verify soak bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick full test browser test-slurm verify soak mutants bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -59,6 +61,9 @@ verify: setup
 
 soak: setup
 	$(BIN)/python tests/soak.py
+
+mutants: setup
+	$(BIN)/python tests/mutants.py
 
 test-slurm: setup
 	$(BIN)/python -m tests.slurm

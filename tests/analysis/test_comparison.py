@@ -5,7 +5,7 @@ import pyarrow as pa
 import pytest
 from scipy.special import ndtr
 
-from springblock.analysis.comparison import discrepancies, significant
+from springblock.analysis.comparison import Difference, compare, discrepancies, significant
 from springblock.model.scene import Scene
 
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
@@ -49,3 +49,13 @@ def test_lengths_are_compared_by_their_limits(difference, errors):
     (found,) = discrepancies(*tables)
     assert found.p_value == pytest.approx(2.0 * ndtr(-errors), rel=1e-5)
     assert bool(significant([found])) == (errors > 2.0)
+
+
+def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
+    """Of three rows each, two have the same seed; one value of theirs is off by 0.5 in 2."""
+    one = pa.table({"seed": [1, 2, 3], "t_max": [1.0, 2.0, 3.0]})
+    other = pa.table({"seed": [4, 2, 1], "t_max": [9.0, 2.5, 1.0]})
+    found = compare(one, other)
+    assert (found.both, found.first, found.second, found.same) == (2, 1, 1, False)
+    assert found.differences == [Difference("t_max", rows=1, largest=0.5, relative=0.25)]
+    assert compare(one, one.take([2, 0, 1])).same

@@ -100,13 +100,16 @@ def test_intervals_have_about_their_nominal_coverage(rng, monkeypatch):
     assert lengths / trials == pytest.approx(0.94, abs=0.06)
 
 
-def test_the_bias_is_small_and_falls_with_the_realisations(rng):
-    few, many = (times(rng, 2000, 1, 20, 3.0) for _ in range(2))
-    parts = [Correlation(part) for part in np.split(few, 200)]  # ten realisations each
-    true = np.mean([part.mean for part in parts], axis=0) - Correlation(many).mean
-    told = np.mean([part.bias for part in parts], axis=0)
-    assert np.abs(told - true).max() < 0.03
-    assert np.abs(Correlation(many).bias).max() < 1e-3
+def test_the_jackknife_leaves_out_one_realisation_at_a_time(rng):
+    """And keeps the weights of all of them in the fit."""
+    t = times(rng, 10, 4, 20, 3.0)
+    found, without = Correlation(t), [Correlation(np.delete(t, i, axis=0)).mean for i in range(10)]
+    np.testing.assert_allclose(
+        found.bias, 9.0 * (np.mean(without, axis=0) - found.mean), atol=1e-12
+    )
+    error = found.resampled[:, 1:7].std(axis=0)
+    fitted, *left_out = fit_length(np.array([found.mean, *without])[:, 1:7], error)
+    assert found.length().bias == pytest.approx(9.0 * (np.mean(left_out) - fitted))
 
 
 def test_the_jackknife_finds_the_bias_of_a_variance_exactly(rng):

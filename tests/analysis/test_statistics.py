@@ -134,10 +134,22 @@ def test_a_mean_is_taken_over_the_runs_that_have_not_ended(rng):
     assert np.isnan([mean[4], low[4], high[4]]).all()
 
 
+@pytest.mark.parametrize(
+    ("lesser", "valley", "peaks"),
+    [(0.901, 0.5, [1, 3]), (0.899, 0.5, [1]), (0.95, 0.9399, [1, 3]), (0.95, 0.9401, [1])],
+)
+def test_a_load_peak_reaches_nine_tenths_and_stands_out_by_a_hundredth(lesser, valley, peaks):
+    """Both of the largest force, here 2 N."""
+    curve = 2.0 * np.array([0.0, 1.0, valley, lesser, 0.0])
+    assert load_peaks(curve, 0.0).tolist() == peaks
+
+
 def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
     assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
     assert prominence(np.array([0.0, 10.0, 2.0, 5.0, 0.0])) == 0.0  # not under load
+    three = np.array([0.0, 10.0, 9.2, 9.8, 9.5, 9.6, 0.0])
+    assert [prominence(three, rank) for rank in (1, 2, 3)] == pytest.approx([1.0, 0.06, 0.01])
 
 
 def test_bins_hold_whole_samples_and_every_detachment_once():
@@ -254,10 +266,18 @@ def test_repeatability_is_the_share_of_variance_that_fields_have_in_common(rng):
     assert np.isnan(repeatability(noise[:2])).all()
 
 
-def test_the_interval_of_repeatability_holds_zero_for_fields_of_noise(rng):
-    intervals = [repeatability(rng.normal(size=(10, 50))) for _ in range(200)]
-    assert np.mean([low < 0.0 < high for _, low, high in intervals]) >= 0.95  # it is conservative
-    assert abs(np.mean([share for share, _, _ in intervals])) < 0.005
+def test_the_interval_of_repeatability_is_the_jackknifes(rng):
+    """Its error is k - 1 times that of the mean of k values, each with one field left out.
+
+    Fields of noise have nothing in common on average.
+    """
+    fields = rng.normal(size=(200, 8, 50))
+    found = np.transpose([repeatability(each) for each in fields])
+    assert abs(found[0].mean()) < 0.005
+    left_out = [repeatability(np.delete(fields[0], i, axis=0)).mean for i in range(8)]
+    half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
+    value = found[0, 0]
+    assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
 
 
 def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):

@@ -1,0 +1,40 @@
+"""Which steps are stable, against the eigenvalues of one step of an oscillator."""
+
+import math
+
+import numpy as np
+import pytest
+
+from springblock.solver.stability import IS_STABLE, leapfrog_force_time
+
+MODES = 0.1, 2.0  # angular frequencies; damping makes the first one fast, too
+
+
+def leapfrog_step(omega, h, gamma):
+    """Matrix of one step of (u, w): a kick and a drift, with exact damping."""
+    a, kick = math.exp(-gamma * h), -(omega**2) * leapfrog_force_time(h, gamma)
+    return np.array([[1.0 + h * kick, h * a], [kick, a]])
+
+
+def rk4_step(omega, h, gamma):
+    """Matrix of one step of (u, v): the exponential of h A up to its fourth order."""
+    h_a = h * np.array([[0.0, 1.0], [-(omega**2), -gamma]])
+    terms = (np.linalg.matrix_power(h_a, n) / math.factorial(n) for n in range(5))
+    return np.sum([*terms], axis=0)
+
+
+@pytest.mark.parametrize(("name", "step"), [("leapfrog", leapfrog_step), ("rk4", rk4_step)])
+@pytest.mark.parametrize("gamma", [0.0, 0.5, 4.0, 10.0])
+def test_a_step_is_stable_while_no_mode_grows(name, step, gamma):
+    steps = np.arange(0.001, 6.0, 0.002)  # none at the limit itself
+    matrices = [[step(omega, h, gamma) for omega in MODES] for h in steps]
+    growth = abs(np.linalg.eigvals(matrices)).max(axis=(1, 2))
+    told = [IS_STABLE[name](h, np.array(MODES), gamma) for h in steps]
+    assert told == (growth < 1.0 + 1e-9).tolist()
+    assert 0 < sum(told) < len(told)
+
+
+def test_damping_shortens_the_time_for_which_a_force_acts():
+    """(1 - exp(-γh))/γ is the integral of exp(-γt) over a step, h without damping."""
+    assert leapfrog_force_time(0.1, 0.0) == 0.1
+    assert leapfrog_force_time(0.1, 20.0) == pytest.approx((1.0 - math.exp(-2.0)) / 20.0)
