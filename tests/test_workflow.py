@@ -172,7 +172,11 @@ def test_a_study_of_own_scenes_has_none_of_the_papers(study):
     study.write("own.yaml", own)
     jobs = study.planned(configuration=("own.yaml",))
     drawn = {"surfaces", "sweep_n_p", "sweep_gamma", "aggregate", "means", "report", "all"}
-    films = {"film_pillars_n_p_3_n_s_3_N_36", "film_pillars_n_p_6_n_s_6_N_36", "film_flat_N_36"}
+    films = {
+        "film_pillars_n_p_3_n_s_3_N_36",
+        "film_pillars_n_p_6_n_s_6_N_36",
+        "film_flat_surface_N_36",
+    }
     assert jobs.keys() == {"compile", "prelude", "simulate_batch", *drawn, *films}
     assert jobs["simulate_batch"] == 4
     study.write("own.yaml", {**own, "scenes": {"scatter": None}})

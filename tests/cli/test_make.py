@@ -93,8 +93,8 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     # 20 seeds of half a second each, or twice as many at twice the step and four times the bias
     assert "| static friction | flat | 10.5 | 4.479 [4.475, 4.486] | 4e-08 x 40 |" in text
     assert "| step (s) | 5e-09 | 1e-08 | 2e-08 | 4e-08 | 8e-08 |\n" in text
-    assert "| of t_max and t_avg | " in text
-    assert "| of t_max and t_avg, 20 times the seeds | " in text
+    assert "| t_max and t_avg | " in text
+    assert "| t_max and t_avg, 20 times the seeds | " in text
 
 
 def test_the_page_begins_with_the_largest_errors(page, tmp_path):

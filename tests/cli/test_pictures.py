@@ -34,7 +34,7 @@ def test_fields_are_mapped_alone(springblock, tmp_path):
     short = ("--n-blocks", 6, "--duration", 4e-6, "--snapshot", 2e-6, "--fields", fields)
     springblock("simulate", *short, "--output", tmp_path / "run")
     springblock("plot", fields, "--output", picture)
-    assert "Magnitude of the shear stress" in picture.read_text(encoding="utf-8")
+    assert "magnitude of the shear stress" in picture.read_text(encoding="utf-8")
     for words in ([fields], ["--seed", 0], ["--over", "n_p"], ["--of", "t_max"]):
         said = springblock("plot", fields, *words, "--output", tmp_path / "a.png", refused=True)
         assert said.endswith("run.nc holds fields of one run: plot it alone, without an option")

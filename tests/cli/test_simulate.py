@@ -122,9 +122,12 @@ def test_what_makes_no_sense_is_refused_and_leaves_nothing(springblock, tmp_path
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers that NumPy"),
+        (["--mu-static", __file__], "'--mu-static': .* must be an array of numbers saved by NumPy"),
         (["--n-blocks", 7], "n_blocks and n_rows must be those of the mask, 6 and 6, not 7 and 7"),
-        (["--vary", "mu_static=2"], "mu_static cannot be varied where --mu-static-"),
+        (
+            ["--vary", "mu_static=2"],
+            "mu_static cannot be varied if mu_static is read from --mu-static-",
+        ),
     ],
 )
 def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own, words, sentence):

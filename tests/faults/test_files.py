@@ -89,7 +89,7 @@ def test_fields_of_other_code_and_files_cut_short_are_set_aside(tmp_path):
     truncated(files["short"], None)
     found = {fault.file: fault.reason for fault in faults(tmp_path)}
     assert found.keys() == {files["older"], files["short"]}
-    assert "was made by other code, springblock 1.0.0+0123" in found[files["older"]]
+    assert "was made by different code, springblock 1.0.0+0123" in found[files["older"]]
     assert "cut short" in found[files["short"]]
 
 

@@ -112,13 +112,13 @@ def snapshot_samples(
     Raises
     ------
     TypeError, ValueError
-        Where a time is no multiple of the sample interval, not later than the one before, or
-        beyond the duration in s; or where so many snapshots do not fit in memory.
+        If a time is no multiple of the sample interval, not later than the one before, or
+        beyond the duration in s; or if the snapshots do not fit in memory.
     """
     name = "snapshot_times"
     samples = [whole_multiple(name, time, "sample_interval", sample_interval) for time in times]
     if samples != sorted(set(samples)):
-        raise ValueError(f"{name} must rise from one to the next")
+        raise ValueError(f"{name} must be in ascending order, without repetition")
     if duration is not None:
         check_positive("duration", duration)
         if samples and samples[-1] > count_samples(duration, sample_interval):
