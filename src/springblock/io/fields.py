@@ -15,8 +15,8 @@ from springblock.simulation.fields import BlockState, Fields
 #: Dimensions of a field.
 _PLACED = ("time", "y", "x")
 _DOI = "https://doi.org/10.1016/j.ijsolstr.2022.111525"
-#: What scipy raises of a file that is cut short or of another format.
-_TORN = AttributeError, IndexError, KeyError, OSError, TypeError, ValueError
+#: Exceptions that scipy raises on a truncated file or one of another format.
+_UNREADABLE = AttributeError, IndexError, KeyError, OSError, TypeError, ValueError
 
 #: Units, meaning and dimensions of each variable. Coordinates have no attribute `axis`: ParaView
 #: would take X and Y for longitude and latitude.
@@ -35,8 +35,8 @@ VARIABLES: dict[str, tuple[str, str, tuple[str, ...]]] = {
 }
 _COMMENTS = {
     "stress": "force per l^2: the motive force of a stuck block, the friction force of a sliding "
-    "one; none where the block is free",
-    "slip": "zero until the first detachment; none where the block is free",
+    "one; missing where the block has no contact",
+    "slip": "zero until the first detachment; missing where the block has no contact",
 }
 
 
@@ -58,9 +58,9 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
     columns = _columns(fields)
     with whole_file(Path(path)) as partial, netcdf_file(partial, "w", version=2) as file:
         for name, value in (_described() | attributes).items():
-            if hasattr(file, name):  # what scipy itself keeps there
+            if hasattr(file, name):  # scipy's object uses the name
                 raise ValueError(f"no attribute of a NetCDF file can be called {name!r}")
-            # scipy keeps single precision of a plain float, and Latin-1 of text
+            # scipy would store a float in single precision, and text as Latin-1
             setattr(file, name, np.float64(value) if isinstance(value, float) else _text(value))
         for name in _PLACED:
             file.createDimension(name, len(columns[name]))
@@ -120,12 +120,12 @@ def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:
 
 
 def read_fields(path: Path) -> tuple[Fields, dict[str, Any]]:
-    """Read what `write_fields` wrote, and its attributes.
+    """Return the fields in a file of `write_fields`, and its attributes.
 
     Raises
     ------
     ValueError
-        Where it is no such file, or cut short.
+        If the file was not written by `write_fields`, or is truncated.
     """
     from scipy.io import netcdf_file
 
@@ -142,7 +142,7 @@ def read_fields(path: Path) -> tuple[Fields, dict[str, Any]]:
         }
         contact = values["state"][0] != BlockState.FREE
         spacing = float(values["x"][0]) * 2.0
-    except _TORN as error:
+    except _UNREADABLE as error:
         raise ValueError(f"{path} holds no fields of springblock, or is cut short") from error
     vectors["stress"] = np.where(contact, vectors["stress"], 0.0)
     return Fields(time=values["time"], contact=contact, spacing=spacing, **vectors), attributes

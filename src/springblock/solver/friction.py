@@ -1,6 +1,7 @@
 """Amontons-Coulomb friction with a static threshold, integrated over one time step.
 
-While a block is stuck, friction balances F_mot = F_int + F_s up to the static threshold mu_s F_n.
+While a block is stuck, friction balances F_mot = F_int + F_s up to the threshold mu_s F_n, or
+mu_d F_n if that is larger.
 Beyond it the block detaches, and mu_d F_n opposes its velocity until it comes to rest and sticks
 again (section 2 of the paper). Other laws replace mu_d F_n, see `laws`.
 """
@@ -15,7 +16,11 @@ from springblock.solver.laws import resistance, share_of_end, state_of, store_st
 
 @njit(inline="always")
 def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
-    """Apply the Coulomb step to block `b`, with the resistance given by its friction law."""
+    """Advance block `b` by one step with friction.
+
+    The law is evaluated at the mean velocity (1 - θ) v + θ w, with θ = `end`, or at θ w if the
+    block reverses; `coulomb` then applies the friction that it gives. Velocities are in l per step.
+    """
     state, forwards = state_of(law, b), wx * vx + wy * vy > 0.0
     end = share_of_end(law, state, math.sqrt(vx * vx + vy * vy), static, dynamic)
     start = 1.0 - end if forwards else 0.0
@@ -33,19 +38,21 @@ def coulomb(wx, wy, vx, vy, fx, fy, static, dynamic):
     """Return the velocity after a step with friction, whether the block slides, and w·v.
 
     w is the trial velocity, after a step under all forces but friction, v the velocity before the
-    step, and f the velocity that F_mot alone would add; `static` and `dynamic` are the velocities
-    that mu_s F_n and mu_d F_n would remove. A block that slides has, by (7) of docs/model.md,
+    step, and f the velocity that F_mot alone would add in one step; `static` and `dynamic` are the
+    velocities that mu_s F_n and friction would remove. A block that slides has, by (7) of
+    docs/model.md,
 
         v⁺ = w - T (v + w)/|v + w|,    T = `dynamic`:
 
-    friction opposes the mean velocity, which is parallel to v + w. Two cases end at rest:
+    friction opposes the mean velocity, which is parallel to v + w. The block is at rest after the
+    step in two cases:
 
     - |w| ≤ T: friction can remove all of w (Moreau's step, exact for a block that stops);
-    - w·v ≤ 0: the block reverses, or was at rest. It is at rest at an instant of this step, and
-      static friction holds it if |F_mot| ≤ mu_s F_n. If not, friction opposes w.
+    - w·v ≤ 0 and |F_mot| ≤ mu_s F_n: the block reverses, or was at rest, and static friction holds
+      it. If w·v ≤ 0 and it is not held, friction opposes w: v⁺ = w - T w/|w|.
 
-    A block at rest therefore moves only under a force beyond both mu_s F_n and mu_d F_n: a block
-    with mu_s < mu_d detaches once, at mu_d F_n.
+    A block at rest therefore moves only under a force beyond both mu_s F_n and mu_d F_n; if
+    mu_s < mu_d, its only threshold is mu_d F_n.
     """
     w_dot_v = wx * vx + wy * vy
     held = (w_dot_v <= 0.0) & (fx * fx + fy * fy <= static * static)
