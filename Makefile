@@ -101,7 +101,7 @@ $(VENV)/locked: environment.lock
 	$(PYTHON) -m venv $(VENV)
 	sed -n '/^setuptools==/,/[^\\]$$/p' $< | $(INSTALL) --require-hashes -r /dev/stdin
 	$(INSTALL) --require-hashes -r $<
-	$(BIN)/python -m compileall -q -j 0 $(VENV)/lib
+	$(BIN)/python -m compileall -q -j 0 -x olefile2 $(VENV)/lib # a module in Python 2
 	touch $@
 
 $(VENV)/installed: $(VENV)/locked pyproject.toml
@@ -115,7 +115,7 @@ lock:
 	lock="$$dir/bin/uv pip compile --upgrade --universal --python-version 3.11 --generate-hashes \
 	    --fork-strategy fewest --no-config --no-emit-index-url --quiet" && \
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
-	    --group dev --extra study --extra slurm --extra mp4 pyproject.toml && \
+	    --group dev --extra study --extra slurm --extra mp4 --extra topography pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
 	{ "$$dir/bin/pip-audit" --strict --disable-pip --require-hashes --progress-spinner off \
 	    -r environment.lock -r $(PEERS) --output "$$dir/found" || \

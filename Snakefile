@@ -53,6 +53,4 @@ onerror:
 onsuccess:
     page = Path(RESULTS, "report.html").resolve()
     if page.exists():
-        print(
-            f"The study's report, to be opened in a browser: {page.as_uri()}", file=sys.stderr
-        )
+        print(f"The report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)

@@ -1,13 +1,15 @@
-"""What every test may ask for."""
+"""Fixtures for all tests."""
 
-import shutil
+import fcntl
+import os
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from springblock.cli import main
-from studies import ROOT, Study
+from studies import Study
 
 
 @pytest.fixture
@@ -18,7 +20,7 @@ def rng():
 
 @pytest.fixture(scope="session")
 def springblock():
-    """Call `springblock` with these words; return what it says, or its refusal of bad input."""
+    """Call `springblock` with these words; return its output, or its refusal of bad input."""
 
     def call(*words, refused=False):
         outcome = CliRunner().invoke(main, [str(word) for word in words])
@@ -30,9 +32,23 @@ def springblock():
 
 
 @pytest.fixture(scope="session")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """A finished tiny study, with sources that a test may edit."""
-    study = Study.begun(tmp_path_factory.mktemp("study"))
-    shutil.copytree(ROOT / "src", study / "src")
-    study.run()
+def finished(tmp_path_factory) -> Callable[..., Study]:
+    """Run a study once for all processes of a test run; no test may change its results."""
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+
+    def study(name: str, options: tuple[str, ...] = (), targets=(), **changes) -> Study:
+        folder = shared / name
+        with (shared / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not folder.exists():
+                Study.begun(folder, **changes).run(*options, targets=targets)
+        return Study(folder, options, targets)
+
     return study
+
+
+@pytest.fixture(scope="session")
+def study(finished) -> Study:
+    """A finished tiny study."""
+    return finished("study")

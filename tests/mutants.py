@@ -45,7 +45,7 @@ class Plan(NamedTuple):
 
     share: float
     tests: tuple[str, ...]
-    interpreted: tuple[str, ...] = ()  #: what runs without compilation, before all else
+    interpreted: tuple[str, ...] = ()  #: tests that run first, without compilation
 
 
 _STEPS = "tests/validation/test_specification.py -k each_step and"
@@ -179,21 +179,11 @@ def drawn(number: int, seed: int, only: str) -> list[Mutant]:
             continue
         place = PACKAGE / folder
         files = [place] if place.is_file() else sorted(place.glob("*.py"))
-        every = [(file, i) for file in files for i in range(_count(file))]
+        numbers = {file: len(list(errors(ast.parse(file.read_text())))) for file in files}
+        every = [(file, i) for file in files for i in range(numbers[file])]
         share = number if only else round(number * plan.share)
         found += [mutant(*every[i]) for i in rng.permutation(len(every))[:share]]
     return found
-
-
-def _count(file: Path) -> int:
-    return len(list(errors(ast.parse(file.read_text()))))
-
-
-def interpretable(package: Path) -> None:
-    """Let the kernels of a copy of the package run without compilation."""
-    for name, code in STAND_INS.items():
-        file = package / f"solver/{name}.py"
-        file.write_text(file.read_text().replace("U = np.uint64", "U = int") + "\n" + code)
 
 
 class FirstFailure:
@@ -202,14 +192,9 @@ class FirstFailure:
     name = ""
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """See a test's report."""
+        """Keep the name of a test that fails."""
         if report.failed:
             self.name = self.name or report.nodeid.partition("[")[0]
-
-    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
-        """See that a file of tests cannot even be imported."""
-        if report.failed:
-            self.name = self.name or f"{report.nodeid}::(import)"
 
 
 def run_tests(sources: Path, tests: str, interpreted: bool, answer: Connection) -> None:
@@ -257,7 +242,9 @@ def caught_by(mutant: Mutant, room: Path) -> str:
         own = OWN.get(stem, f"tests/{folder}/test_{Path(stem).name}.py")
         tests = plan.interpreted if interpreted else (own, *plan.tests)
         if interpreted:
-            interpretable(package)
+            for name, code in STAND_INS.items():
+                file = package / f"solver/{name}.py"
+                file.write_text(file.read_text().replace("U = np.uint64", "U = int") + "\n" + code)
         for each in tests:
             exists = (ROOT / each.partition(" ")[0]).exists()
             if exists and (found := failing(room / "src", each, interpreted)):

@@ -7,7 +7,7 @@ from springblock.accuracy.production import STEPS, UNITS
 from springblock.model.defaults import STEP
 
 QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
-QUANTITIES += ["t_det before horizon", "t_det before peak", "resolution"]
+QUANTITIES += ["t_det before horizon", "resolution"]
 #: Integrators and steps of each comparison.
 COMPARISONS = {
     "reference": (["leapfrog", "rk4", PLAIN], [1e-9, min(STEPS), PAPER_STEP, STEP]),
@@ -40,3 +40,9 @@ def production_rows():
         if quantity != LENGTH or scene == "pillared":
             rows.append(row)
     return rows
+
+
+def realisation_rows():
+    """Rows of the table `realisations`: the friction of pillars, and energy that is missing."""
+    row = {"level": 1, "direction": "x", "varied": "", "n_blocks": 120, "n_p": 6, "n_s": 6}
+    return [row | {"static_friction": 0.6 + 1e-3 * k, "energy_error": 1e-5} for k in range(22)]

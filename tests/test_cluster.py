@@ -51,10 +51,8 @@ def test_profiles_differ_in_cores_and_know_the_groups_of_the_rules():
 def test_a_run_does_not_start_beside_jobs_of_a_killed_one(study):
     """Jobs of the same name elsewhere, or here of another name, do not matter."""
     harmless = f"springblock_1a2b|/tmp\nanother|{study.folder}"
-    study.program("squeue", f"#!/bin/sh\nprintf '{harmless}\n'\n")
-    study.run(*COMPILED)
     study.program("squeue", f"#!/bin/sh\nprintf '{harmless}\nspringblock_3c|{study.folder}\n'\n")
-    said = study.run("--force", *COMPILED, refused=True)
+    said = study.run(*COMPILED, refused=True)
     assert "cancel them: scancel --name=springblock_3c\n" in said
 
 

@@ -7,8 +7,7 @@ from pathlib import Path
 import click
 import pytest
 
-import springblock
-from precision import precision_rows, production_rows
+from precision import precision_rows, production_rows, realisation_rows
 from springblock import Material, Realisation
 from springblock.accuracy.page import page as accuracy_page
 from springblock.accuracy.stability import all_cases
@@ -49,7 +48,7 @@ def unmeasured(text, measured):
 
 def test_the_page_on_errors_is_what_the_code_writes():
     stability = [{"family": case.family, "expected": "", "outcome": ""} for case in all_cases()]
-    text = accuracy_page(precision_rows(), stability, [{"energy_error": 1e-5}], production_rows())
+    text = accuracy_page(precision_rows(), stability, realisation_rows(), production_rows())
     assert numberless(PAGES["accuracy"]) == numberless(text)
 
 
@@ -132,15 +131,6 @@ def test_links_between_pages_lead_to_files_and_headings(page):
             assert not anchor or anchor in anchors(target.read_text(encoding="utf-8")), link
 
 
-def test_the_glossary_defines_each_term_once_in_its_place():
-    rows = re.findall(r'^\| <a id="([^"]+)"></a>([^|]+) \|', PAGES["glossary"], re.MULTILINE)
-    terms = [term.strip() for _, each in rows for term in each.split(",")]
-    assert len(rows) >= 30
-    assert max(Counter(terms).values()) == 1
-    for anchor, term in rows:
-        assert term.lower().replace(" ", "-").replace("_", "-").startswith(anchor)
-
-
 def test_commands_that_pages_show_are_known_with_their_options():
     """Those of the README, the howto and the lesson are run as well."""
     context, shown = click.Context(main), 0
@@ -153,8 +143,3 @@ def test_commands_that_pages_show_are_known_with_their_options():
             assert set(re.findall(r"(?<!\S)--[\w-]+", words)) <= known, name
             shown += 1
     assert shown > 20
-
-
-def test_public_names_explain_themselves():
-    for name in springblock.__all__:
-        assert getattr(springblock, name).__doc__, name

@@ -6,7 +6,6 @@ import subprocess
 import zipfile
 
 import pyarrow.parquet as pq
-import pytest
 
 from springblock import Material
 from springblock.io.schemas import BATCH
@@ -34,7 +33,6 @@ def test_every_figure_is_drawn_in_both_formats(study):
     names = {file.name for file in (study / "results/figures").iterdir()}
     assert names == {f"{name}.{suffix}" for name in FIGURES for suffix in ("pdf", "png")}
     assert {f"figure_{number}" for number in range(1, 10)} <= FIGURES
-    assert {"supplement_repetitions", "supplement_restick"} <= FIGURES
 
 
 def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
@@ -48,51 +46,44 @@ def test_files_say_what_their_columns_mean_and_which_code_made_them(study):
             assert schema.names == BATCH.names
 
 
-def test_each_job_leaves_a_log_and_a_benchmark(study):
+def test_each_job_leaves_a_log(study):
     jobs = {"compile", "aggregate", "correlation", "correlation_length", "claims", "report"}
-    for kind, suffix in (("logs", "log"), ("benchmarks", "tsv")):
-        files = {file.stem for file in (study / "results" / kind).glob(f"*.{suffix}")}
-        assert files == {*jobs, *FILMS, *FIGURES}
+    files = {file.stem for file in (study / "results/logs").glob("*.log")}
+    assert files == {*jobs, *FILMS, *FIGURES}
 
 
 def test_the_configuration_offers_what_the_package_has():
-    """Every integrator, and every constant with the paper's value, which holds if unsaid."""
+    """Every integrator, and every constant with the paper's value, which is the default."""
     keys = SCHEMA["properties"]
     assert keys["integrator"]["enum"] == list(INTEGRATORS)
     assert list(keys["material"]["properties"]) == list(PAPER["material"])
     assert PAPER["material"] == dict(Material().items())
 
 
-def test_every_step_can_be_planned_and_the_configuration_decides_which_are(study):
-    """The paper's study, and with config/full.yaml all that the package can do.
+def test_every_step_can_be_planned(study):
+    """With config/full.yaml all that the package can do; surfaces are a user's own.
 
     docs/workflow.md lists the steps that are neither figures nor films.
     """
     elsewhere = ("--config", "results=elsewhere")
     listed = study.run("--list-target-rules", *elsewhere, **FULL)
     steps = set(re.findall(r"^\w+$", listed, re.MULTILINE))
-    papers = study.planned(*elsewhere, **WHOLE)
-    full = study.planned(*elsewhere, "--", *steps, **FULL)
-    known = figures.FIGURES
-    beyond = {name for name, figure in known.items() if figure.category == "Beyond"}
-    further = {*beyond, "beyond", "production_table", "total_error"}
+    full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
     tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
-    assert {*tables, *known} - further - {"surfaces"} <= set(papers)
-    assert not further & set(papers)
-    assert set(papers) | further | steps <= set(full)  # surfaces are a user's own
-    assert {"sweep_pressure", "sweep_scatter"} <= set(full)
-    assert full["simulate_batch"] > 4 * papers["simulate_batch"]
+    further = {"beyond", "production_table", "sweep_pressure", "sweep_scatter"}
+    assert {*steps, *tables, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
     assert {step for step in steps if not step.startswith(drawn)} <= named
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
-    """And a dry run of another one is a page."""
+    """A dry run of another one is a page, which says how long the jobs will take."""
     options = ("--config", "results=elsewhere", "figures={figure_5: {n_p: 7}}", "--")
-    lines = study.run("--dry-run", *options, "figure_6", **WHOLE).splitlines()
-    assert len(lines) < 50
-    assert max(map(len, lines)) < 300
+    said = study.run("--dry-run", *options, "figure_6", **WHOLE)
+    assert len(said.splitlines()) < 50
+    assert max(map(len, said.splitlines())) < 300
+    assert re.search(r"^These jobs take about \d+ min on \d+ cores?\.$", said, re.MULTILINE)
     refused = study.run("--dry-run", *options, "figure_5", refused=True, **WHOLE)
     assert "figures.figure_5: no scene of pillars has n_p = 7." in refused
 
@@ -137,29 +128,24 @@ def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path)
         file.unlink()
     names = sorted({file.stem for file in before if file.suffix == ".png"})
     assert set(unpacked.planned("--", *names, "claims")) == {*names, "claims"}
-    some = ("figure_1", "figure_3", "figure_7")  # of patterns, realisations and correlations
+    some = ("figure_1", "figure_7")  # of patterns and correlations
     unpacked.run("--", *some, "claims")
     again = {file: file.read_bytes() for file in before if file.exists()}
     assert {file.stem for file in again} == {*some, "claims"}
     assert again.items() <= before.items()
 
 
-@pytest.mark.parametrize(
-    ("figure", "preludes", "simulations", "further"),
-    [
-        ("figure_6", 3, 5, {}),
-        ("figure_7", 1, 2, {"correlation": 1}),  # of pillars with sides
-    ],
-)
-def test_one_figure_needs_only_its_own_simulations(study, figure, preludes, simulations, further):
-    jobs = study.planned("--config", "results=elsewhere", "--", figure)
-    needed = {"compile": 1, "prelude": preludes, "simulate_batch": simulations}
-    assert jobs == {**needed, **further, figure: 1}
+def test_one_figure_needs_only_its_own_simulations(study):
+    """Those of figure 7 have pillars with sides."""
+    jobs = study.planned("--config", "results=elsewhere", "--", "figure_7")
+    needed = {"compile": 1, "prelude": 1, "simulate_batch": 2, "correlation": 1}
+    assert jobs == {**needed, "figure_7": 1}
 
 
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
+    assert not {"beyond", "production_table", "total_error"} & jobs.keys()
 
 
 def test_a_study_of_own_scenes_has_none_of_the_papers(study):
@@ -182,8 +168,3 @@ def test_a_study_of_own_scenes_has_none_of_the_papers(study):
     study.write("own.yaml", {**own, "scenes": {"scatter": None}})
     refused = study.run("--dry-run", configuration=("own.yaml",), refused=True)
     assert "scenes: no scenes are given" in refused
-
-
-def test_a_dry_run_says_how_long_the_jobs_will_take(study):
-    said = study.run("--dry-run", "--config", "results=elsewhere", "--", "figure_6")
-    assert re.search(r"^These jobs take about \d+ min on \d+ cores?\.$", said, re.MULTILINE)

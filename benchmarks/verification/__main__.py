@@ -9,8 +9,9 @@ from benchmarks.verification import entries as own
 from benchmarks.verification import references
 from benchmarks.verification.metrics import NAMES, errors, uncertainties
 from benchmarks.verification.problems import PROBLEMS, read_answer, read_reference
-from springblock.cli.options import INPUT, one_sentence
-from springblock.files import whole_file
+from springblock.cli import one_sentence
+from springblock.cli.options import INPUT
+from springblock.files import write_text
 
 _NAME = click.Choice(list(PROBLEMS))
 
@@ -48,8 +49,7 @@ def reference(problems: tuple[str, ...]) -> None:
 @main.command()
 def entries() -> None:
     """Write ENTRIES.md: what our own integrators are off by."""
-    with whole_file(Path(__file__).with_name("ENTRIES.md")) as partial:
-        partial.write_text(own.page(), encoding="utf-8")
+    write_text(Path(__file__).with_name("ENTRIES.md"), own.page())
 
 
 if __name__ == "__main__":

@@ -3,13 +3,7 @@
 from collections.abc import Iterator
 
 from benchmarks.verification.metrics import cells, errors, uncertainties
-from benchmarks.verification.problems import (
-    PROBLEMS,
-    Answer,
-    Problem,
-    read_reference,
-    read_surface,
-)
+from benchmarks.verification.problems import PROBLEMS, Answer, Problem, read_reference, read_surface
 from springblock.accuracy.conventions import PLAIN
 from springblock.accuracy.specimens import Surface
 from springblock.accuracy.work_precision import FORCE_EVALUATIONS, solve_with

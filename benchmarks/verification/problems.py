@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from springblock.accuracy.specimens import Array, Surface
-from springblock.files import whole_file
+from springblock.files import write_text
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
@@ -84,10 +84,8 @@ class Reference(Answer):
 
 def write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Write comma-separated text, whole or not at all."""
-    with whole_file(path) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(rows)
+    lines = (",".join(row) for row in (columns, *rows))
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def read_table(path: Path, columns: Sequence[str]) -> Array:

@@ -7,32 +7,27 @@ doi:10.1016/j.ijsolstr.2022.111525.
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
-__all__ = [
-    "Material",
-    "Pattern",
-    "Prelude",
-    "Realisation",
-    "SimulationError",
-    "animate",
-    "compute_prelude",
-    "draw_friction",
-    "plot",
-    "read",
-    "simulate",
-    "write_fields",
-]
-
 if TYPE_CHECKING:
-    from springblock.io.fields import write_fields
-    from springblock.io.records import read
-    from springblock.model.asperities import draw_friction
-    from springblock.model.material import Material
-    from springblock.model.pattern import Pattern
-    from springblock.plotting.film import animate
-    from springblock.plotting.still import plot
-    from springblock.simulation.prelude import Prelude, compute_prelude
-    from springblock.simulation.run import Realisation
-    from springblock.simulation.simulate import SimulationError, simulate
+    from springblock.io.fields import write_fields as write_fields
+    from springblock.io.records import read as read
+    from springblock.model.asperities import draw_friction as draw_friction
+    from springblock.model.material import Material as Material
+    from springblock.model.pattern import Pattern as Pattern
+    from springblock.plotting.film import animate as animate
+    from springblock.plotting.still import plot as plot
+    from springblock.simulation.prelude import (
+        Prelude as Prelude,
+    )
+    from springblock.simulation.prelude import (
+        compute_prelude as compute_prelude,
+    )
+    from springblock.simulation.run import Realisation as Realisation
+    from springblock.simulation.simulate import (
+        SimulationError as SimulationError,
+    )
+    from springblock.simulation.simulate import (
+        simulate as simulate,
+    )
 else:  # mypy would accept any name if it saw `__getattr__`
     _MODULES = {
         "Material": "model.material",
@@ -48,6 +43,8 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "simulate": "simulation.simulate",
         "write_fields": "io.fields",
     }
+
+    __all__ = list(_MODULES)
 
     def __getattr__(name: str) -> object:
         """Import a public name when it is first used (PEP 562): `import springblock` is quick."""

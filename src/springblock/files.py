@@ -51,6 +51,12 @@ def whole_file(path: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
+def write_text(path: Path, text: str) -> None:
+    """Write a text whole or not at all."""
+    with whole_file(path) as partial:
+        partial.write_text(text, encoding="utf-8")
+
+
 def write_sealed(path: Path, content: bytes) -> None:
     """Write content whole or not at all, with its digest in place of `BLANK`.
 

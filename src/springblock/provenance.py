@@ -11,6 +11,7 @@ from typing import Any
 
 _ROOT = Path(__file__).parent
 _PHYSICS = ("model", "solver", "simulation")
+_PAGES = ("accuracy", "mechanism", "claims", "beyond")
 
 #: Folders of the package that determine the results of each step of the study. Reading, writing and
 #: the command line are not among them, since they do not change numbers.
@@ -24,16 +25,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "beyond": ("model", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
     "plot": ("model", "analysis", "mechanism", "plotting"),
-    "report": (
-        "model",
-        "analysis",
-        "accuracy",
-        "mechanism",
-        "claims",
-        "beyond",
-        "plotting",
-        "report",
-    ),
+    "report": ("model", "analysis", *_PAGES, "plotting", "report"),
 }
 #: Folders whose docstrings are part of the results: the statements of the paper.
 _SAYING = {"claims"}

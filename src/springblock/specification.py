@@ -12,8 +12,9 @@ compared with it step by step (`tests/validation/test_specification.py`):
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from inspect import signature
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,105 +25,84 @@ from springblock.model.law import LawFile
 from springblock.model.material import Material
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 #: State variables of the blocks that slide, by name, (N_y, N_x) each.
 Memory = dict[str, Array]
 
 #: Neighbours of a block, as offsets along y and x.
 _NEIGHBOURS = [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)]
-#: Nodes and weights of the Runge-Kutta method.
-_STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))
+#: Nodes and weights of the Runge-Kutta method, and the node of the next stage.
+_STAGES = ((0.0, 1 / 6, 0.5), (0.5, 1 / 3, 0.5), (0.5, 1 / 3, 1.0), (1.0, 1 / 6, 0.0))
 
 
 @dataclass(frozen=True)
 class Law:
     """A law of friction; its functions receive constants, state and motion by argument name."""
 
-    friction: Callable[..., Array]  #: mu of blocks that slide
-    update: Callable[..., Any]  #: state after a step, in the order of `initial`
+    friction: Callable[..., Any]  #: mu of blocks that slide
+    update: Callable[..., Any] | None  #: state after a step, in the order of `initial`
     initial: dict[str, float]  #: state of a block that detaches
     constants: dict[str, Any]
 
     @classmethod
     def of(cls, material: Material) -> "Law":
-        """Return the law of a material."""
+        """Return the law of a material; functions from a file take numbers, not arrays."""
         law = material.law
         if not isinstance(law, LawFile):
             return cls(LAWS[law], slipped, {"slip": 0.0}, dict(material.items()))
-        update = _for_arrays(law.update) if law.initial else tuple
-        return cls(_for_arrays(law.friction), update, law.initial, law.constants)
+        return cls(law.friction, law.update if law.initial else None, law.initial, law.constants)
 
-    def mu(
-        self, mu_static: Array, mu_dynamic: Array, memory: Memory, speed: Array, step: float
-    ) -> Array:
-        """Friction coefficient, (N_y, N_x), for a state and a speed in m/s."""
-        at = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "speed": speed, "step": step}
-        return _called(self.friction, self.constants | at | memory) + 0.0 * speed
+    def call(self, function: Callable[..., Any], memory: Memory, **motion: Any) -> Any:
+        """Call `friction` or `update` with the arguments that it names."""
+        known = {**self.constants, **memory, **motion}
+        arguments = [known[name] for name in signature(function).parameters]
+        return (function if function in OF_ARRAYS else np.vectorize(function))(*arguments)
 
     def after(self, memory: Memory, speed: Array, step: float) -> Memory:
         """State after a step at this mean speed."""
-        known = {**self.constants, **memory, "speed": speed, "step": step}
-        after = _called(self.update, known) if self.initial else ()
-        return dict(zip(self.initial, after if len(self.initial) > 1 else (after,), strict=False))
-
-    def fresh(self, like: Array) -> Memory:
-        """State of blocks that detach."""
-        return {name: np.full_like(like, value) for name, value in self.initial.items()}
-
-
-def _called(function: Callable[..., Any], known: dict[str, Any]) -> Any:
-    return function(*(known[name] for name in signature(function).parameters))
-
-
-def _for_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Apply a function of numbers to each element of arrays."""
-    each: Any = np.vectorize(function)
-    each.__signature__ = signature(function)
-    return cast(Callable[..., Any], each)
+        if self.update is None:
+            return {}
+        after = self.call(self.update, memory, speed=speed, step=step)
+        return dict(zip(self.initial, after if len(self.initial) > 1 else (after,), strict=True))
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Surface, material, slider and step of a run."""
+    """Surface, material, slider and step of a run, as arguments of `simulate`."""
 
-    contact: NDArray[np.bool_]  #: (N_y, N_x)
-    mu_static: Array  #: (N_y, N_x)
+    contact: Mask  #: (N_y, N_x)
+    mu_static: Array  #: (N_y, N_x), or one number for all blocks
     mu_dynamic: Array
-    material: Material
-    slider: Array  #: (2, 1, 1) m/s
-    step: float  #: h, s
-    periodic: bool
-    law: Law
+    material: Material = Material()  # noqa: RUF009
+    direction: str | float = "x"
+    step: float = STEP  #: h, s
+    periodic: bool = False
 
-    @classmethod
-    def of(
-        cls,
-        contact: Any,
-        mu_static: Any,
-        mu_dynamic: Any,
-        material: Material,
-        direction: str | float,
-        step: float,
-        periodic: bool,
-    ) -> "Surface":
-        """Return the surface for these arguments of `simulate`."""
-        mask = np.asarray(contact, bool)
-        return cls(
-            contact=mask,
-            mu_static=np.broadcast_to(np.asarray(mu_static, float), mask.shape),
-            mu_dynamic=np.broadcast_to(np.asarray(mu_dynamic, float), mask.shape),
-            material=material,
-            slider=material.slider_velocity * np.array(heading(direction)).reshape(2, 1, 1),
-            step=step,
-            periodic=periodic,
-            law=Law.of(material),
-        )
+    @cached_property
+    def law(self) -> Law:
+        """Law of the material."""
+        return Law.of(self.material)
 
-    @property
+    @cached_property
     def load(self) -> Array:
         """F_n of each block, N: blocks in contact share the whole load, (4)."""
-        return np.where(
-            self.contact, self.material.block_load * self.contact.size / self.contact.sum(), 0.0
-        )
+        load = self.material.block_load * self.contact.size / self.contact.sum()
+        return np.where(self.contact, load, 0.0)
+
+    @cached_property
+    def strength(self) -> Array:
+        """mu_s F_n of each block, N."""
+        return self.mu_static * self.load
+
+    @property
+    def fresh(self) -> Memory:
+        """State of blocks that detach."""
+        return {name: np.full_like(self.load, value) for name, value in self.law.initial.items()}
+
+    def slider(self, steps: float) -> Array:
+        """Displacement v t of the slider at t = `steps` h, (2, 1, 1) m."""
+        velocity = self.material.slider_velocity * np.array(heading(self.direction))
+        return velocity.reshape(2, 1, 1) * self.step * steps
 
 
 @dataclass
@@ -176,6 +156,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "slip_weakening": slip_weakening,
     "velocity_weakening": velocity_weakening,
 }
+OF_ARRAYS = (*LAWS.values(), slipped)  #: functions that take arrays
 
 
 def follow(
@@ -193,10 +174,11 @@ def follow(
 
     Other arguments are those of `simulate`.
     """
-    surface = Surface.of(contact, mu_static, mu_dynamic, material, direction, step, periodic)
-    zero = np.zeros((2, *surface.contact.shape))
-    never = np.full(zero[0].shape, np.inf)
-    state = State(0, zero, zero, surface.law.fresh(zero[0]), never)
+    mask = np.asarray(contact, bool)
+    mu_static, mu_dynamic = np.asarray(mu_static, float), np.asarray(mu_dynamic, float)
+    surface = Surface(mask, mu_static, mu_dynamic, material, direction, step, periodic)
+    zero, never = np.zeros((2, *mask.shape)), np.full(mask.shape, np.inf)
+    state = State(0, zero, zero, surface.fresh, never)
     for _ in range(steps):
         state = INTEGRATORS[integrator](surface, state)
         yield state
@@ -222,8 +204,7 @@ def spring_force(surface: Surface, u: Array) -> Array:
 
 def motive_force(surface: Surface, u: Array, steps: float) -> Array:
     """F_mot = F_int + K_s (v t - u) at t = `steps` h, (1) and (3); (2, N_y, N_x) N."""
-    slider = surface.slider * surface.step * steps
-    return spring_force(surface, u) + surface.material.k_s * (slider - u)
+    return spring_force(surface, u) + surface.material.k_s * (surface.slider(steps) - u)
 
 
 def resistance(
@@ -234,10 +215,11 @@ def resistance(
     Of several solutions V the largest, which a decelerating block reaches first. T is infinite if
     there is no solution: the block stops. If friction increases with V, the solution is unique.
     """
+    law, own = surface.law, {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
 
     def friction_at(mean: Array) -> Array:
-        own = surface.mu_static, surface.mu_dynamic, memory, mean, surface.step
-        return tau / surface.material.mass * surface.load * surface.law.mu(*own)
+        mu = law.call(law.friction, memory, **own, speed=mean, step=surface.step) + 0.0 * mean
+        return tau / surface.material.mass * surface.load * mu
 
     share = np.asarray(share)
     if not share.any():
@@ -269,8 +251,8 @@ def leapfrog(surface: Surface, state: State) -> State:
     end = _share_of_end(surface, tau, state.memory, np.hypot(*v))
     at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
     friction = resistance(surface, tau, state.memory, np.hypot(*at), -end)
-    f_n, fresh = surface.load, surface.law.fresh(w_dot_v)
-    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= surface.mu_static * f_n)
+    fresh = surface.fresh
+    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= surface.strength)
     slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):
         new = np.where(slides, w - friction * mean / np.hypot(*mean), 0.0)
@@ -282,7 +264,7 @@ def leapfrog(surface: Surface, state: State) -> State:
     # Releases within the step, (9) to (12)
     released = contact & slides & (np.hypot(*v) == 0.0)
     at_rest = resistance(surface, tau, fresh, 0.0 * w_dot_v, 0.0) * m / tau
-    threshold = np.maximum(surface.mu_static * f_n, at_rest)
+    threshold = np.maximum(surface.strength, at_rest)
     before = u - h * _velocity_before(surface, tau, state.memory, force, new)
     before = np.hypot(*motive_force(surface, before, k - 1))
     released &= before <= threshold
@@ -305,25 +287,20 @@ def leapfrog(surface: Surface, state: State) -> State:
 
 
 def _with_ledger(
-    surface: Surface,
-    now: State,
-    before: State,
-    switched: NDArray[np.bool_],
-    loss: Array,
-    path: float,
+    surface: Surface, now: State, before: State, switched: Mask, loss: Array, path: float
 ) -> State:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
-    pull = surface.material.k_s * (surface.slider * surface.step * now.k - now.u)
+    pull = surface.material.k_s * (surface.slider(now.k) - now.u)
     return replace(
         now,
         switches=before.switches + int(switched.sum()),
-        work=before.work + surface.step * float(np.sum(pull * surface.slider)),
+        work=before.work + float(np.sum(pull * surface.slider(1))),
         heat=before.heat + float(loss[surface.contact].sum()),
         path=before.path + path,
     )
 
 
-def _where(chosen: NDArray[np.bool_], memory: Memory, other: Memory) -> Memory:
+def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
     """Combine two states: `memory` where blocks are chosen, `other` elsewhere."""
     return {name: np.where(chosen, memory[name], other[name]) for name in memory}
 
@@ -356,12 +333,12 @@ def _velocity_before(
 def runge_kutta(surface: Surface, state: State) -> State:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
     m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
-    k, u, v, contact, f_n = state.k, state.u, state.v, surface.contact, surface.load
+    k, u, v, contact = state.k, state.u, state.v, surface.contact
     force = motive_force(surface, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
     at_rest = resistance(surface, h, state.memory, h / m * size / 2.0, -0.5)
     friction = np.where(rests, at_rest, resistance(surface, h, state.memory, np.hypot(*v), 0.0))
-    released = rests & (size > surface.mu_static * f_n) & (h / m * size > friction)
+    released = rests & (size > surface.strength) & (h / m * size > friction)
     e = _direction(surface, force, v, friction, released)
     stuck = rests & ~released
 
@@ -371,7 +348,7 @@ def runge_kutta(surface: Surface, state: State) -> State:
     v = np.where(released, a / 2.0, v)  # (10) with theta = 1/2
     at_release, stage_u, stage_v = friction, u, v
     du, dv, path, friction_work = h * a / 8.0, 0.0 * v, 0.0, 0.0 * size
-    for (node, weight), reach in zip(_STAGES, (0.5, 0.5, 1.0, 0.0), strict=True):
+    for node, weight, reach in _STAGES:
         memory = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
         v_e = np.sum(stage_v * e, axis=0)
         friction = resistance(surface, h, memory, np.abs(v_e), 0.0)
@@ -384,7 +361,7 @@ def runge_kutta(surface: Surface, state: State) -> State:
 
     # Releases before the step, (9), (12) and (13)
     v = np.where(released, 0.0, v)
-    threshold = np.maximum(surface.mu_static, surface.mu_dynamic) * f_n
+    threshold = np.maximum(surface.strength, surface.mu_dynamic * surface.load)
     before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
     before = np.hypot(*motive_force(surface, before, k - 1))
     now = np.hypot(*motive_force(surface, u, k))
@@ -404,15 +381,11 @@ def runge_kutta(surface: Surface, state: State) -> State:
     du_e = np.sum(du * e, axis=0)
     slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + du_e)
     new = np.where(turned, 0.0, new)
-    loss = m * (friction_work / h + lost)
-    return _with_ledger(
-        surface, State(k + 1, u, new, {"slip": slip}, t_det), state, released, loss, path
-    )
+    after, loss = State(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
+    return _with_ledger(surface, after, state, released, loss, path)
 
 
-def _direction(
-    surface: Surface, force: Array, v: Array, friction: Array, released: NDArray[np.bool_]
-) -> Array:
+def _direction(surface: Surface, force: Array, v: Array, friction: Array, released: Mask) -> Array:
     """Unit vectors e: of the velocity in the middle of the step, or of the force at a release.
 
     Under weakening laws the velocity in the middle of the step is the implicit one.

@@ -13,7 +13,6 @@ from springblock.accuracy.budget import (
     Choice,
     best,
     choices,
-    excess,
     finest_bias,
     halving,
     study_budget,
@@ -65,13 +64,6 @@ def test_a_cost_is_that_of_the_error_and_infinite_below_the_bias():
     assert step.cost(step.bias) == inf
     assert step.error(0.9 * step.spent(1.0)) == inf
     assert step.cost(1.0) == step.spent(1.0)  # no less than a realisation
-
-
-def test_the_best_step_exceeds_itself_by_nothing():
-    steps = [second_order(step) for step in (5e-9, 1e-8, 2e-8, 4e-8, 8e-8)]
-    found = excess(steps, 1e2)
-    assert found[best(steps, 1e2).step] == 1.0
-    assert min(found.values()) == 1.0 < max(found.values())
 
 
 def test_a_bias_is_freed_of_its_own_scatter(rng):

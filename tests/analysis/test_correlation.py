@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 
 from springblock import Pattern
-from springblock.analysis import correlation
 from springblock.analysis.correlation import (
     Correlation,
     amplitude,
-    design_effect,
     fit_length,
     fit_tail,
     groove_times,
-    integral_length,
     references,
     side_times,
 )
@@ -46,28 +43,24 @@ def test_a_known_length_is_found(decaying):
     found = Correlation(decaying)
     length = found.length()
     assert length.last == 6  # n_p/3
-    for estimate in (length.fitted, length.integral, length.tail):
+    for estimate in (length.fitted, length.tail):
         assert estimate.low < 3.0 < estimate.high
         assert estimate.high - estimate.low < 1.5
     assert length.amplitude.low < 1.0 < length.amplitude.high
-    assert length.deviation < 2.0
-    assert (np.abs(length.residual.mean) < 0.03).all()
-    assert (length.residual.low < length.residual.mean).all()
     exact = np.exp(-np.arange(len(found.mean)) / 3.0)
     assert (found.interval.low <= exact + 1e-12).all()
     assert (found.interval.high >= exact - 1e-12).all()
 
 
-@pytest.mark.parametrize(("size", "last"), [(6, 2), (12, 4), (20, 6), (60, 6)])
-def test_all_sides_of_twenty_blocks_or_more_have_the_same_range(rng, size, last):
-    assert Correlation(times(rng, 12, 2, size, 3.0)).length().last == last
+def test_all_sides_of_twenty_blocks_or_more_have_the_same_range(rng):
+    sides = {size: Correlation(times(rng, 12, 2, size, 3.0)) for size in (6, 12, 20, 60)}
+    assert {size: side.last for size, side in sides.items()} == {6: 2, 12: 4, 20: 6, 60: 6}
 
 
-def test_a_shift_of_all_blocks_of_a_realisation_does_not_decay(rng):
+def test_a_correlation_that_levels_off_has_a_small_amplitude(rng):
+    """A shift of all blocks of a realisation does not decay."""
     shift = SPREAD * rng.standard_normal((400, 1, 1, 1))
-    flat = Correlation(times(rng, 400, 4, 20, 1.0) + shift).length()
-    assert flat.residual.low[0] > 0.0  # c(r) levels off where the fit goes on falling
-    assert flat.amplitude.high < 1.0
+    assert Correlation(times(rng, 400, 4, 20, 1.0) + shift).length().amplitude.high < 1.0
 
 
 def test_the_definition_word_by_word(rng):
@@ -100,47 +93,22 @@ def test_intervals_have_about_their_nominal_coverage(rng, monkeypatch):
     assert lengths / trials == pytest.approx(0.94, abs=0.06)
 
 
-def test_the_jackknife_leaves_out_one_realisation_at_a_time(rng):
-    """And keeps the weights of all of them in the fit."""
-    t = times(rng, 10, 4, 20, 3.0)
-    found, without = Correlation(t), [Correlation(np.delete(t, i, axis=0)).mean for i in range(10)]
-    np.testing.assert_allclose(
-        found.bias, 9.0 * (np.mean(without, axis=0) - found.mean), atol=1e-12
-    )
-    error = found.resampled[:, 1:7].std(axis=0)
-    fitted, *left_out = fit_length(np.array([found.mean, *without])[:, 1:7], error)
-    assert found.length().bias == pytest.approx(9.0 * (np.mean(left_out) - fitted))
-
-
-def test_the_jackknife_finds_the_bias_of_a_variance_exactly(rng):
-    """Divided by k it is too small by a k-th of the unbiased one."""
-    values = rng.normal(size=8)
-    left_out = np.array([np.delete(values, i).var() for i in range(8)])
-    bias = correlation._jackknife_bias(values.var(), left_out)
-    assert bias == pytest.approx(-values.var(ddof=1) / 8.0)
-
-
 @pytest.mark.parametrize(
     ("size", "expected"),
-    [(6, [2, 3]), (7, [3]), (10, [4, 5]), (20, range(8, 12)), (60, range(24, 36))],
+    [(6, [2, 3]), (7, [3]), (20, range(8, 12)), (60, range(24, 36))],
 )
 def test_references_are_the_central_fifth(size, expected):
     assert references(size).tolist() == list(expected)
 
 
-def test_pillars_that_move_together_are_one_sample(rng):
-    apart = times(rng, 100, 6, 12, 2.0)
-    assert design_effect(apart) == pytest.approx(1.0, abs=0.2)
-    together = np.repeat(apart[:, :1], 6, axis=1)
-    assert design_effect(together) == pytest.approx(6.0, rel=0.2)
-
-
 def test_exact_curves_give_exact_lengths():
     r, error = np.arange(1, 7), np.linspace(0.05, 0.1, 6)
     curves = np.exp(-r / np.array([0.5, 3.0, 40.0])[:, None])
+    between = np.geomspace(2.9, 3.1, 20)  # lengths between those of the grid
     for estimate in (fit_length, fit_tail):
         np.testing.assert_allclose(estimate(curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
-    np.testing.assert_allclose(integral_length(curves), [0.5, 3.0, 40.0], rtol=2e-3)
+        found = estimate(np.exp(-r / between[:, None]), error)
+        np.testing.assert_allclose(found, between, rtol=1e-4)
     np.testing.assert_allclose(fit_tail(0.6 * curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
     np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
     assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
@@ -158,23 +126,17 @@ def test_sides_are_the_outer_rows_and_columns_of_the_pillars():
     assert along_y[0, second, 0].tolist() == [100.0 * y + 15.0 for y in range(3, 9)]
 
 
-def test_sides_cut_by_grooves_are_refused():
-    pattern = Pattern.pillars(24, 8, 4).grooved(2, 1, along="x")
-    run = SimpleNamespace(t_det=np.ones((24, 24)))
-    assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
-    with pytest.raises(ValueError, match="along y are not all in contact"):
-        side_times([run], pattern, "y")
-
-
 def test_edges_of_grooves_are_the_rows_beside_them():
-    pattern = Pattern.pillars(24, 8, 4).grooved(
-        2, 1, along="x"
-    )  # rows 2-3, 5-6 and 8-9 of a pillar
+    """Rows 2-3, 5-6 and 8-9 of a pillar are in contact; its sides along y are cut."""
+    pattern = Pattern.pillars(24, 8, 4).grooved(2, 1, along="x")
     y, x = np.mgrid[:24.0, :24.0]
     run = SimpleNamespace(t_det=100.0 * y + x)
     edges = groove_times([run, run], pattern)
     assert edges.shape == (2, 4, 4, 8)
     assert edges[0, 1, :, 0].tolist() == [314.0, 514.0, 614.0, 814.0]
+    assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
+    with pytest.raises(ValueError, match="along y are not all in contact"):
+        side_times([run], pattern, "y")
     run.t_det[3, 14] = np.nan
     with pytest.raises(ValueError, match="beside a groove never detached"):
         groove_times([run], pattern)
@@ -190,8 +152,3 @@ def test_too_few_or_equal_realisations_are_refused(decaying):
         Correlation(decaying[:2])
     with pytest.raises(ValueError, match="is not defined"):
         Correlation(np.full((5, 1, 2, 6), MIDDLE))
-
-
-def test_the_bias_of_the_length_is_not_due_to_the_grid_of_the_fit(rng):
-    """The jackknife multiplies differences by k, so that steps of the estimate would dominate."""
-    assert abs(Correlation(times(rng, 200, 1, 41, 3.0)).length().bias) < 0.05

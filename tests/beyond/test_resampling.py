@@ -5,7 +5,7 @@ import pytest
 
 from beyond.made_up import ensemble
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import UNCHANGED, direction, listed, number
+from springblock.beyond.question import UNCHANGED, direction, number
 from springblock.beyond.resampling import difference, interval, side_length
 from springblock.model.scene import Scene
 
@@ -36,9 +36,8 @@ def test_every_ensemble_is_resampled_by_itself():
     assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
 
 
-@pytest.mark.parametrize("length", [2.0, 5.0])
-def test_a_correlation_length_is_found_again(length):
-    scene = Scene(80, 20, 20)
+def test_a_correlation_length_is_found_again():
+    scene, length = Scene(80, 20, 20), 5.0
     found = side_length(ensemble(scene, length=length, runs=40), 6)
     assert found.low < length < found.high
     assert found.high - found.low < length
@@ -47,21 +46,20 @@ def test_a_correlation_length_is_found_again(length):
 def test_numbers_are_written_to_what_the_interval_leaves():
     assert number(Interval(*map(np.array, (0.12345, 0.1, 0.2)))) == "0.12 [0.10, 0.20]"
     assert number(Interval(*map(np.array, (123.4, 110.0, 150.0))), " µm") == "123 [110, 150] µm"
-
-
-def test_exact_numbers_have_no_interval():
     assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"
 
 
 @pytest.mark.parametrize(
     ("last", "meaning"),
-    [((0.2, 0.9), "decreases"), ((2.1, 3.0), "increases"), ((0.5, 1.0), UNCHANGED)],
+    [
+        ((0.2, 1.2), "decreases"),
+        ((1.8, 2.8), "increases"),
+        ((0.5, 1.1), "decreases"),
+        ((1.0, 1.6), UNCHANGED),
+    ],
 )
-def test_values_change_where_their_intervals_are_apart(last, meaning):
+def test_values_change_where_the_interval_of_their_difference_excludes_zero(last, meaning):
+    """Where intervals overlap slightly, that of the difference excludes zero nevertheless."""
     low, high = map(np.array, last)
     first = Interval(*map(np.array, (1.5, 1.0, 2.0)))
     assert direction(first, Interval((low + high) / 2.0, low, high)) == meaning
-
-
-def test_names_are_listed_as_in_a_sentence():
-    assert [listed(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]

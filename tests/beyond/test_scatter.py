@@ -24,13 +24,6 @@ def test_neighbours_along_the_axes_are_one_cluster():
     assert np.isnan(clusters.mean_size(np.zeros_like(mask)))
 
 
-def test_blocks_strewn_anywhere_cluster_as_chance_has_it(rng):
-    found = clusters.clusters([before(rng.random((40, 40)) < 0.3, seed) for seed in range(30)])
-    for ratio in (found.ratio, found.ratio_mixed):
-        assert abs(ratio.mean - 1.0) < 2.0 * (ratio.high - ratio.low)
-        assert ratio.high - ratio.low < 0.15
-
-
 def clumps(rng):
     """Squares of 2 x 2 blocks at random."""
     return np.kron(rng.random((20, 20)) < 0.1, np.ones((2, 2))).astype(bool)
@@ -62,22 +55,18 @@ def along_grooves(lengths):
     return found
 
 
-def test_correlation_is_found_by_direction():
-    found = sliding.by_angle(along_grooves({"y": 0.3, "x": 5.0, "45": 2.0}))
+def test_the_page_tells_along_from_across():
+    made = along_grooves({"y": 0.3, "x": 5.0, "45": 2.0})
+    found = sliding.by_angle(made)
     assert list(found) == [0.0, 45.0, 90.0]
     for angle, length in ((0.0, 5.0), (45.0, 2.0), (90.0, 0.3)):
         for times in sliding.edges(found[angle]).values():
             close, far = (sliding.at(times, r) for r in (1, 3))
             assert close.low < np.exp(-1.0 / length) < close.high
             assert far.low - 0.05 < np.exp(-3.0 / length) < far.high + 0.05
-
-
-def test_the_page_tells_along_from_across():
-    conclusion, table = sliding.answers(along_grooves({"x": 5.0, "45": 2.0, "y": 0.3}))
+    conclusion, table = sliding.answers(made)
     assert conclusion.count("decreases from") == 2
     assert len(table.splitlines()) == 8
-    same = along_grooves({"x": 2.0, "45": 2.0, "y": 2.0})
-    assert next(sliding.answers(same)).count(UNCHANGED) == 2
 
 
 def scattered(length, best=lambda std: 10.0):
@@ -92,19 +81,19 @@ def scattered(length, best=lambda std: 10.0):
     return found
 
 
-@pytest.mark.parametrize(("exponent", "words"), [(-1.0, "decreases"), (0.0, UNCHANGED)])
-def test_the_page_says_what_scatter_changes(exponent, words):
-    made = scattered(lambda std: 2.0 * (std / 0.1) ** exponent, lambda std: 10.0 * std / 0.1)
-    conclusion, table = scatter.answers(made)
+@pytest.mark.parametrize(
+    ("exponent", "words", "best", "minimum"),
+    [
+        (-1.0, "decreases", lambda std: 100.0 * std, "changes from 4 to 20."),
+        (0.0, UNCHANGED, lambda std: 10.0, f"{UNCHANGED}: 10."),
+    ],
+)
+def test_the_page_says_what_scatter_changes(exponent, words, best, minimum):
+    conclusion, table = scatter.answers(scattered(lambda std: 2.0 * (10.0 * std) ** exponent, best))
     assert "from 0.05 to 0.2**, the decay length" in conclusion
     assert f"length {words}" in conclusion or f"and {words}" in conclusion
-    assert conclusion.endswith("the friction-minimising n_p changes from 4 to 20.")
-    assert [line.split("|")[4].strip() for line in table.splitlines()[2:]] == ["4", "10", "20"]
-
-
-def test_a_minimum_that_stays_is_said_to_stay():
-    conclusion = next(scatter.answers(scattered(lambda std: 3.0)))
-    assert conclusion.endswith(f"the friction-minimising n_p {UNCHANGED}: 10.")
+    assert conclusion.endswith(f"the friction-minimising n_p {minimum}")
+    assert len(table.splitlines()) == 5
 
 
 def of_sizes(power, runs=200):
@@ -116,9 +105,9 @@ def of_sizes(power, runs=200):
     return found
 
 
-@pytest.mark.parametrize("power", [1.0, 0.5])
-def test_the_exponent_of_the_variance_is_found_again(power):
+def test_the_exponent_of_the_variance_is_found_again():
     """With 200 runs a variance has an error of a tenth, the exponent one of 0.05."""
+    power = 0.5
     sizes = variance.by_pattern(of_sizes(power))[0, 0]
     found = variance.exponent(sizes)
     assert found.low <= power <= found.high
@@ -126,7 +115,9 @@ def test_the_exponent_of_the_variance_is_found_again(power):
 
 
 def test_the_page_says_whether_blocks_are_independent():
-    assert "on flat surfaces (not significantly" in next(variance.answers(of_sizes(1.0)))
+    law, steps, _ = variance.answers(of_sizes(1.0))
+    assert "on flat surfaces (not significantly" in law
+    assert "N = 20 and 40; x = 1 gives 0.25, within the interval" in steps
     assert "on flat surfaces (significantly" in next(variance.answers(of_sizes(0.4)))
     assert not list(variance.answers({Scene(10): lean(Scene(10), 0.7)}))
 

@@ -63,14 +63,11 @@ def test_the_form_of_a_claim_says_what_its_cases_decide(intervals, universal, ge
     assert verdict("existential", findings)[0] == existential
 
 
-def test_all_findings_of_a_case_must_hold():
-    for other, expected in (
-        (HOLDS, "reproduced"),
-        (FAILS, "not reproduced"),
-        (OPEN, "not settled"),
-    ):
-        findings = [finding(*HOLDS, n_p=6), finding(*other, n_p=6)]
-        assert verdict("general", findings)[0] == expected
+@pytest.mark.parametrize(
+    ("other", "expected"), [(HOLDS, "reproduced"), (FAILS, "not reproduced"), (OPEN, "not settled")]
+)
+def test_all_findings_of_a_case_must_hold(other, expected):
+    assert verdict("general", [finding(*HOLDS, n_p=6), finding(*other, n_p=6)])[0] == expected
 
 
 def test_many_findings_hold_together_as_often_as_one_does(rng):
@@ -181,44 +178,28 @@ def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
     assert np.isnan(second["value"])
 
 
-def test_the_page_holds_the_numbers_and_what_is_missing():
-    text = page(rows(SOME, Evidence()))
-    in_short = "A difference is 1.5 [1, 2] s. | > 0 |"
-    assert f"| [1. It grows](#1-it-grows) | general | **reproduced** | – | – | {in_short}" in text
-    assert (
-        "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)." in text
-    )
-    assert "**Not tested** (universal statement). Missing: two sizes." in text
-
-
-def test_the_page_holds_what_would_settle_a_statement_and_the_level_of_its_intervals():
-    text = page(rows([growing([(-1.0, 2.0)], n=1000)], Evidence()))
-    assert "about 26000 realisations would settle it" in text
-    text = page(rows([growing([HOLDS] * 5)], Evidence()))
-    assert "<details><summary>5 findings: a difference</summary>" in text
-    assert "value [95 % interval together, 99 % alone]" in text
-    assert "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |" in text
-
-
-def test_the_page_names_the_boundary_and_the_clearest_failure():
-    text = page(rows([growing([HOLDS, FAILS, (-9.0, -8.0)])], Evidence()))
-    assert "**reproduced in part** | – | – | At n_p = 2, a difference is -8.5 [" in text
-    assert (
-        "It holds at n_p = 0; it fails at n_p = 1 to 2. At n_p = 2, a difference is -8.5 [" in text
-    )
+@pytest.mark.parametrize(
+    ("claims", "expected"),
+    [
+        (SOME, "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)."),
+        (SOME, "**Not tested** (universal statement). Missing: two sizes."),
+        ([growing([(-1.0, 2.0)], n=1000)], "about 26000 realisations would settle it"),
+        ([growing([HOLDS] * 5)], "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
+        (
+            [growing([HOLDS, FAILS, (-9.0, -8.0)])],  # the clearest failure
+            "It holds at n_p = 0; it fails at n_p = 1 to 2. At n_p = 2, a difference is -8.5 [",
+        ),
+    ],
+)
+def test_the_page_holds_the_deciding_numbers(claims, expected):
+    assert expected in page(rows(claims, Evidence()))
 
 
 def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypatch):
-    before = [
-        {"claim": name, "form": "general", "verdict": "reproduced"}
-        | {
-            "claimed_low": low,
-            "claimed_high": "inf",
-            "case": "n_p = 0",
-            "verdict_1_0_0": "depends on",
-        }
-        for name, low in (("It grows", "0.5"), ("It is gone", "0.0"))
-    ]
+    common = {"form": "general", "verdict": "reproduced", "verdict_1_0_0": "depends on"}
+    common |= {"claimed_high": "inf", "case": "n_p = 0"}
+    names = {"It grows": "0.5", "It is gone": "0.0"}
+    before = [{"claim": name, "claimed_low": low, **common} for name, low in names.items()]
     monkeypatch.setattr(register, "registered", lambda: before)
     monkeypatch.setattr(register, "reasons", lambda: {"It grows": "0.5 was a slip"})
     text = page(rows(SOME, Evidence()))

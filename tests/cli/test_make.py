@@ -16,11 +16,6 @@ from springblock.io.rows import select
 from springblock.model.defaults import STEP
 
 
-def test_an_unknown_name_is_refused_with_the_names_there_are(springblock, tmp_path):
-    refusal = springblock("make", "slide", "--output", tmp_path / "table.parquet", refused=True)
-    assert "'slide' is not one of 'stability', 'reference-flat'" in refusal
-
-
 def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
     (text := tmp_path / "text").write_text("text")
     for name, files in (("stability", [text]), ("accuracy", [text]), ("collect", [])):
@@ -61,7 +56,7 @@ def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
 
 def test_an_error_is_the_root_mean_square_over_realisations():
     errors = {"t_max": np.array([3.0, 4.0])}
-    (row,) = rows_of("reference", "flat", "rk4", 1e-8, errors, cost=(1.0, 2.0))
+    (row,) = rows_of("reference", "flat", "rk4", 1e-8, errors, spent=2.0)
     assert row["error"] == pytest.approx(12.5**0.5)
 
 

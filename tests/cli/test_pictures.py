@@ -12,7 +12,7 @@ def quicker(monkeypatch):
     monkeypatch.setattr(film, "FRAMES", 20)
 
 
-@pytest.mark.parametrize("suffix", [".pdf", ".png", ".svg"])
+@pytest.mark.parametrize("suffix", [".pdf", ".png"])
 def test_a_run_is_plotted_with_its_caption(springblock, batch, tmp_path, suffix):
     picture = tmp_path / f"run{suffix}"
     springblock("plot", batch(0, 1), "--output", picture)
@@ -58,17 +58,12 @@ def test_a_surface_is_shown(springblock, tmp_path):
     assert "n_blocks = 12, level = 1, n_p = 4, n_s = 2, direction = 30" in text
 
 
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (["plot"], "unknown type of figure; choose one of .pdf, .png, .svg"),
-        (["animate"], "unknown type of film; choose .gif or .mp4"),
-    ],
-)
-def test_other_formats_are_refused(springblock, batch, tmp_path, words, sentence):
-    assert sentence in springblock(
-        *words, batch(0, 1), "--output", tmp_path / "run.avi", refused=True
-    )
+def test_other_formats_are_refused(springblock, batch, tmp_path):
+    output = ("--output", tmp_path / "run.avi")
+    said = springblock("plot", batch(0, 1), *output, refused=True)
+    assert "unknown type of figure; choose one of .pdf, .png, .svg" in said
+    said = springblock("animate", batch(0, 1), *output, refused=True)
+    assert "unknown type of film; choose .gif or .mp4" in said
     assert list(tmp_path.iterdir()) == []
 
 

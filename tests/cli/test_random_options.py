@@ -42,7 +42,7 @@ def naming(name):
     return [name, plain, "N ", "seed"] if name in COUNTS else [name, plain]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_random_options_run_or_are_refused_by_name(tmp_path, seed):
     draw, outcomes = random.Random(seed), Counter()
     usual = ["simulate", "--n-blocks", "4", "--duration", "2e-6"]

@@ -1,8 +1,16 @@
 """springblock sweep: ensembles without Snakemake."""
 
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
 import pyarrow.parquet as pq
 import pytest
 
+from springblock.io.parquet import load
 from springblock.io.schemas import SUMMARY
 
 SURFACE = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
@@ -39,11 +47,35 @@ def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock
     ("others", "sentence"),
     [
         (("--seeds", 2, "--material", "gamma=0"), "has runs with other constants or code"),
-        (("--vary", "speed=1,2"), "unknown constant 'speed'"),
         (("--vary", "step=a"), "step must be a number, not 'a'"),
         (("--direction", "x,z"), "direction"),
-        (("--seeds", 0), "0 is not in the range"),
     ],
 )
 def test_what_cannot_be_run_is_refused_in_a_sentence(springblock, folder, others, sentence):
     assert sentence in swept(springblock, folder, *others, refused=True)
+
+
+@pytest.mark.parametrize(
+    "command", [("simulate", "--last-seed", "999"), ("sweep", "--seeds", "999", "--jobs", "2")]
+)
+def test_an_interrupt_ends_in_one_line_and_leaves_no_half_written_file(command, tmp_path):
+    """Sent to all processes of the command, as a terminal does."""
+    words = [*command, "--n-blocks", "60", "--output", str(tmp_path / "runs")]
+    said = tmp_path / "said"
+    with said.open("w") as log:
+        run = subprocess.Popen(
+            [sys.executable, "-m", "springblock", *words],
+            stderr=log,
+            start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+        while not re.search(r" [1-9]\d*/", said.read_text()):  # runs are finished
+            assert run.poll() is None
+            time.sleep(0.05)
+        os.killpg(run.pid, signal.SIGINT)
+        assert run.wait(60.0) == 130
+    assert said.read_text().splitlines()[-1] == "Interrupted."
+    assert "Traceback" not in said.read_text()
+    left = [file for file in tmp_path.rglob("*") if file.is_file() and file != said]
+    assert bool(left) == (command[0] == "sweep")
+    assert all(load(file).num_rows == 5 for file in left)

@@ -66,14 +66,12 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     assert found == pytest.approx(exact, rel=1e-9)
 
 
-def test_other_thresholds_are_not_paired(springblock, batch):
-    weaker = batch(0, 2, "--vary", "mu_static=0.9")
-    said = springblock("compare", batch(0, 2), weaker)
+def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
+    springblock, batch, tmp_path
+):
+    said = springblock("compare", batch(0, 2), batch(0, 2, "--vary", "mu_static=0.9"))
     assert "mu_static: 1.0 in" in said
     assert "of means" in said
-
-
-def test_ensembles_of_one_side_alone_are_named(springblock, batch, tmp_path):
     for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))

@@ -1,6 +1,4 @@
-"""A finished tiny study, and a copy of it for each fault to be tried on."""
-
-from dataclasses import replace
+"""A finished tiny study, and a copy of it for each fault."""
 
 import pytest
 
@@ -8,12 +6,9 @@ from studies import FEWER, Study
 
 
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory) -> Study:
+def undisturbed(finished) -> Study:
     """A finished study on one core, which no test changes."""
-    begun = Study.begun(tmp_path_factory.mktemp("faults") / "study", **FEWER)
-    study = replace(begun, options=("--cores", "1"), targets=("aggregate", "correlations"))
-    study.run()
-    return study
+    return finished("undisturbed", ("--cores", "1"), ("aggregate", "correlations"), **FEWER)
 
 
 @pytest.fixture

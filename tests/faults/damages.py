@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from dataclasses import replace
 from zipfile import ZipFile
 
 import pyarrow as pa
@@ -13,9 +14,8 @@ from springblock.simulation.prelude import Prelude
 FLAT, PILLARS = "n_blocks-12/level-0/direction-x", "n_blocks-12/level-1/n_p-6/n_s-6/direction-x"
 BATCH = f"realisations/{FLAT}/batch-0.parquet"
 OTHER = f"realisations/{PILLARS}/batch-0.parquet"
-PRELUDE, OTHER_PRELUDE = f"preludes/{FLAT}.npz", f"preludes/{PILLARS}.npz"
+PRELUDE = f"preludes/{FLAT}.npz"
 TABLE = "tables/realisations.parquet"
-CORRELATION = f"correlations/{PILLARS}/correlation.parquet"
 
 
 def truncated(file, study):
@@ -32,10 +32,6 @@ def flipped(file, study):
         place = array.header_offset + 60 + array.compress_size // 2
     content[place] ^= 4
     file.write_bytes(content)
-
-
-def text(file, study):
-    file.write_text("static_friction,t_max\n0.7,1e-4\n")
 
 
 def unsealed(file, study):
@@ -77,10 +73,9 @@ def with_constant(name, value):
 
 
 def older_code(file, study):
+    older = "0.0.9+0123456789abcdef"
     if file.suffix == ".npz":
-        loaded = Prelude.read(file)
-        object.__setattr__(loaded, "code_version", "0.0.9+0123456789abcdef")
-        loaded.save(file)
-        return
-    table = load(file)
-    write(table, file, origin_of(table) | {"code_version": "0.0.9+0123456789abcdef"})
+        replace(Prelude.read(file), code_version=older).save(file)
+    else:
+        table = load(file)
+        write(table, file, origin_of(table) | {"code_version": older})

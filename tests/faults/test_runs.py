@@ -69,7 +69,8 @@ def date_back(study, seconds=3600):
         os.utime(file, ns=(later, later), follow_symlinks=False)
 
 
-def test_a_killed_job_is_done_again(study, undisturbed):
+def test_after_a_killed_job_and_a_killed_run_the_same_command_continues(study, undisturbed):
+    """The job of the killed run outlives it; both write the same complete file."""
     run = begin(study)
     until(lambda: jobs(study))
     for number in jobs(study):
@@ -78,13 +79,7 @@ def test_a_killed_job_is_done_again(study, undisturbed):
     assert run.returncode != 0
     assert "simulate_batch" in said
     assert not (study.results / BATCH).exists()
-    study.run()
-    assert study.numbers() == undisturbed.numbers()
-
-
-def test_a_killed_run_goes_on_once_it_is_unlocked(study, undisturbed):
-    """Its job, which outlives it, does no harm: both write the same file, whole."""
-    run = begin(study)
+    run = study.start()
     until(lambda: jobs(study))
     os.kill(run.pid, signal.SIGKILL)
     assert "--unlock" in study.run(refused=True)
@@ -151,7 +146,7 @@ def test_a_bad_file_stops_the_study_until_it_is_set_aside(study, undisturbed):
 
 
 def state(study):
-    """Every file of a study's folder with its time and size, but for Snakemake's own."""
+    """Every file of a study's folder with its time and size, except Snakemake's own."""
     return {
         file: (file.stat().st_mtime_ns, file.stat().st_size)
         for file in study.folder.rglob("*")
@@ -159,34 +154,24 @@ def state(study):
     }
 
 
-def test_a_dry_run_writes_nothing(study):
-    for results in ("results", "elsewhere"):
-        study.configure(results=results, step=1e-8)
-        before = state(study)
-        study.run("--dry-run")
-        assert state(study) == before
+def test_touch_does_not_accept_results_of_another_configuration(study):
+    """A dry run, which lists what has to run again, writes nothing."""
+    study.configure(step=1e-8)
+    assert "--touch does not compare them" in study.run("--touch", refused=True)
+    before = state(study)
+    assert {"prelude", "simulate_batch", "aggregate"} <= study.planned().keys()
+    assert state(study) == before
 
 
-def test_lost_memory_alone_changes_nothing(study):
-    forget(study)
-    assert "Nothing to be done" in study.run()
-    assert study.planned() == {}
-
-
-def test_results_of_other_code_are_refused_without_memory(study):
+def test_without_memory_the_same_results_are_kept_and_those_of_other_code_refused(study):
     """Before anything is planned, and whatever time stamps say."""
     forget(study)
+    assert study.planned() == {}
     date_back(study)
     study.edit("solver/friction.py", "0.0", "0.5")
     said = study.run("--dry-run", refused=True)
     assert "another code (compile, simulate, accuracy, mechanism)" in said
     assert "Traceback" not in said
-
-
-def test_touch_does_not_bless_results_of_another_configuration(study):
-    study.configure(step=1e-8)
-    assert "--touch does not compare them" in study.run("--touch", refused=True)
-    assert {"prelude", "simulate_batch", "aggregate"} <= study.planned().keys()
 
 
 def test_a_growing_study_has_each_seed_once(study):
@@ -197,24 +182,16 @@ def test_a_growing_study_has_each_seed_once(study):
     assert found["seed"].to_pylist() == [0, 1, 2, 3, 4]
 
 
-def test_a_comment_runs_nothing_again(study):
+def test_a_changed_formula_runs_again_what_depends_on_it_and_a_comment_nothing(study):
     for module in ("solver/springs.py", "simulation/run.py", "cli/simulate.py", "io/schemas.py"):
         study.edit(module)
     assert study.planned() == {}
-
-
-@pytest.mark.parametrize(
-    ("module", "old", "new", "again"),
-    [
-        ("solver/springs.py", "0.5 * (nex", "0.4 * (nex", {"compile", "prelude", "simulate_batch"}),
-        ("analysis/correlation.py", "1000.0, 922", "1000.0, 900", {"correlation"}),
-    ],
-)
-def test_a_changed_formula_runs_again_what_depends_on_it(study, module, old, new, again):
-    study.edit(module, old, new)
+    study.edit("analysis/correlation.py", "1000.0, 922", "1000.0, 900")
     rules = study.planned().keys()
-    assert again <= rules
-    assert ("simulate_batch" in rules) == ("simulate_batch" in again)
+    assert "correlation" in rules
+    assert "simulate_batch" not in rules
+    study.edit("solver/springs.py", "0.5 * (nex", "0.4 * (nex")
+    assert {"compile", "prelude", "simulate_batch"} <= study.planned().keys()
 
 
 def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):

@@ -28,17 +28,12 @@ def saved(tmp_path):
     return save
 
 
-def test_an_image_is_seen_upright(saved):
-    """Its lowest row of pixels is the first row of blocks, y = 0."""
-    mask = BlockMap.mask(saved(CORNER[::-1], "corner.png"))
-    np.testing.assert_array_equal(mask.values, CORNER)
-    assert mask.values.dtype == bool
-
-
 @pytest.mark.parametrize("mode", ["1", "L", "P", "RGB", "RGBA"])
-def test_black_and_white_is_read_however_it_is_stored(saved, mode):
+def test_an_image_is_seen_upright_however_it_is_stored(saved, mode):
+    """Its lowest row of pixels is the first row of blocks, y = 0."""
     mask = BlockMap.mask(saved(CORNER[::-1], f"{mode}.png", mode))
     np.testing.assert_array_equal(mask.values, CORNER)
+    assert mask.values.dtype == bool
 
 
 @pytest.mark.parametrize("kind", [bool, int, np.uint8, float])
@@ -76,14 +71,9 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
         (PINK, "a.png", "must be black and white, .* only"),
         (CLEAR, "a.png", "must be black and white, .* only"),
         (GREY.astype(np.uint16) * 257, "a.png", "must be black and white, with 1 or 8 bits"),
-        (~CORNER & CORNER, "a.png", "at least one block must be in contact"),
         (~CORNER & CORNER, "a.npy", "at least one block must be in contact"),
         (np.eye(2) * np.nan, "a.npy", r"must hold zeros and one other value, not \[nan\]"),
-        (
-            np.arange(9).reshape(3, 3),
-            "a.npy",
-            r"zeros and one other value, not \[0, 1, 2, 3, 4, 5, \.\.\.",
-        ),
+        (np.arange(9).reshape(3, 3), "a.npy", r"zeros and one other value, not \[0, 1, 2,.*\.\."),
         (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, not .'', 'a'"),
         (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers saved by NumPy"),
         (np.ones(3, bool), "a.npy", r"must have the shape \(N_y, N_x\), not \(3,\)"),
@@ -98,13 +88,13 @@ def test_invalid_masks_are_refused_in_one_sentence(saved, values, name, sentence
     assert "\n" not in str(refusal.value)
 
 
-@pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
-def test_objects_are_never_loaded(tmp_path, monkeypatch, read):
+def test_objects_are_never_loaded(tmp_path, monkeypatch):
     """A pickle can execute any command; this one would create a file."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trap.npy").write_bytes(b"cos\nsystem\n(S'touch trapped'\ntR.")
-    with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers saved by NumPy"):
-        read(tmp_path / "trap.npy")
+    for read in (BlockMap.mask, BlockMap.coefficients):
+        with pytest.raises(ValueError, match=r"trap.npy must be an array of numbers saved by"):
+            read(tmp_path / "trap.npy")
     assert [file.name for file in tmp_path.iterdir()] == ["trap.npy"]
 
 
@@ -124,17 +114,9 @@ def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
         BlockMap.mask(file)
 
 
-@pytest.mark.parametrize(
-    ("values", "sentence"),
-    [
-        (CORNER, "must hold real numbers, not bool"),
-        (np.ones((2, 2), complex), "must hold real numbers, not complex128"),
-        (np.array([["1"]]), "must hold real numbers"),
-        (np.ones((2, 2, 2)), r"must have the shape \(N_y, N_x\), not \(2, 2, 2\)"),
-    ],
-)
-def test_invalid_coefficients_are_refused(saved, values, sentence):
-    with pytest.raises(ValueError, match=f"corner.npy {sentence}"):
+@pytest.mark.parametrize("values", [CORNER, np.ones((2, 2), complex), np.array([["1"]])])
+def test_coefficients_are_real_numbers(saved, values):
+    with pytest.raises(ValueError, match=r"corner.npy must hold real numbers, not "):
         BlockMap.coefficients(saved(values))
 
 

@@ -43,7 +43,7 @@ def test_any_other_angle_has_one_name_and_one_unit_vector(name, others):
     assert math.hypot(*vector) == pytest.approx(1.0, rel=1e-15)
 
 
-@pytest.mark.parametrize("direction", ["up", "diag", "", None, True, "nan", "inf", -math.inf])
+@pytest.mark.parametrize("direction", ["up", "", None, True, "nan", -math.inf])
 def test_invalid_directions_are_refused_by_name(direction):
     with pytest.raises((TypeError, ValueError), match="direction must be 'x', 'y' or a") as refusal:
         normalised(direction)

@@ -15,12 +15,19 @@ NUMBERS = [name for name in NAMES if name not in ("distribution", "law")]
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
-    [("k_int", 75.0), ("k_s", 75.0), ("mass", 1.2e-12), ("block_load", 5e-6)],
+    ("name", "value", "twice_as_thick"),
+    [
+        ("k_int", 75.0, 150.0),
+        ("k_s", 75.0, 37.5),
+        ("mass", 1.2e-12, 2.4e-12),
+        ("block_load", 5e-6, 5e-6),
+    ],
 )
-def test_derived_constants_are_the_papers(name, value):
+def test_derived_constants_are_the_papers(name, value, twice_as_thick):
     """K_int = 3/4 E l_z, K_s = K_int l²/l_z², m = rho l² l_z, F_n = P l²."""
     assert getattr(PAPER, name) == pytest.approx(value, rel=1e-15, abs=0)  # a handful of roundings
+    thick = replace(PAPER, thickness=2e-5)
+    assert getattr(thick, name) == pytest.approx(twice_as_thick, rel=1e-15, abs=0)
 
 
 def test_frequencies_bound_the_stable_steps():
@@ -29,14 +36,6 @@ def test_frequencies_bound_the_stable_steps():
     assert 2 / PAPER.omega_max == pytest.approx(9.56e-8, abs=5e-11)
     assert math.sqrt(8) / PAPER.omega_max == pytest.approx(1.35e-7, abs=5e-10)
     assert PAPER.omega_max == pytest.approx(math.sqrt(7) * PAPER.omega_min, rel=1e-15, abs=0)
-
-
-def test_a_layer_twice_as_thick_hangs_on_springs_half_as_stiff():
-    thick = replace(PAPER, thickness=2e-5)
-    assert thick.k_int == 2 * PAPER.k_int
-    assert thick.k_s == PAPER.k_s / 2
-    assert thick.mass == 2 * PAPER.mass
-    assert thick.block_load == PAPER.block_load
 
 
 def test_whole_numbers_count_as_numbers():
@@ -73,7 +72,6 @@ def test_only_damping_and_friction_may_vanish(name):
     [
         ({"density": 1e-320}, "mass"),
         ({"pressure": 1e308, "spacing": 1e10, "thickness": 1e10}, "block_load"),
-        ({"spacing": 1e200, "thickness": 1e200, "density": 1e-300}, "k_int|mass|block_load|k_s"),
         ({"youngs_modulus": 1e308, "thickness": 1e3}, "k_int"),
     ],
 )

@@ -32,7 +32,7 @@ def test_a_rectangle_is_cut_as_a_square_is():
 
 @pytest.mark.parametrize(
     ("n", "n_p", "n_s"),
-    [(120, 2, 2), (120, 6, 6), (120, 20, 20), (120, 60, 60), (12, 4, 2), (20, 3, 2), (14, 4, 3)],
+    [(120, 2, 2), (120, 60, 60), (12, 4, 2), (14, 4, 3)],
 )
 def test_pillars_and_gaps_alternate(n, n_p, n_s):
     """Half a gap remains at every edge, of an odd one its larger half at the far edge.
@@ -45,14 +45,6 @@ def test_pillars_and_gaps_alternate(n, n_p, n_s):
         assert segments(line) == expected
     assert not contact[0].any()
     assert contact.sum() == (n // (n_p + n_s) * n_p) ** 2
-
-
-@pytest.mark.parametrize(
-    "pattern", [Pattern.pillars(12, 4, 2), GROOVED, GROOVED.grooved(10, 2, along="y")]
-)
-def test_even_gaps_make_a_pattern_its_own_mirror_image(pattern):
-    np.testing.assert_array_equal(pattern.contact, pattern.contact[::-1])
-    np.testing.assert_array_equal(pattern.contact, pattern.contact[:, ::-1])
 
 
 def test_origins_are_the_first_blocks_of_the_pillars():
@@ -89,12 +81,6 @@ def test_crossed_grooves_are_pillars_upon_pillars():
     base = Pattern.pillars(16, 11, 5)
     crossed = base.grooved(5, 1, along="x").grooved(5, 1, along="y")
     np.testing.assert_array_equal(crossed.contact, base.pillared(5, 1).contact)
-
-
-def test_a_third_level_cuts_the_second():
-    third = Pattern.pillars(16, 11, 5).pillared(5, 1).grooved(2, 1, along="x").contact
-    assert segments(third[:, 3]) == [(2, 2), (5, 2), (8, 2), (11, 2)]
-    assert segments(third[2]) == [(2, 5), (8, 5)]
 
 
 def test_contact_is_read_only():

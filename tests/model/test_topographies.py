@@ -2,6 +2,7 @@
 
 import warnings
 from contextlib import nullcontext
+from shlex import split
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,7 +12,7 @@ from springblock.model.blockmap import BlockMap, Cut
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # of what it imports
-    SurfaceTopography = pytest.importorskip("SurfaceTopography")
+    import SurfaceTopography
 
 
 def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value units: nm\n"):
@@ -24,8 +25,10 @@ def written(folder, heights, header="# Width: 40 µm\n# Height: 30 µm\n# Value 
 
 def opened(measured):
     """Open any file as this measurement."""
-    channel = SimpleNamespace(nb_grid_pts=measured.nb_grid_pts)
-    reader = SimpleNamespace(default_channel=channel, topography=lambda: measured)
+    channel = SimpleNamespace(name="Main", index=0, nb_grid_pts=measured.nb_grid_pts)
+    reader = SimpleNamespace(
+        channels=[channel], default_channel=channel, topography=lambda channel_index: measured
+    )
     return lambda file: nullcontext(reader)
 
 
@@ -39,14 +42,10 @@ def test_its_highest_blocks_are_in_contact(tmp_path):
         np.testing.assert_array_equal(np.flatnonzero(contact), range(12 - count, 12))
 
 
-def test_blocks_above_a_height_are_in_contact(tmp_path):
-    contact = Cut(written(tmp_path, HEIGHTS), 1e-5, height=6.5e-9).mask()
-    np.testing.assert_array_equal(contact, HEIGHTS >= 7)
-
-
 @pytest.mark.parametrize(
     ("spacing", "x", "y"),
     [
+        (1e-5, range(4), range(3)),
         (2e-5, [1, 3], [1]),  # centres at 10 and 30 µm: where the second and fourth point begin
         (5e-6, np.repeat(range(4), 2), np.repeat(range(3), 2)),
         (1.5e-5, [0, 2], [0, 2]),  # and half a block left over along x
@@ -55,6 +54,46 @@ def test_blocks_above_a_height_are_in_contact(tmp_path):
 def test_a_block_has_the_height_at_its_centre(tmp_path, spacing, x, y):
     contact = Cut(written(tmp_path, HEIGHTS), spacing, height=6e-9).mask()
     np.testing.assert_array_equal(contact, HEIGHTS[np.ix_(y, x)] >= 6)
+
+
+@pytest.mark.parametrize(
+    ("detrend", "trend"),
+    [("plane", lambda x, y: 30 * x - 7 * y + 2), ("quadratic", lambda x, y: 9 * x**2 - 4 * x * y)],
+)
+def test_a_trend_does_not_decide_the_contact(tmp_path, detrend, trend):
+    """Islands that no quadratic surface resembles, 1 nm high on a trend of some 100 nm."""
+    y, x = np.indices((12, 16))
+    islands = (x // 2 + y // 2) % 2 == 0
+    file = written(tmp_path, islands + trend(x, y))
+    cut = {"spacing": 2.5e-6, "bearing_area": 0.5}
+    np.testing.assert_array_equal(Cut(file, **cut, detrend=detrend).mask(), islands)
+    assert (Cut(file, **cut).mask() != islands).any()
+
+
+def test_heights_come_from_the_channel_that_is_named(tmp_path, monkeypatch):
+    heights = [
+        SurfaceTopography.Topography(h.T, (40.0, 30.0), unit="µm") for h in (HEIGHTS, -HEIGHTS)
+    ]
+    channels = [SimpleNamespace(name=n, index=i, nb_grid_pts=(4, 3)) for i, n in enumerate("ab")]
+    reader = SimpleNamespace(
+        channels=channels,
+        default_channel=channels[0],
+        topography=lambda channel_index: heights[channel_index],
+    )
+    monkeypatch.setattr(SurfaceTopography, "open_topography", lambda file: nullcontext(reader))
+    file = written(tmp_path, HEIGHTS)
+    for channel, highest in ((None, 11), ("a", 11), ("b", 0)):
+        contact = Cut(file, 1e-5, bearing_area=1 / 12, channel=channel).mask()
+        assert np.flatnonzero(contact) == [highest]
+    with pytest.raises(ValueError, match=r"channel must be one of a, b, not .c."):
+        Cut(file, 1e-5, bearing_area=0.5, channel="c").mask()
+
+
+def test_options_of_the_command_are_those_of_the_cut(springblock, tmp_path):
+    file, mask = written(tmp_path, HEIGHTS**2), tmp_path / "mask.npy"
+    cut = Cut(file, 1e-5, height=0.0, channel="Main", detrend="plane")
+    springblock("mask", file, *split(cut.arguments), "--output", mask)
+    np.testing.assert_array_equal(np.load(mask), cut.mask())
 
 
 def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
@@ -101,6 +140,7 @@ def test_jobs_read_what_was_cut(tmp_path):
         (None, {}, "give either bearing_area or height"),
         (None, {"height": 1e-9, "bearing_area": 0.5}, "give either bearing_area or height"),
         (None, {"bearing_area": 0.0}, "bearing_area must be in .0, 1., not 0.0"),
+        (None, {"height": 0.0, "detrend": "x"}, "detrend must be plane or quadratic, not 'x'"),
         (None, {"bearing_area": 30}, "bearing_area must be in .0, 1., not 30"),
     ],
 )

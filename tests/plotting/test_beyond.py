@@ -1,5 +1,6 @@
 """The figures beyond the paper draw without a warning and show the data they are given."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -26,10 +27,14 @@ def lattice() -> Figure:
 
 
 def peaks() -> Figure:
+    """Narrow pawls, below wider ones with lower peaks."""
     heights = {"x": 0.97, "30": 0.95, "y": 0.92}
-    return drawing("beyond_peaks")(
-        by_folder(grooves(heights, runs=2), grooves(heights, 22, runs=2))
-    )
+    narrow = grooves(heights, runs=2), grooves(heights, 22, runs=2)
+    wide: dict[Scene, list[Record]] = {}
+    for scene, runs in grooves(dict.fromkeys(heights, 0.9), runs=2).items():
+        wider = replace(scene, n_p2=10)
+        wide[wider] = [replace(run, scene=wider) for run in runs]
+    return drawing("beyond_peaks")(by_folder(*narrow, wide))
 
 
 def friction() -> Figure:

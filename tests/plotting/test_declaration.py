@@ -50,20 +50,6 @@ def test_a_dry_run_loads_nothing_that_draws():
     assert not {"matplotlib", "pandas", "scipy", "seaborn"} & {*loaded}
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_each_figure_declares_all_that_the_study_needs(name):
-    declared = FIGURES[name]
-    assert declared.title
-    assert declared.category in ("Figures", "Supplement", "Mechanism", "Accuracy", "Beyond")
-    assert declared.caption.endswith(".")
-    assert not set("{}") & set(declared.title + declared.caption)  # wildcards for the workflow
-    for config, groups in (PAPER, FULL, QUICK):
-        if declared.is_part_of(groups):
-            source, lengths = declared.source, config["figures"].get(name, {})
-            given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
-            assert given or not signature(drawing(name)).parameters
-
-
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
     present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
     assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
@@ -128,19 +114,21 @@ def test_figures_need_no_more_tables_than_they_show():
     assert both == [Need("work_precision"), Need("production")]
 
 
-@pytest.mark.parametrize(("config", "groups"), [PAPER, QUICK])
+@pytest.mark.parametrize(("config", "groups"), [PAPER, FULL, QUICK])
 def test_captions_say_what_a_study_draws(config, groups):
     """Whatever the grid holds: every figure of scenes names N, each length, seeds and material."""
     known, material = study.ensembles(config), Material(**config["material"])
     for name, declared in FIGURES.items():
         if not declared.is_part_of(groups):
             continue
-        lengths = config["figures"].get(name, {})
+        source, lengths = declared.source, config["figures"].get(name, {})
+        given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
+        assert given or not signature(drawing(name)).parameters
         caption = declared.caption_in(known, lengths, material)
         assert caption.startswith(declared.caption)
         assert caption.endswith(declared.marks or ".")
-        assert not set("{}") & set(caption)
-        for need in declared.source.needs(groups, lengths):
+        assert not set("{}") & set(declared.title + caption)  # wildcards for the workflow
+        for need in source.needs(groups, lengths):
             for key, length in need.scene.lengths.items() if need.scene else ():
                 assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
             if need.scene:
@@ -204,12 +192,6 @@ def test_a_name_that_is_no_figure_is_refused_with_those_that_are():
     assert (
         sentence == f"Error: unknown figure 'figure_0'; choose one of {', '.join(sorted(FIGURES))}"
     )
-
-
-def test_the_help_lists_figures_by_name_and_title():
-    text = CliRunner().invoke(main, ["figure", "--help"]).output
-    listed = dict(line.split(maxsplit=1) for line in text.splitlines() if line.startswith("  "))
-    assert listed.items() >= {name: figure.title for name, figure in FIGURES.items()}.items()
 
 
 def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):

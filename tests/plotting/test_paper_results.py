@@ -9,20 +9,16 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
 
 from springblock import Pattern
 from springblock.analysis.statistics import (
     mean_interval,
     pillar_ring,
     prominence,
-    whole_curve,
 )
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
-from springblock.plotting.curves import draw_single_forces
-from springblock.plotting.figures import SINGLE
 from springblock.plotting.maps import painted, scale
 from springblock.plotting.style import BEFORE_AFTER, pillar_look
 from springblock.simulation.run import friction
@@ -245,12 +241,6 @@ def test_figure_9_shows_every_single_run():
             ended = np.isnan(line[:, 1])
             assert len(run.time) == np.count_nonzero(~ended)
             np.testing.assert_allclose(line[~ended, 1], run.force / NORMAL_FORCE)
-
-
-def test_no_more_single_runs_are_shown_than_can_be_told_apart():
-    ax = Figure().subplots()
-    draw_single_forces(ax, whole_curve(ensemble(100e-6) * 6), "black")  # 24 runs
-    assert len(ax.get_lines()) == SINGLE == 20
 
 
 def test_curves_go_on_past_the_shortest_run():

@@ -102,13 +102,6 @@ def test_a_run_in_which_nothing_detaches_has_no_times_to_be_drawn():
     assert words == ["not detached", "not in contact"]
 
 
-def test_of_many_snapshots_the_first_the_last_and_two_between_are_drawn(run):
-    times = 1e-6 * np.arange(1.0, 11.0)
-    many = replace(run, snapshot_times=times, snapshots=np.zeros((10, 2, 12, 12)))
-    titles = [ax.get_title() for ax in plot(many).axes]
-    assert [title for title in titles if title] == ["1 µs", "4 µs", "7 µs", "10 µs"]
-
-
 def test_stress_is_mapped_above_slip_in_units_that_the_bars_name():
     """In the same colours at all times; blocks without contact have none."""
     fields, chosen = kept(5), [0, 1, 3, 4]

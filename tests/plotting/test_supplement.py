@@ -14,7 +14,6 @@ from springblock.io.records import Record
 from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
-from springblock.plotting.curves import draw_realisations
 from springblock.plotting.figures import FIGURES
 from springblock.plotting.supplement import let_go_again
 from springblock.study.configuration import Ensemble
@@ -101,12 +100,6 @@ def test_friction_is_a_mean_and_the_lag_of_every_realisation_a_dot(name, line, e
     assert not lag.containers  # no mean, which may lie between two clusters
 
 
-def test_the_median_of_two_clusters_is_a_realisation():
-    ax = Figure().subplots()
-    draw_realisations(ax, {1.0: np.array([-50.0, -40.0, 4.0, 18.0])}, "black")
-    assert ax.get_lines()[-1].get_ydata().tolist() == [-40.0]
-
-
 def test_each_level_has_its_load_peaks_marked():
     panels = draw("levels").axes
     assert panels[0].get_ylim() == panels[1].get_ylim()
@@ -160,7 +153,8 @@ def test_a_row_shows_the_mask_the_mean_times_and_the_force():
     shown = np.ma.filled(times.images[0].get_array(), np.nan)
     np.testing.assert_allclose(shown, expected)
     assert force.get_ylim()[0] == 0.0
-    assert len(others) == 3
+    names = [ax.get_title("left") for ax in (mask, *others)]
+    assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
 
 
 def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
@@ -169,11 +163,6 @@ def test_a_block_that_has_not_let_go_in_a_run_has_no_mean_time():
     (image,) = drawing("surfaces")({"short": [one, short]}).axes[1].images
     known = np.isfinite(np.ma.filled(image.get_array(), np.nan))
     np.testing.assert_array_equal(known, ISLANDS & (np.arange(9) == 8))
-
-
-def test_each_row_is_named_after_its_scene():
-    names = [ax.get_title("left") for ax in draw_surfaces(1).axes]
-    assert names.count("n_blocks = 9, n_rows = 6, mask = islands-1a2b3c4d, direction = x") == 2
 
 
 def test_its_caption_names_what_is_ones_own():

@@ -47,6 +47,8 @@ def test_scenes_that_differ_in_nothing_else_share_a_line(two_lines):
     assert [list(line) for line in found.values()] == [list(SPEEDS)] * 2
     assert len(found) == 2
     assert [line.name for line in found] == ["flat", "$n_{p}$ = 20, $n_{s}$ = 20"]
+    alone = rows(at(SPEEDS[0], n_p=60, n_s=60), 0.7)  # it has one place, and is left out
+    assert lines(two_lines + alone, "slider_velocity") == found
 
 
 def test_coulombs_law_is_where_weakening_takes_no_way():
@@ -62,14 +64,6 @@ def test_the_caption_names_surfaces_and_seeds():
     said = sweep.caption(lines(runs, "slider_velocity"))
     assert "N = 120, sliding direction x. Flat surface, " in said
     assert "slider_velocity=0.00025 (3 realisations, seeds 0 to 2)" in said
-
-
-def test_a_surface_with_one_place_is_neither_drawn_nor_named(two_lines):
-    alone = rows(at(SPEEDS[0], n_p=60, n_s=60), 0.7)
-    everything = two_lines + alone
-    found = lines(everything, "slider_velocity")
-    assert found == lines(two_lines, "slider_velocity")
-    assert "60" not in sweep.caption(found)
 
 
 def test_points_are_means_and_bars_t_intervals(two_lines):
@@ -112,19 +106,6 @@ def test_a_panel_for_each_observable(two_lines):
     assert medians.get_ydata() == pytest.approx([10.0] * 4)
 
 
-def test_numbers_below_a_logarithmic_axis_do_not_touch():
-    speeds = (5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 1e-3)
-    found = lines([r for s in speeds for r in rows(at(s), 0.8)], "slider_velocity")
-    picture = sweep.draw(found, "slider_velocity", ["t_avg"])
-    settle(picture)
-    (ax,) = picture.axes
-    assert ax.get_xticks() == pytest.approx(speeds)
-    shown = [text for text in ax.get_xticklabels() if text.get_text()]
-    boxes = [text.get_window_extent() for text in shown]
-    assert len(shown) > 3
-    assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
-
-
 def test_error_bars_and_numbers_do_not_overlap():
     """Six lines at places close to each other, linear or logarithmic, with wide bars."""
     for speeds in ((3e-4, 4e-4, 5e-4, 6e-4), (5e-5, 4e-4, 5e-4, 1e-3)):
@@ -142,15 +123,16 @@ def test_error_bars_and_numbers_do_not_overlap():
 
 
 def test_directions_stand_side_by_side_with_equal_axes():
-    made = [r for s in SPEEDS for way in ("x", "y") for r in rows(at(s, direction=way), 0.8 + s)]
+    """Over other parameters; over the direction itself they are angles."""
+    friction = {"x": 0.8, "y": 0.6}
+    made = [r for s in SPEEDS for way in "xy" for r in rows(at(s, direction=way), friction[way])]
     found = lines(made, "slider_velocity")
     assert [line.direction for line in found] == ["x", "y"]
-    picture = sweep.draw(found, "slider_velocity", ["static_friction", "t_avg"])
-    settle(picture)
-    left, right, *_ = picture.axes
+    left, right = sweep.draw(found, "slider_velocity", ["static_friction"]).axes
     assert left.get_ylim() == right.get_ylim()
-    assert left.get_position().y0 == right.get_position().y0
     assert [ax.get_title("right") for ax in (left, right)] == ["sliding along x", "sliding along y"]
+    made += rows(at(SPEEDS[0], direction="30"), 0.8)
+    assert list(next(iter(lines(made, "direction").values()))) == [0.0, 30.0, 90.0]
 
 
 def test_a_line_is_named_by_its_mask():
@@ -178,12 +160,6 @@ def test_axes_are_numbers_in_which_two_scenes_differ_that_are_otherwise_alike():
     assert axes(pillars) == ["n_p", "direction"]
     assert axes([at(s) for s in SPEEDS]) == ["slider_velocity"]
     assert axes([Scene(120), Scene(120, 6, 6)]) == []
-
-
-def test_a_direction_is_an_angle():
-    made = [row for way in ("x", "30", "y") for row in rows(Scene(120, direction=way), 0.8)]
-    (line,) = lines(made, "direction").values()
-    assert list(line) == [0.0, 30.0, 90.0]
 
 
 @pytest.mark.parametrize(

@@ -72,14 +72,15 @@ def browser():
         started.close()
 
 
-@pytest.fixture(params=[1280, 390], ids=["wide", "narrow"])
-def opened(browser, request) -> Iterator:
+@pytest.fixture
+def opened(browser) -> Iterator:
     """Open a file at a width; what goes wrong or leaves the file fails the test at its end."""
     complaints: list[str] = []
-    context = browser.new_context(viewport={"width": request.param, "height": 800})
+    context = browser.new_context()
 
-    def open_file(file: Path):
+    def open_file(file: Path, width: int = 1280):
         page = context.new_page()
+        page.set_viewport_size({"width": width, "height": 800})
         page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
         page.on(
             "console",

@@ -18,46 +18,34 @@ OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clie
 BROKEN = "[...document.images].filter((i) => i.complete && !i.naturalWidth).length"
 
 
-@pytest.fixture(scope="session")
-def every_page(study, tmp_path_factory):
+WIDTHS = pytest.mark.parametrize("width", [1280, 390])
+
+
+@pytest.fixture(scope="module")
+def whole(study, tmp_path_factory):
     """A report of the tiny study with those pages, too, that only a whole study has."""
     results, output = study / "results", tmp_path_factory.mktemp("report") / "report.html"
     pages = [results / "claims.md", ROOT / "docs/accuracy.md", ROOT / "docs/beyond.md"]
     figures, tables = (sorted(results.glob(kind)) for kind in ("figures/*.png", "tables/*.parquet"))
-    files = map(str, [*figures, *tables, *pages])
-    main(["report", *files, "--output", str(output)], standalone_mode=False)
+    run, film = next(results.glob("realisations/**/*.parquet")), results / "films/flat.mp4"
+    files = map(str, [*figures, *tables, *pages, "--film", film, run, "--output", output])
+    main(["report", *files], standalone_mode=False)
     return output
 
 
-def shown(page):
-    """Names of the parts that are to be seen."""
-    return page.locator("section.part").evaluate_all(
-        "parts => parts.filter((part) => part.checkVisibility()).map((part) => part.id)"
-    )
-
-
-def click_through(page):
-    """Visit every part, and open all that is folded."""
+@WIDTHS
+def test_every_part_of_the_report_is_shown(whole, opened, width):
+    page = opened(whole, width)
     names = page.locator("nav a").evaluate_all("links => links.map((a) => a.hash.slice(1))")
+    expected = ["findings", "claims", "figures", "accuracy", "beyond", "films", "tables"]
+    assert names == expected
     for name in names:
         page.locator(f"nav a[href='#{name}']").click()
         expect(page.locator(".part:visible")).to_have_attribute("id", name)
         expect(page.locator("nav a[aria-current]")).to_be_in_viewport(ratio=0.99)
-        for fold in page.locator(f"#{name} details:not([open]) > summary").element_handles():
-            fold.click()
+        page.locator(f"#{name} details").evaluate_all("every => every.map((d) => (d.open = true))")
         assert page.evaluate(OVERFLOW) <= 0, name
         assert page.locator(MUTE).count() == page.evaluate(BROKEN) == 0, name
-    return names
-
-
-def test_every_part_of_the_report_is_shown(study, opened):
-    names = click_through(opened(study / "results/report.html"))
-    assert names == ["findings", "claims", "figures", "films", "tables"]
-
-
-def test_every_page_of_a_whole_study_is_shown(every_page, opened):
-    names = click_through(opened(every_page))
-    assert {"claims", "accuracy", "beyond"} <= set(names)
 
 
 def test_a_link_to_a_statement_opens_it(study, opened):
@@ -69,52 +57,30 @@ def test_a_link_to_a_statement_opens_it(study, opened):
     link = statement.get_by_text("All that was found")
     target = page.locator(f"[id='{link.get_attribute('href')[1:]}']")
     link.click()
-    assert shown(page) == ["claims"]
+    expect(page.locator(".part:visible")).to_have_attribute("id", "claims")
     assert target.locator("xpath=ancestor::details").get_attribute("open") is not None
 
 
-def test_tables_are_searched_and_sorted(study, opened):
-    page = opened(study / "results/report.html")
-    page.locator("nav a[href='#tables']").click()
-    table = page.locator("#table-claims")
-    table.locator("summary").first.click()
-    rows = table.locator("tbody tr:visible")
-    everything = rows.count()
-    table.locator("input[type=search]").fill("pillars FLAT")
-    assert 0 < rows.count() < everything
-    found = [text.lower() for text in rows.all_inner_texts()]
-    assert all("flat" in text and "pillars" in text for text in found)
-    table.locator("input[type=search]").fill("nothing holds this")
-    assert rows.count() == 0
-    table.locator("input[type=search]").fill("")
-    table.locator("input[type=search]").fill("form=universal pillars")
-    assert 0 < rows.count() < everything
-    assert all("universal" in text for text in rows.all_inner_texts())
-    table.locator("input[type=search]").fill("")
-    head = table.locator("th", has_text="section")
-    firsts = []
-    for _ in "up", "down":
-        head.locator("button").click()
-        column = head.evaluate("head => head.cellIndex")
-        firsts.append(float(table.locator("tbody tr").first.locator("td").nth(column).inner_text()))
-    assert firsts[0] < firsts[1]
-
-
-def test_a_search_of_a_table_compares_numbers(opened, tmp_path):
-    """On columns, and on what is the same in all rows and stands above them."""
+def test_tables_are_searched_and_sorted(opened, tmp_path):
+    """Numbers in columns are compared, and those that all rows share and that stand above them."""
     held, report = tmp_path / "held.parquet", tmp_path / "report.html"
-    sizes = [6, 20, 60] * 10
-    write(pa.table({"n_p": sizes, "t_max": [1e-6 * n for n in sizes], "N": [120] * 30}), held, {})
+    sizes = [20, 6, 100] * 10
+    made = {"n_p": sizes, "t_max": [1e-6 * n for n in sizes], "N": [120] * 30}
+    write(pa.table(made | {"surface": ["flat", "pillars"] * 15}), held, {})
     report.write_text(written([held], {}), encoding="utf-8")
     page = opened(report)
     page.locator("nav a[href='#tables']").click()
     table = page.locator("#table-held")
     table.locator("summary").first.click()
-    rows, numbers = table.locator("tbody tr:visible"), []
-    for condition in ("n_p=6", "n_p > 6", "t_max<=2e-5", "N=120 n_p=60.0", "N=12", "n_s=6"):
-        table.locator("input[type=search]").fill(condition)
-        numbers.append(rows.count())
-    assert numbers == [10, 20, 20, 10, 0, 0]
+    rows, searched = table.locator("tbody tr:visible"), table.locator("input[type=search]")
+    numbers = {"n_p=6": 10, "n_p > 6": 20, "t_max<=2e-5": 20, "N=120 n_p=6.0": 10, "N=12": 0}
+    words = {"FLAT": 15, "pillars n_p=6": 5, "nothing holds this": 0, "n_s=6": 0, "": 30}
+    for condition, number in (numbers | words).items():
+        searched.fill(condition)
+        assert rows.count() == number, condition
+    for first in "6", "100":  # up, then down
+        table.locator("th button", has_text="t_max").click()
+        assert rows.first.locator("td").first.inner_text() == first
 
 
 def test_a_search_of_the_report_leads_to_what_it_finds(study, opened):
@@ -155,8 +121,9 @@ def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
     assert set(read["integrator"]) == {"leapfrog"}  # said above the table
 
 
-def test_figures_can_be_enlarged_in_their_own_box(study, opened):
-    page = opened(study / "results/report.html")
+@WIDTHS
+def test_figures_can_be_enlarged_in_their_own_box(study, opened, width):
+    page = opened(study / "results/report.html", width)
     frame = page.locator("#figure_6 .frame")
     widths = []
     for _ in range(2):

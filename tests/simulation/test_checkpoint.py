@@ -1,7 +1,5 @@
 """A stopped run continues from its checkpoint to the same bits."""
 
-from itertools import product
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,6 @@ from springblock.accuracy.specimens import drawn
 from springblock.simulation.checkpoint import Checkpoint
 
 PILLARS = Pattern.pillars(12, 4, 2)
-WEAKENING = Material(law="slip_weakening", slip_distance=5e-8)
 LONG = 1.6e-4  #: s, 80 pauses; blocks slide from 126 µs on
 TAKEN = 70  #: pauses before the run is stopped, at 140 µs
 EACH_PAUSE = 1e-9  #: s between two writings
@@ -63,10 +60,11 @@ def answer(run):
 @pytest.mark.parametrize(
     ("integrator", "material"),
     [
-        *product(["leapfrog", "rk4"], [Material(), WEAKENING]),
+        ("leapfrog", Material()),
+        ("rk4", Material(law="slip_weakening", slip_distance=5e-8)),
         ("leapfrog", Material(law="config/examples/exponential_weakening.py")),
     ],
-    ids=lambda each: str(getattr(each, "law", each)),
+    ids=["leapfrog", "rk4", "law from a file"],
 )
 def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator, material):
     how = {"integrator": integrator, "snapshot_times": (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)}
@@ -80,11 +78,9 @@ def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator
     assert not file.exists()
 
 
-def test_a_run_may_continue_without_its_prelude_and_on_more_cores(stopped):
-    prelude = compute_prelude(PILLARS.contact)
-    file = stopped(prelude=prelude, duration=3e-4)
-    again = pull(checkpoint=file, duration=3e-4, cores=2)
-    assert answer(again) == answer(pull(duration=3e-4))
+def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped):
+    file = stopped(prelude=compute_prelude(PILLARS.contact), duration=3e-4)
+    assert answer(pull(checkpoint=file, duration=3e-4, cores=2)) == answer(pull(duration=3e-4))
 
 
 def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):
@@ -98,7 +94,6 @@ def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):
         ({"seed": 2}, "friction coefficients"),
         ({"pattern": Pattern.pillars(12, 2, 1)}, "scene or setup, friction coefficients"),
         ({"direction": "y"}, "scene or setup"),
-        ({"material": Material(gamma=4e3)}, "scene or setup"),
         ({"step": 1e-8}, "scene or setup"),
         ({"duration": 2e-4}, "duration"),
         ({"snapshot_times": (2e-6,)}, "snapshot_times"),
@@ -130,14 +125,6 @@ def test_other_files_are_refused(stopped, tmp_path):
         file.write_bytes(content)
         with pytest.raises(ValueError, match=r"run.npz is not a checkpoint: "):
             pull(checkpoint=file)
-
-
-@pytest.mark.parametrize(
-    ("interval", "error"), [(0.0, ValueError), (-1.0, ValueError), ("60", TypeError)]
-)
-def test_the_interval_is_a_positive_time(tmp_path, interval, error):
-    with pytest.raises(error, match="checkpoint_interval must be "):
-        pull(checkpoint=tmp_path / "run.npz", checkpoint_interval=interval)
 
 
 def test_a_short_run_leaves_nothing_behind(tmp_path):

@@ -1,14 +1,11 @@
 """The energy ledger: conservation of energy, term by term."""
 
-from dataclasses import astuple
-
 import mpmath
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, simulate
-from springblock.accuracy.kernels import spring_forces
-from springblock.accuracy.specimens import drawn, flat, uniform
+from springblock import Material, simulate
+from springblock.accuracy.specimens import uniform
 from springblock.simulation.energy import elastic_energy
 
 PAPER = Material()
@@ -40,7 +37,7 @@ def exact_energy(u, slider):
         return float(total)
 
 
-@pytest.mark.parametrize("strain", [1e-12, 1e-9, 1e-2, 0.2])
+@pytest.mark.parametrize("strain", [1e-9, 1e-2, 0.2])
 def test_elastic_energy_keeps_its_digits_at_any_strain(strain, rng):
     """At a strain of 1e-9, r - L from square roots would keep seven digits of sixteen.
 
@@ -53,55 +50,17 @@ def test_elastic_energy_keeps_its_digits_at_any_strain(strain, rng):
     )
 
 
-def test_the_force_is_the_gradient_of_the_energy(rng):
-    """dE/ds along a random direction d, by central differences: -ΣF·d, error of order s²."""
-    u, d = rng.uniform(-1.0, 1.0, (2, 2, 5, 5))
-    u = 1e-2 * u
-    length, s = PAPER.spacing, 1e-5
-
-    def energy(displacement):
-        hung = 0.5 * PAPER.k_s * np.sum((length * displacement) ** 2)
-        return elastic_energy(length * displacement, np.zeros(2), PAPER) - hung
-
-    slope = (energy(u + s * d) - energy(u - s * d)) / (2 * s)
-    work = -np.sum(spring_forces(u) * d) * PAPER.k_int * length**2
-    assert slope == pytest.approx(work, rel=1e-8, abs=0)
-
-
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("gamma", [0.0, 5e5])
 def test_without_friction_the_ledger_closes_to_second_order(integrator, gamma):
     """The slider's work is summed by the trapezoidal rule: halving h quarters the residual."""
     material = Material(gamma=gamma)
-    residuals = [
-        simulate(
-            *nailed(6),
-            material=material,
-            integrator=integrator,
-            step=step,
-            duration=8e-6,
-            sample_interval=4e-8,
-        ).energy.relative_residual
-        for step in (2e-8, 1e-8, 5e-9)
-    ]
+    how = {"integrator": integrator, "duration": 8e-6, "sample_interval": 4e-8}
+    runs = [simulate(*nailed(6), material, step=step, **how) for step in (2e-8, 1e-8, 5e-9)]
+    residuals = [run.energy.relative_residual for run in runs]
     assert abs(residuals[0]) < (PAPER.omega_max * 2e-8) ** 2
     ratios = np.divide(residuals[:-1], residuals[1:])
     assert ratios == pytest.approx([4.0, 4.0], rel=0.1)
-
-
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_after_sliding_the_ledger_closes_to_second_order(integrator):
-    """All blocks have stopped: a quarter of the step leaves a sixteenth of the residual or less.
-
-    From 5e-9 s on: coarser steps have terms of higher order with the other sign, and the residual
-    passes through zero near 1e-8 s.
-    """
-    steps = (1e-8, 5e-9, 1.25e-9)
-    runs = [simulate(*flat(6, seed=3), integrator=integrator, step=step) for step in steps]
-    assert not any(run.velocity.any() for run in runs)
-    residuals = [abs(run.energy.relative_residual) for run in runs]
-    assert residuals[0] < (PAPER.omega_min * 1e-8) ** 2 / 100
-    assert residuals[2] < residuals[1] / 15
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
@@ -117,12 +76,6 @@ def test_during_sliding_the_ledger_closes_to_second_order(integrator):
     assert np.hypot(*fine.velocity[:, 0, 0]) > 0.1
     assert abs(coarse.energy.relative_residual) < (PAPER.omega_min * 2e-8) ** 2
     assert abs(fine.energy.relative_residual) < abs(coarse.energy.relative_residual) / 15
-
-
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_no_term_of_the_ledger_is_negative(integrator):
-    run = simulate(*drawn(Pattern.pillars(12, 4, 2), seed=1), integrator=integrator)
-    assert min(astuple(run.energy)) > 0.0
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

@@ -30,16 +30,17 @@ def skipped(prelude, *scene):
     return prelude.start(state, constants, latest=np.inf)[0]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_run_from_the_prelude_is_the_run_from_zero(prelude, seed):
-    scene = drawn(PILLARS, seed)
-    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
-
-
-@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
-@pytest.mark.parametrize("direction", ["y", 30.0])
-@pytest.mark.parametrize("surface", ["flat", "pillars", "grooves", "random"])
-def test_it_is_for_every_surface_direction_and_integrator(surface, direction, integrator):
+@pytest.mark.parametrize(
+    ("surface", "direction", "integrator"),
+    [
+        ("flat", "y", "leapfrog"),
+        ("pillars", "x", "leapfrog"),
+        ("pillars", 30.0, "rk4"),
+        ("grooves", 30.0, "leapfrog"),
+        ("random", "y", "rk4"),
+    ],
+)
+def test_a_run_from_the_prelude_is_the_run_from_zero(surface, direction, integrator):
     contact = {
         "flat": Pattern.flat(8).contact,
         "pillars": PILLARS.contact,
@@ -47,10 +48,8 @@ def test_it_is_for_every_surface_direction_and_integrator(surface, direction, in
         "random": np.random.default_rng(5).random((9, 9)) < 0.7,
     }[surface]
     how = {"direction": direction, "integrator": integrator}
-    scene, prelude = (
-        (contact, *draw_friction(len(contact), seed=1)),
-        compute_prelude(contact, **how),
-    )
+    scene = contact, *draw_friction(len(contact), seed=1)
+    prelude = compute_prelude(contact, **how)
     assert prelude.samples.max() > 0
     assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
 
@@ -72,50 +71,32 @@ def test_a_weak_block_makes_a_run_start_from_an_earlier_state(prelude):
     assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
 
 
-def test_a_run_starts_before_its_first_snapshot(prelude):
-    scene, times = drawn(PILLARS, seed=1), [4e-6, 1e-4]
-    skipping = simulate(*scene, duration=1.2e-4, snapshot_times=times, prelude=prelude)
-    plain = simulate(*scene, duration=1.2e-4, snapshot_times=times)
-    assert skipping.snapshots.tobytes() == plain.snapshots.tobytes()
-
-
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
-def test_fields_after_the_prelude_are_those_of_the_run_from_zero(integrator):
+@pytest.mark.parametrize("times", [[4e-6, 1e-4], [1.3e-4, 1.5e-4]])
+def test_fields_are_those_of_the_run_from_zero(integrator, times):
+    """A run starts before its first snapshot."""
     prelude = compute_prelude(PILLARS.contact, integrator=integrator)
-    scene, times = drawn(PILLARS, seed=1), [1.3e-4, 1.5e-4]
+    scene = drawn(PILLARS, seed=1)
     how = {"integrator": integrator, "duration": 1.6e-4, "snapshot_times": times}
-    assert skipped(prelude, *scene) * 2e-7 > 0.5 * times[0]
+    assert skipped(prelude, *scene) * 2e-7 > 6e-5
     skipping, plain = simulate(*scene, **how, prelude=prelude), simulate(*scene, **how)
-    assert plain.fields.slip[1, PILLARS.contact].any()
+    assert plain.fields.slip[1, PILLARS.contact].any() == (times[1] > 1e-4)
     for name in ("displacement", "velocity", "stress"):
         assert getattr(skipping.fields, name).tobytes() == getattr(plain.fields, name).tobytes()
 
 
-@pytest.mark.parametrize("n_blocks", [12, 24, 48])
-def test_a_prelude_stores_six_states_of_the_moving_blocks(n_blocks, tmp_path):
-    contact = Pattern.pillars(n_blocks, 4, 2).contact
+def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
+    contact = Pattern.pillars(24, 4, 2).contact
     fast = Material(slider_velocity=5e-3)  # soon over
     prelude = compute_prelude(contact, fast, sample_interval=2e-8)
     assert len(prelude.samples) == len(HOLDING) == 6
     assert (np.diff(prelude.samples) > 0).all()
     bound = np.count_nonzero(contact)
-    numbers = 6 * (4 * (n_blocks**2 - bound) + bound)
+    numbers = 6 * (4 * (24**2 - bound) + bound)
     assert prelude.fields.nbytes + prelude.peak.nbytes == 8 * numbers
     prelude.save(tmp_path / "prelude.npz")
-    few = prelude.force.nbytes + n_blocks**2 + 4096  # the samples, the pattern as text, headers
+    few = prelude.force.nbytes + 24**2 + 4096  # the samples, the pattern as text, headers
     assert (tmp_path / "prelude.npz").stat().st_size < 8 * numbers + few
-
-
-def test_each_state_is_valid_for_its_share_of_seeds(prelude):
-    seeds = 400
-    start = [skipped(prelude, *drawn(PILLARS, seed)) for seed in range(seeds)]
-    for samples, share in zip(prelude.samples, HOLDING, strict=True):
-        scatter = np.sqrt(share * (1.0 - share) / seeds)
-        assert np.mean(np.array(start) >= samples) > share - 4.0 * scatter
-
-
-def test_a_prelude_is_read_as_it_was_written(prelude, tmp_path):
-    prelude.save(tmp_path / "prelude.npz")
     stored = Prelude.read(tmp_path / "prelude.npz")
     assert vars(stored).keys() == vars(prelude).keys()
     for name, value in vars(prelude).items():
@@ -144,7 +125,6 @@ def test_a_prelude_of_another_scene_is_refused(prelude, change):
     ("pattern", "material"),
     [
         (Pattern.flat(1), Material()),
-        (Pattern.flat(3), Material()),
         (Pattern.pillars(12, 4, 2), Material(pressure=5e7, slider_velocity=0.5)),
     ],
 )
@@ -153,21 +133,16 @@ def test_a_prelude_ends_with_few_blocks_or_a_broken_spring(pattern, material):
     assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1
 
 
-@pytest.mark.parametrize("kind", ["lognormal", "weibull", "uniform"])
-@pytest.mark.parametrize("length", [0.0, 2e-5])
-def test_stored_states_depend_on_the_distribution_of_thresholds(kind, length):
+@pytest.mark.parametrize(("kind", "length"), [("normal", 0.0), ("uniform", 0.0), ("weibull", 2e-5)])
+def test_each_state_is_valid_for_its_share_of_seeds(kind, length):
     """With correlated thresholds a state is valid for more seeds than its share."""
     material = Material(mu_static_std=0.25, distribution=kind, correlation_length=length)
     how = {"material": material, "sample_interval": 4e-8}  # often looked at
-    seeds, prelude = 300, compute_prelude(PILLARS.contact, **how)
+    seeds, prelude = 200, compute_prelude(PILLARS.contact, **how)
     surfaces = [(PILLARS.contact, *draw_friction(12, seed, material)) for seed in range(seeds)]
     start = np.array([skipped(prelude, *surface) for surface in surfaces])
     for samples, share in zip(prelude.samples, HOLDING, strict=True):
         assert np.mean(start >= samples) > share - 4.0 * np.sqrt(share * (1.0 - share) / seeds)
-    plain, skipping = (
-        simulate(*surfaces[0], **how, duration=1e-4, prelude=each) for each in (None, prelude)
-    )
-    assert answer(plain) == answer(skipping)
 
 
 def test_known_thresholds_leave_only_the_last_valid_state():

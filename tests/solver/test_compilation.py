@@ -14,34 +14,25 @@ from springblock.solver import compilation
 from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
 
 
-def test_a_second_process_does_not_compile(tmp_path):
-    assert run_kernels(tmp_path / "cache") == (["0", "0"], [COMPILING], 0)
-    assert run_kernels(tmp_path / "cache") == (["1", "1"], [], 0)
-    assert len(list(tmp_path.glob("cache/springblock/*/lock"))) == 1  # see `_OneCompiler`
-
-
-def test_unlike_processors_have_folders_of_their_own(tmp_path):
+def test_each_kind_of_processor_compiles_once(tmp_path):
+    """And has a folder of its own."""
     unlike = ({}, {"NUMBA_CPU_NAME": "generic"}) * 2
     found = [run_kernels(tmp_path / "cache", **processor) for processor in unlike]
-    assert [hits for hits, *_ in found] == [["0", "0"], ["0", "0"], ["1", "1"], ["1", "1"]]
-    assert len(list(tmp_path.glob("cache/springblock/*"))) == 2
+    assert found == [(["0", "0"], [COMPILING], 0)] * 2 + [(["1", "1"], [], 0)] * 2
+    assert len(list(tmp_path.glob("cache/springblock/*/lock"))) == 2  # see `_OneCompiler`
 
 
 @pytest.mark.parametrize("mode", [0o777, 0o770])
 @pytest.mark.parametrize("level", ["springblock", "springblock/*"])
-def test_nothing_is_read_from_a_folder_that_others_can_write_to(tmp_path, mode, level):
-    run_kernels(tmp_path / "cache")
-    (folder,) = (tmp_path / "cache").glob(level)
-    assert folder.stat().st_mode & 0o777 == 0o700
-    folder.chmod(mode)
-    hits, (said,), code = run_kernels(tmp_path / "cache")
-    assert (hits, code) == (["0", "0"], 0)
-    assert said.endswith(f"because nothing is cached: others can write to {folder}")
-
-
-def test_nothing_is_read_from_a_folder_of_another_user(tmp_path, monkeypatch):
+def test_a_folder_is_refused_that_is_not_the_users_alone(tmp_path, monkeypatch, mode, level):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     assert _cache_folder().is_relative_to(tmp_path)
+    (folder,) = tmp_path.glob(level)
+    assert folder.stat().st_mode & 0o777 == 0o700
+    folder.chmod(mode)
+    with pytest.raises(PermissionError, match=f"others can write to {folder}$"):
+        _cache_folder()
+    folder.chmod(0o700)
     monkeypatch.setattr(os, "getuid", lambda: tmp_path.stat().st_uid + 1)
     with pytest.raises(PermissionError, match=f"others can write to {tmp_path}"):
         _cache_folder()
@@ -96,7 +87,6 @@ def test_one_process_compiles_at_a_time(tmp_path):
 def test_kernels_work_with_public_parts_of_numba_alone(tmp_path):
     lost = "import sys, numba\nsys.modules['numba.core.event'] = None  # cannot be imported\n"
     assert run_kernels(tmp_path / "cache", lost) == (["0", "0"], [], 0)
-    assert run_kernels(tmp_path / "cache", lost) == (["1", "1"], [], 0)
 
 
 def test_kernels_work_without_compiling(tmp_path):

@@ -12,7 +12,6 @@ from springblock.solver.laws import SlipWeakening, VelocityWeakening, law_of
 
 STATIC, DYNAMIC = 1.0, 0.6
 DROP = STATIC - DYNAMIC
-SCALES = [1e-3, 0.1, 0.2, 1.0, 100.0]
 
 
 @njit
@@ -41,11 +40,11 @@ def slip(d_c, *slips):
 
 def test_there_is_a_law_for_each_name():
     """In units of l and of l per step."""
+    kinds = {"coulomb": type(None), "slip_weakening": SlipWeakening}
     for name, constant in LAWS.items():
         material = Material(law=name, **({constant: 2e-6} if constant else {}))
         law = law_of(material, 1e-8, 1.0, np.ones(3, bool), lambda: np.zeros(3))
-        kind = {"coulomb": type(None), "slip_weakening": SlipWeakening}
-        assert isinstance(law, kind.get(name, VelocityWeakening))
+        assert isinstance(law, kinds.get(name, VelocityWeakening))
     assert law.scale == pytest.approx(2e-6 * 1e-8 / 1e-5, rel=1e-15)
 
 
@@ -60,24 +59,21 @@ def test_python_and_compiled_callers_agree(law):
     assert laws.state_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 
-def test_friction_falls_linearly_with_slip():
-    law = slip(0.5)
-    found = [resistance(law, s, 0.0, 0.0) for s in (0.0, 0.125, 0.25, 0.5, 9.0)]
-    assert found == pytest.approx([1.0, 0.9, 0.8, 0.6, 0.6], rel=1e-15)
+@pytest.mark.parametrize(
+    ("law", "slips", "speeds", "expected"),
+    [
+        (slip(0.5), (0.0, 0.125, 0.25, 0.5, 9.0), [0.0] * 5, [1.0, 0.9, 0.8, 0.6, 0.6]),
+        (VelocityWeakening(0.2), [0.0] * 4, (0.0, 0.2, 0.6, 1e12), [1.0, 0.8, 0.7, 0.6]),
+    ],
+)
+def test_friction_falls_linearly_with_slip_or_by_half_its_drop_at_a_speed(
+    law, slips, speeds, expected
+):
+    found = [resistance(law, s, v, 0.0) for s, v in zip(slips, speeds, strict=True)]
+    assert found == pytest.approx(expected, rel=1e-11)
 
 
-def test_friction_falls_with_speed_to_half_its_drop_at_the_scale():
-    law = VelocityWeakening(0.2)
-    found = [resistance(law, 0.0, speed, 0.0) for speed in (0.0, 0.2, 0.6, 1e12)]
-    assert found == pytest.approx([1.0, 0.8, 0.7, 0.6], rel=1e-11)
-
-
-@pytest.mark.parametrize("law", [slip(0.5), VelocityWeakening(0.2)])
-def test_nothing_weakens_where_mu_s_is_below_mu_d(law):
-    assert resistance(law, 0.1, 0.1, 0.0, static=0.3) == DYNAMIC
-
-
-@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("scale", [1e-3, 0.2, 100.0])
 @pytest.mark.parametrize("share", [-0.5, 0.5])
 def test_friction_is_that_at_the_mean_speed_which_depends_on_it(scale, share):
     """V = speed + share T(V), to rounding."""
@@ -100,7 +96,7 @@ def test_a_block_stops_if_there_is_no_solution():
 
 
 @pytest.mark.parametrize("law", [None, slip(0.5), VelocityWeakening(0.3), slip(1e-3)])
-@pytest.mark.parametrize("force", [0.0, 0.3, 0.6, 0.61, 1.0 - 1e-15])
+@pytest.mark.parametrize("force", [0.0, 0.61, 1.0 - 1e-15])
 def test_every_law_holds_a_block_up_to_its_static_threshold(law, force):
     assert released(law, force) == (0.0, 0.0)
 
@@ -126,74 +122,33 @@ def test_slip_accumulates_until_the_block_stops_and_heals():
     assert resistance(law, law.slip[1], 0.0, 0.0) == STATIC
 
 
-@pytest.mark.parametrize("force", [1.0 + 1e-12, 1.5, 40.0])
-def test_beyond_the_threshold_coulombs_dynamic_friction_acts(force):
-    speed = force - DYNAMIC
-    assert released(None, force) == pytest.approx((0.8 * speed, -0.6 * speed), rel=1e-14, abs=0)
-
-
-@pytest.mark.parametrize("force", [0.05, 0.3, 0.59])
-def test_a_block_with_mu_s_below_mu_d_detaches_at_mu_d(force):
+def test_a_block_with_mu_s_below_mu_d_detaches_at_mu_d_and_slowly():
     """If it detached at mu_s, it would come to rest in the same instant, again and again."""
-    assert released(None, force, static=0.05) == (0.0, 0.0)
-
-
-def test_a_block_with_mu_s_below_mu_d_starts_slowly():
+    assert released(None, 0.59, static=0.05) == (0.0, 0.0)
     speed = np.hypot(*released(None, 0.6 + 1e-9, static=0.05))
     assert speed == pytest.approx(1e-9, rel=1e-6, abs=0)  # a difference of numbers near 0.6
-
-
-def test_without_friction_the_velocity_is_unchanged():
-    assert after(None, (1e-9, 2e-9), (-1.0, 0.0), (3.0, 0.0), 0.0, 0.0) == (1e-9, 2e-9)
-
-
-@pytest.mark.parametrize("force", [(9.0, 0.0), (-9.0, 0.0), (0.0, 9.0)])
-def test_a_block_slower_than_one_step_of_friction_stops_exactly(force):
-    """|w| <= mu_d F_n h/m: friction cannot do more than stop it, whatever the force."""
-    assert after(None, (0.36, -0.48), (0.5, -0.5), force) == (0.0, 0.0)
-
-
-@pytest.mark.parametrize("before", [0.5, 1.0, 3.0])
-def test_a_faster_block_loses_one_step_of_friction(before):
-    v = (0.6 * before, -0.8 * before)
-    speed = 2.0 - DYNAMIC
-    kept = after(None, (1.2, -1.6), v, (0.0, 0.0))
-    assert kept == pytest.approx((0.6 * speed, -0.8 * speed), rel=1e-14, abs=0)
-
-
-def test_a_block_that_reverses_sticks():
-    """At the instant of rest within the step, F_mot is within the static threshold."""
-    assert after(None, (-0.7, 0.1), (0.2, 0.0), (-0.9, 0.1)) == (0.0, 0.0)
-
-
-def test_a_block_that_reverses_under_a_large_force_slides_on():
-    """F_mot exceeds the static threshold at the instant of rest."""
-    kept = after(None, (-0.8, 0.0), (0.2, 0.0), (-1.01, 0.0))
-    assert kept == pytest.approx((-0.2, 0.0), rel=1e-14, abs=0)
-
-
-def test_a_block_that_changes_direction_slides_on():
-    assert np.hypot(*after(None, (0.1, 1.2), (0.2, 0.0), (0.1, 0.9))) > 0.0
 
 
 def test_friction_opposes_motion_and_never_exceeds_its_law(rng):
     """For any motion and force: a sliding block loses mu_d F_n h/m, against its velocity.
 
-    It stops only if it has less than that to lose, or if it reverses. Friction opposes the mean
-    velocity of the step, so that it lags or leads neither by half a step.
+    It stops only if it has less than that to lose, or if it reverses, or was at rest, and F_mot is
+    within the static threshold. Friction opposes the mean velocity of the step, so that it lags or
+    leads neither by half a step.
     """
     motions = rng.normal(scale=[[1.0], [1.0], [2.0]], size=(1000, 3, 2))
-    w, v, _ = motions.transpose(1, 0, 2)
+    motions[:100, 1] = 0.0
+    w, v, f = motions.transpose(1, 0, 2)
     kept = np.array([after(None, *motion) for motion in motions])
     sliding, turned = kept.any(axis=1), np.sum(w * v, axis=1) <= 0.0
-    assert 100 < sliding.sum() < 900
+    held = turned & (np.hypot(*f.T) <= STATIC)
+    np.testing.assert_array_equal(sliding, ~held & (np.hypot(*w.T) > DYNAMIC))
     taken = w - kept
     np.testing.assert_allclose(np.hypot(*taken[sliding].T), DYNAMIC, rtol=1e-13)
-    assert (np.sum(taken * w, axis=1) >= 0.0).all()
-    assert (turned | (np.hypot(*w.T) <= DYNAMIC))[~sliding].all()
-    on = sliding & ~turned
-    assert on.sum() > 100
-    taken, mean = taken[on], 0.5 * (v + kept)[on]
+    mean = np.where(turned[:, None], w, v + kept)[sliding]
+    taken = taken[sliding]
     across = taken[:, 0] * mean[:, 1] - taken[:, 1] * mean[:, 0]
     np.testing.assert_allclose(across, 0.0, atol=1e-13)
     assert (np.sum(taken * mean, axis=1) > 0.0).all()
+    for kind in (held, sliding & turned, sliding & ~turned):
+        assert kind.sum() > 50

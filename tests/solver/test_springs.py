@@ -45,11 +45,6 @@ def exact_forces(u):
     return np.array([[[float(f[i]) for f in row] for row in total] for i in range(2)])
 
 
-def breaks(y, x):
-    """Expect the first broken spring that is found to be one of block (y, x)."""
-    return pytest.raises(SimulationError, match=rf"a spring of block \({y}, {x}\) has collapsed")
-
-
 def test_the_series_is_as_good_as_it_says():
     q = np.linspace(-SERIES_RANGE, SERIES_RANGE, 101)[np.arange(101) != 50]
     polynomial = np.polynomial.polynomial.polyval(q, series())
@@ -65,7 +60,7 @@ def test_the_closed_form_is_exact_to_rounding_at_any_strain(q):
     assert g(q) == pytest.approx(exact, rel=EPS * (3 + 1 / (1 + q)))
 
 
-@pytest.mark.parametrize("amplitude", [1e-12, 1e-6, 1e-2, 0.1, 0.2])
+@pytest.mark.parametrize("amplitude", [1e-12, 1e-2, 0.2])
 def test_forces_are_exact_to_the_rounding_of_differences(amplitude, rng):
     """Displacements of size a round by a·eps in each difference; eight springs meet in a block.
 
@@ -106,25 +101,21 @@ def test_one_spring_out_of_range_needs_the_closed_form(spring, swung, pivot):
     )
 
 
-@pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("band", [1, 2, 3, 4])
+@pytest.mark.parametrize(("band", "periodic"), [(1, False), (2, True), (3, False), (4, True)])
 def test_no_bit_depends_on_the_rows_of_a_band(band, periodic, rng):
     u = 0.01 * rng.uniform(-1.0, 1.0, (2, 7, 13))  # some rows within the series' range, some not
     whole = spring_forces(u, periodic=periodic)
     np.testing.assert_array_equal(spring_forces(u, band, periodic), whole)
 
 
-def test_a_translation_strains_nothing_at_all():
-    shift = np.array([0.1, -7.3])[:, None, None]
-    assert not spring_forces(np.broadcast_to(shift, (2, N, N))).any()
-
-
-@pytest.mark.parametrize("angle", [1e-9, 1e-3, 0.1, -0.5, 1.2, np.pi])
-def test_a_rotation_strains_nothing_beyond_rounding(angle):
+@pytest.mark.parametrize("angle", [1e-9, 1e-3, -0.5, np.pi])
+def test_a_rotation_strains_nothing_beyond_rounding_and_a_translation_nothing(angle):
     """The springs are exact in the angle; linear ones would pull with angle²/2.
 
     Nor does anything break beyond the edges, where there are no springs.
     """
+    shift = np.array([0.1, -7.3])[:, None, None]
+    assert not spring_forces(np.broadcast_to(shift, (2, N, N))).any()
     x, y = np.meshgrid(np.arange(N), np.arange(N))
     cosine, sine = -2.0 * np.sin(angle / 2.0) ** 2, np.sin(angle)  # cos - 1, without cancellation
     u = np.stack([cosine * x - sine * y, sine * x + cosine * y])
@@ -142,29 +133,24 @@ def test_forces_of_a_mirror_image_are_the_mirror_image(rng):
     )
 
 
-@pytest.mark.parametrize("move", [(-0.51, 0.0), (1.01, 0.0), (np.nan, 0.0), (0.0, np.inf)])
-def test_a_broken_spring_is_found(move):
-    """Blocks 2 to 4 of every row move away from block 1: its eastern spring breaks first."""
-    u = np.zeros((2, N, N))
-    u[0, :, 2:], u[1, :, 2:] = move
-    with breaks(0, 1):
-        spring_forces(u)
-
-
 @pytest.mark.parametrize(
-    ("x", "move", "found_at"),
+    ("where", "move", "found_at"),
     [
-        pytest.param(0, (0.51, 0.0), 0, id="east"),
-        pytest.param(0, (0.0, 0.51), 0, id="north"),
-        pytest.param(0, (0.51, 0.51), 0, id="north-east"),
-        pytest.param(N - 1, (-0.51, 0.51), N - 2, id="north-west"),
+        # Blocks 2 to 4 of every row move away from block 1: its eastern spring breaks first.
+        *(((slice(None), slice(2, N)), move, (0, 1)) for move in ((-0.51, 0.0), (np.nan, 0.0))),
+        *(((slice(None), slice(2, N)), move, (0, 1)) for move in ((1.01, 0.0), (0.0, np.inf))),
+        # A block at the edge in row 2 comes too near to just one neighbour:
+        ((2, 0), (0.51, 0.0), (2, 0)),  # to the east,
+        ((2, 0), (0.0, 0.51), (2, 0)),  # north,
+        ((2, 0), (0.51, 0.51), (2, 0)),  # north-east,
+        ((2, N - 1), (-0.51, 0.51), (2, N - 2)),  # and north-west
     ],
 )
-def test_each_spring_is_watched(x, move, found_at):
-    """A block at the edge in row 2 comes too near to just one neighbour."""
+def test_a_broken_spring_is_found(where, move, found_at):
     u = np.zeros((2, N, N))
-    u[:, 2, x] = move
-    with breaks(2, found_at):
+    u[0][where], u[1][where] = move
+    y, x = found_at
+    with pytest.raises(SimulationError, match=rf"a spring of block \({y}, {x}\) has collapsed"):
         spring_forces(u)
 
 
@@ -173,14 +159,3 @@ def test_a_spring_short_of_half_or_double_its_length_holds(move):
     u = np.zeros((2, N, N))
     u[0, :, 2:] = move
     assert np.isfinite(spring_forces(u)).all()
-
-
-@pytest.mark.parametrize("axis", [0, 1])
-def test_a_lattice_cut_in_two_by_a_stretch_is_pulled_together(axis):
-    """The pull across the cut, from one axial and two diagonal springs, stops at the edges."""
-    u = np.zeros((2, N, N))
-    np.moveaxis(u, axis + 1, 0)[3:, 1 - axis] = 0.25
-    forces = spring_forces(u)
-    np.testing.assert_allclose(forces, exact_forces(u), rtol=0, atol=8 * EPS)
-    strained = np.abs(forces).sum(axis=(0, 2 - axis)) > 0.0
-    assert strained.tolist() == [False, False, True, True, False]

@@ -15,13 +15,13 @@ import pytest
 from springblock import simulate
 from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
-from springblock.accuracy.stability import one_block
+from springblock.accuracy.stability.one_block import slip
 from springblock.model.defaults import STEP
 
 OMEGA = UNDAMPED.omega_min
 LOAD = UNDAMPED.block_load
 RATE = UNDAMPED.k_s * UNDAMPED.slider_velocity  #: N/s, of the force on a block at rest
-STEPS = [2e-8, 1e-8, 5e-9]
+STEPS = [2e-8, 5e-9]
 
 
 def release_time(mu):
@@ -55,30 +55,27 @@ def test_a_stuck_block_is_found_to_slide_in_time_in_any_direction(direction, int
 
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("gamma", [0.0, 5e5])
-@pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7), (1.0, 0.0)])
-def test_the_slip_follows_its_closed_form(mu_static, mu_dynamic, gamma, step, integrator):
+@pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(0.8, 0.7), (1.0, 0.0)])
+def test_the_slip_follows_an_accurate_integration(mu_static, mu_dynamic, gamma, step, integrator):
     """Throughout, and to second order in the step."""
-    half_period = math.pi / math.sqrt(OMEGA**2 - gamma**2 / 4)
-    how = {"step": step, "integrator": integrator, "material": replace(UNDAMPED, gamma=gamma)}
-    run = pull(mu_static, mu_dynamic, after=half_period, **how)
+    material = replace(UNDAMPED, gamma=gamma)
+    path, lasts = slip(material, mu_static, mu_dynamic)
+    how = {"step": step, "integrator": integrator, "material": material}
+    run = pull(mu_static, mu_dynamic, after=lasts / OMEGA, **how)
     tau = run.time - release_time(mu_static)
-    sliding = (tau > 0.0) & (tau < half_period - step)
-    speed, damping = RATE / (LOAD * OMEGA), gamma / OMEGA  # in units of the table
-    far = mu_dynamic + damping * speed
-    swung = one_block.swing(OMEGA * tau[sliding], damping, (mu_static - far, speed))[:, 0]
+    sliding = (tau > 0.0) & (tau < lasts / OMEGA - step)
     missed = 0.5 * (OMEGA * step) ** 2 * (mu_static - mu_dynamic) * LOAD
-    exact = LOAD * np.abs(far + swung)
+    exact = np.abs(RATE * run.time - LOAD * path(OMEGA * tau))[sliding]
     np.testing.assert_allclose(run.force[sliding], exact, rtol=0, atol=missed)
 
 
-@pytest.mark.parametrize("step", STEPS)
-@pytest.mark.parametrize(("mu_static", "mu_dynamic"), [(1.0, 0.6), (0.8, 0.7)])
-def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, integrator):
+def test_slips_follow_each_other_at_equal_drops(integrator):
     """From 2 mu_d - mu_s the force rises to mu_s again, while the block is at rest.
 
     The release overshoots mu_s F_n by K_s v h at most, and a step holds the stop, at which the
     block would go on or back by (mu_s - mu_d) F_n h²/m, which takes time to be made up for.
     """
+    mu_static, mu_dynamic, step = 0.8, 0.7, 1e-8
     drop = (mu_static - mu_dynamic) * LOAD
     lasts = 2.0 * (math.pi - math.atan(drop * OMEGA / RATE)) / OMEGA
     period = 2.0 * drop / RATE + lasts
@@ -88,12 +85,12 @@ def test_slips_follow_each_other_at_equal_drops(mu_static, mu_dynamic, step, int
     np.testing.assert_allclose(
         np.diff(run.time[slips]), period, rtol=0, atol=missed / RATE + 3 * step
     )
-    for slip, following in itertools.pairwise(slips):
-        lowest = slip + int(np.argmin(run.force[slip:following]))
+    for first, following in itertools.pairwise(slips):
+        lowest = first + int(np.argmin(run.force[first:following]))
         expected = (2 * mu_dynamic - mu_static) * LOAD
         assert run.force[lowest] == pytest.approx(expected, abs=2 * RATE * step + missed)
         # late by a step at its start, and found to a step at its end
-        assert run.time[lowest] - run.time[slip] == pytest.approx(lasts, abs=2 * step)
+        assert run.time[lowest] - run.time[first] == pytest.approx(lasts, abs=2 * step)
         rising = np.diff(run.force[lowest + 2 : following])
         np.testing.assert_allclose(rising, RATE * step, rtol=1e-9)  # differences of 1e-6 N
 

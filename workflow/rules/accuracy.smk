@@ -1,4 +1,4 @@
-# Error against run time, stiff and extreme cases, and the page on both.
+# Error against work, stiff and extreme cases, and the page on both.
 
 from springblock.accuracy import conventions
 
@@ -56,12 +56,12 @@ rule precision_table:
     params:
         code=code("accuracy"),
     message:
-        "Collecting errors and run times in one table"
+        "Collecting errors in one table"
     shell:
         "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule production_table:
+use rule precision_table as production_table with:
     input:
         expand(rules.compare_scene.output, comparison="production", scene=conventions.SCENES),
     output:
@@ -70,15 +70,8 @@ rule production_table:
         f"{RESULTS}/logs/production_table.log",
     benchmark:
         f"{RESULTS}/benchmarks/production_table.tsv"
-    resources:
-        mem_mb=400,
-        runtime=5,
-    params:
-        code=code("accuracy"),
     message:
         "Collecting errors at full size in one table"
-    shell:
-        "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
 rule stability_table:
@@ -118,8 +111,9 @@ rule accuracy:
         runtime=5,
     params:
         code=code("accuracy"),
+        page="accuracy",
     message:
-        "Writing down what to trust"
+        "Writing the page on errors"
     shell:
-        "springblock --code {params.code} make accuracy {input:q} --output {output:q} "
+        "springblock --code {params.code} make {params.page} {input:q} --output {output:q} "
         "> {log:q} 2>&1"

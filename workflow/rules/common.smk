@@ -22,9 +22,7 @@ with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.safe_load(file)
 
 config = study.completed(config)
-RESULTS = str(
-    Path(config.get("results", ""))
-)  # results/ would be a folder with two slashes after it
+RESULTS = str(Path(config.get("results", "")))  # without a slash at the end
 try:
     study.check(config, SCHEMA)
     if workflow.is_main_process:
@@ -36,9 +34,10 @@ BEGUN = time.time()
 OWN = study.is_own(config)
 SETUP = study.setup(config)
 CONFIGURATION = configuration_digest(config)
-#: Groups of scenes, each a list of ensembles, and the ensemble in each folder of realisations.
+#: Groups of scenes, each a list of ensembles; the ensemble and the setup of each folder.
 ENSEMBLES = study.ensembles(config)
 ENSEMBLE = {ensemble.scene.folder: ensemble for ensemble in chain.from_iterable(ENSEMBLES.values())}
+SETUPS = {folder: SETUP.vary(dict(ensemble.scene.varied)) for folder, ensemble in ENSEMBLE.items()}
 
 # Jobs find `springblock` beside the Python that runs Snakemake, in an activated environment or not; on
 # a cluster that is the same path on every node, on a file system that they share.
@@ -86,13 +85,9 @@ def own_files(wildcards):
 
 
 def duration(wildcards):
+    """The duration of a run, as an option; none to end after the force peak."""
     seconds = ENSEMBLE[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
-
-
-def snapshots(wildcards):
-    """Times of the fields of a scene, as options."""
-    return " ".join(f"--snapshot {time}" for time in ENSEMBLE[wildcards.scene].snapshot_times)
 
 
 def runs_of(wildcards):
@@ -100,38 +95,40 @@ def runs_of(wildcards):
     return len(seeds(wildcards)) if "batch" in wildcards.keys() else 1
 
 
+def work(wildcards):
+    """Scene, setup, duration and number of runs of a job."""
+    ensemble = ENSEMBLE[wildcards.scene]
+    return ensemble.scene, SETUPS[wildcards.scene], ensemble.duration, runs_of(wildcards)
+
+
 def memory(wildcards, attempt):
-    """MB; more, if that was not enough."""
+    """MB to request, more in each further attempt."""
     return attempt * cost.memory(ENSEMBLE[wildcards.scene].scene, runs_of(wildcards))
 
 
 def memory_of_fields(wildcards, attempt):
-    """MB; a snapshot takes as much as a realisation."""
+    """MB to request; a snapshot takes as much as a realisation."""
     ensemble = ENSEMBLE[wildcards.scene]
     return attempt * cost.memory(ensemble.scene, 1 + len(ensemble.snapshot_times))
 
 
 def minutes(wildcards, attempt):
-    """Minutes; more, if that was not enough."""
-    ensemble = ENSEMBLE[wildcards.scene]
-    setup = SETUP.vary(dict(ensemble.scene.varied))
-    return attempt * cost.minutes(ensemble.scene, setup, ensemble.duration, runs_of(wildcards))
+    """Minutes to request, more in each further attempt."""
+    return attempt * cost.minutes(*work(wildcards))
 
 
 def expected(job):
     """CPU time in s that a job is expected to take."""
-    if job.rule.name not in ("prelude", "simulate_batch"):
-        return cost.expected_of(job.rule.name)
-    ensemble = ENSEMBLE[job.wildcards.scene]
-    setup = SETUP.vary(dict(ensemble.scene.varied))
-    return cost.expected(ensemble.scene, setup, ensemble.duration, runs_of(job.wildcards))
+    if job.rule.name in ("prelude", "simulate_batch"):
+        return cost.expected(*work(job.wildcards))
+    return cost.expected_of(job.rule.name)
 
 
 def tell_time():
     """Print after a dry run, which calls none of Snakemake's hooks, how long its jobs will take."""
     if not workflow.dryrun:
         return
-    # which counts as finished what it has listed
+    # a dry run counts the jobs that it has listed as finished
     jobs = workflow.dag.needrun_jobs(exclude_finished=False)
     if times := [expected(job) for job in jobs]:
         print(f"These jobs take {cost.in_words(times, workflow.cores)}.", file=sys.stderr)
@@ -151,7 +148,7 @@ def begin():
 
 
 def tell_errors():
-    """Print what jobs of this run have failed with: the quiet profile leaves that in their logs."""
+    """Print the errors in the logs of this run's jobs, which the quiet profile does not show."""
     for file in sorted(Path(RESULTS, "logs").rglob("*.log")):
         said = file.read_text(errors="replace") if file.stat().st_mtime >= BEGUN else ""
         for line in [line for line in said.splitlines() if "Error" in line][-1:]:
@@ -162,10 +159,9 @@ def refuse_orphans():
     """Stop while Slurm holds jobs that a killed run of this folder has left; both would write the same files."""
     if not shutil.which("squeue"):
         return
-    listed = subprocess.run(
-        ["squeue", "--me", "--noheader", "--format=%j|%Z"], capture_output=True, text=True
-    )
-    jobs = [line.split("|", 1) for line in listed.stdout.splitlines()]
+    command = ["squeue", "--me", "--noheader", "--format=%j|%Z"]
+    listed = subprocess.run(command, capture_output=True, text=True).stdout
+    jobs = [line.split("|", 1) for line in listed.splitlines()]
     names = {name for name, folder in jobs if Path(folder) == Path.cwd()}
     orphans = sorted(name for name in names if name.startswith("springblock_"))
     if orphans:

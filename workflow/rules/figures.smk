@@ -33,9 +33,7 @@ for figure in [*FIGURES, *SWEEPS]:
 rule figures:
     input:
         expand(
-            f"{RESULTS}/figures/{{figure}}.{{suffix}}",
-            figure=[*FIGURES, *SWEEPS],
-            suffix=["pdf", "png"],
+            f"{RESULTS}/figures/{{name}}.{{kind}}", name=[*FIGURES, *SWEEPS], kind=["pdf", "png"]
         ),
     localrule: True
     message:

@@ -27,7 +27,7 @@ rule mechanism_part:
         "> {log:q} 2>&1"
 
 
-rule mechanism_table:
+use rule precision_table as mechanism_table with:
     input:
         lambda here: expand(rules.mechanism_part.output, part=TABLES[here.table]),
     output:
@@ -38,18 +38,13 @@ rule mechanism_table:
         f"{RESULTS}/benchmarks/{{table}}_table.tsv"
     wildcard_constraints:
         table="|".join(TABLES),
-    resources:
-        mem_mb=400,
-        runtime=5,
     params:
         code=code("mechanism"),
     message:
         "Collecting models of the onset of sliding: {wildcards.table}"
-    shell:
-        "springblock --code {params.code} make collect {input:q} --output {output:q} > {log:q} 2>&1"
 
 
-rule mechanism:
+use rule accuracy as mechanism with:
     input:
         expand(rules.mechanism_table.output, table=TABLES),
     output:
@@ -58,13 +53,8 @@ rule mechanism:
         f"{RESULTS}/logs/mechanism.log",
     benchmark:
         f"{RESULTS}/benchmarks/mechanism.tsv"
-    resources:
-        mem_mb=400,
-        runtime=5,
     params:
         code=code("mechanism"),
+        page="mechanism",
     message:
         "Explaining the lowest friction and two load peaks"
-    shell:
-        "springblock --code {params.code} make mechanism {input:q} --output {output:q} "
-        "> {log:q} 2>&1"

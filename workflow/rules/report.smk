@@ -64,5 +64,4 @@ rule report:
         "Writing the report"
     shell:
         "springblock --code {params.code} report {params.files:q} {params.films} {params.own} "
-        "--output {output:q} "
-        "> {log:q} 2>&1"
+        "--output {output:q} > {log:q} 2>&1"

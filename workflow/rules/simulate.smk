@@ -10,17 +10,13 @@ HOW = " ".join(
     ]
 )
 #: Integrators and laws of friction that are compiled before any job needs them.
-SETUPS = [SETUP.vary(dict(ensemble.scene.varied)) for ensemble in ENSEMBLE.values()]
-COMPILED = {setup.integrator for setup in SETUPS}
+COMPILED = {setup.integrator for setup in SETUPS.values()}
 if config["accuracy"]:
     COMPILED |= {"leapfrog", "rk4"}
-LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS}
+LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS.values()}
 #: Cuts of measured surfaces by the name of the mask that they make.
-CUTS = {
-    ensemble.scene.mask.name: ensemble.scene.mask.cut
-    for ensemble in ENSEMBLE.values()
-    if ensemble.scene.mask and ensemble.scene.mask.cut
-}
+MASKS = [ensemble.scene.mask for ensemble in ENSEMBLE.values() if ensemble.scene.mask]
+CUTS = {mask.name: mask.cut for mask in MASKS if mask.cut}
 
 
 rule compile:
@@ -155,7 +151,7 @@ rule fields_of_scene:
         scene=scene,
         how=HOW,
         duration=duration,
-        times=snapshots,
+        times=lambda here: " ".join(f"--snapshot {s}" for s in ENSEMBLE[here.scene].snapshot_times),
         seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
     message:
         "Keeping fields of {wildcards.scene}, seed {params.seed}"
@@ -167,14 +163,10 @@ rule fields_of_scene:
 
 rule fields:
     input:
-        [
-            f"{RESULTS}/fields/{folder}.nc"
-            for folder, ensemble in ENSEMBLE.items()
-            if ensemble.snapshot_times
-        ],
+        [f"{RESULTS}/fields/{name}.nc" for name in ENSEMBLE if ENSEMBLE[name].snapshot_times],
     localrule: True
     message:
-        "All fields are kept"
+        "All fields are written"
 
 
 rule aggregate:

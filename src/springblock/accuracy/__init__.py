@@ -4,7 +4,7 @@ conventions       what tables, page, figures and claims agree on, and which resi
 specimens         surfaces that errors are measured on
 reference         the solution that locates every event
 plain_rk4         Runge-Kutta as one would first write it
-work_precision    error against run time, in three comparisons
+work_precision    error against work, in two comparisons
 production        bias, scatter and cost of the study's own ensembles
 budget            what an ensemble misses for so much CPU time
 kernels           springs and a lattice without friction: compiled, and exactly

@@ -14,7 +14,7 @@ from springblock.analysis.statistics import students_t
 from springblock.io.rows import Row
 
 SCENES = ("flat", "pillared", "grooved")
-COMPARISONS = ("reference", "paired", "twin")
+COMPARISONS = ("reference", "paired")
 MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
 #: What orders of convergence are measured of.
 ORDERED = ("static_friction", "t_det before horizon")

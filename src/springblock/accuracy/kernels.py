@@ -19,7 +19,6 @@ from springblock.solver.springs import (
     forces_on_band,
     scratch,
 )
-from springblock.solver.stability import IS_STABLE
 
 UNDAMPED = Material(gamma=0.0)
 #: Not 1, so that it would be missed; a power of 2, so that it rounds nothing.
@@ -80,20 +79,6 @@ def swing(
     if done < steps:
         raise SimulationError(f"a spring has collapsed or burst in step {done}")
     return np.stack([unpadded(u, grid) for u in (blocks.ux, blocks.uy)])
-
-
-def limit(integrator: str, material: Material) -> float:
-    """Return the largest stable step, s, by bisection of the integrator's own criterion."""
-    omega = np.linspace(material.omega_min, material.omega_max, 33)
-    is_stable = IS_STABLE[integrator]
-    stable, unstable = 0.0, 4.0 * (1.0 + material.gamma / material.omega_max) / material.omega_max
-    for _ in range(50):
-        middle = 0.5 * (stable + unstable)
-        if is_stable(middle, omega, material.gamma):
-            stable = middle
-        else:
-            unstable = middle
-    return stable
 
 
 def limit_of_damping(integrator: str, material: Material) -> float:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import product
 from math import floor, isfinite, log10, sqrt
 from pathlib import Path
-from statistics import median
+from statistics import median, stdev
 
 from springblock.accuracy import budget
 from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, choices, finest_bias, measured
@@ -40,12 +40,20 @@ _WITHOUT = """This study was run without `production: true`, which measures erro
 number of blocks in a quarter of an hour.
 """
 
-_OPENING = """At full size the default step biases means over seeds by at most {biases}, at the far
-ends of 95 % intervals. The standard error of a mean exceeds the estimated bias in
-{larger} of {n} cases: over {ensemble} seeds, {length_ensemble} for the decay length, it is up to
-{errors}. Quote means with their intervals over seeds, add the bias where hundreds of realisations
-are pooled, and compare ensembles only: on patterned surfaces single runs diverge before the force
-peak, at any step.
+_OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
+{biases} on surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
+is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
+{length_ensemble} for the decay length, is up to
+{errors}. It exceeds the estimated bias in {larger} of {n} cases.
+{pooled}Quote means with their intervals over seeds, and add the bias where hundreds of realisations
+are pooled. Compare ensembles only: on patterned surfaces single runs diverge before the force peak,
+at any step.
+"""
+
+_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} one. The
+mean that is known best, static friction on pillars of {n_p} blocks, has a statistical error of
+{statistical:.5f} over {count} realisations. The numerical error, measured on pillars of 20 blocks
+only, is up to {numerical:.5f}.
 """
 
 #: Names of quantities that are not called by their symbol.
@@ -93,7 +101,7 @@ def page(
     residuals = [abs(row["energy_error"]) for row in realisations]
     return _PAGE.read_text(encoding="utf-8").format(
         **_KNOWN,
-        opening=_opening(production, select(paired, step=STEP)),
+        opening=_opening(production, select(paired, step=STEP), realisations),
         smallest=min(row["n_blocks"] for row in single),
         largest=max(row["n_blocks"] for row in single),
         fewest=min(row["realisations"] for row in single),
@@ -124,7 +132,7 @@ def page(
     )
 
 
-def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
+def _opening(rows: Sequence[Row], small: Sequence[Row], realisations: Iterable[Row]) -> str:
     """Sum up bias and scatter at the default: at full size, or else on small surfaces."""
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
@@ -133,7 +141,41 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
     biases, errors = (_largest(share, cases) for share in (_largest_bias, _scatter))
     return _OPENING.format(
-        biases=biases, errors=errors, larger=sum(larger), n=len(larger), **_KNOWN
+        biases=biases,
+        errors=errors,
+        larger=sum(larger),
+        n=len(larger),
+        n_blocks=rows[0]["n_blocks"],
+        pooled=_pooled(cases["static_friction", "pillared"], realisations),
+        **_KNOWN,
+    )
+
+
+def _pooled(rows: list[Row], realisations: Iterable[Row]) -> str:
+    """Compare both errors of static friction, on the pillars where its mean is known best.
+
+    `rows` are those of the table `production` for pillars; empty without a larger ensemble.
+    """
+    same = {"level": 1, "direction": "x", "varied": "", "n_blocks": rows[0]["n_blocks"]}
+    pillars: dict[int, list[float]] = {}
+    for row in select(realisations, **same):
+        if row["n_p"] == row["n_s"]:
+            pillars.setdefault(row["n_p"], []).append(row["static_friction"])
+    errors = {
+        n_p: half_width(stdev(values), len(values))
+        for n_p, values in pillars.items()
+        if len(values) > ENSEMBLE
+    }
+    if not errors:
+        return ""
+    n_p = min(errors, key=errors.__getitem__)
+    numerical = _at(STEP, rows)["scale"] * _largest_bias(rows)
+    return _POOLED.format(
+        larger="larger" if numerical > errors[n_p] else "smaller",
+        count=len(pillars[n_p]),
+        n_p=n_p,
+        statistical=errors[n_p],
+        numerical=numerical,
     )
 
 

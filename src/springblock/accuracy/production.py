@@ -5,9 +5,10 @@ of them with the same seeds. Pairing takes most of the scatter from seed to seed
 difference, which is the bias; the scatter itself says what so many seeds are worth.
 """
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -15,7 +16,6 @@ from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
 from springblock.accuracy.specimens import Array, drawn
-from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import mean_interval, standard_error
 from springblock.io.rows import Row
@@ -68,6 +68,7 @@ STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
 #: A multiple of all steps, near the study's 2e-7 s.
 SAMPLE_INTERVAL = 1.6e-7
 QUANTITIES = (*MEANS, DELAY)  #: of every realisation
+Result = TypeVar("Result")
 UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of what is no time
 
 
@@ -136,6 +137,12 @@ def simulate_ensembles(
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
     return seconds, {h: Kept(*map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
+
+
+def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
+    """Return what `solve` returns, and the CPU seconds that it took."""
+    start = time.process_time()
+    return solve(), time.process_time() - start
 
 
 def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:

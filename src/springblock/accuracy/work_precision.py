@@ -1,19 +1,17 @@
-"""Error against run time: the rows of results/tables/work_precision.parquet.
+"""Error against work: the rows of results/tables/work_precision.parquet.
 
-Three comparisons, each for a flat, a pillared and a grooved scene:
+Two comparisons, each for a flat, a pillared and a grooved scene:
 
-reference  single runs against the event-located reference solution, run by run; and `order`, how
-           their errors fall with the step;
+reference  single runs against the event-located reference solution, run by run, up to the horizon
+           beyond which no step makes single runs agree; and `order`, how their errors fall with
+           the step;
 paired     ensembles against the leapfrog at a fine step with the same seeds: what is left on the
-           mean where single runs no longer agree; and `scatter`, the spread from seed to seed;
-twin       single runs against themselves with thresholds nudged by a little: the horizon beyond
-           which no step makes single runs agree.
+           mean where single runs no longer agree; and `scatter`, the spread from seed to seed.
 """
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 import pyarrow as pa
@@ -42,26 +40,23 @@ from springblock.solver.integrators import INTEGRATORS
 SCHEMA = pa.schema(
     [
         *texts(
-            comparison="reference, order, paired, scatter or twin",
+            comparison="reference, order, paired or scatter",
             scene="flat, pillared or grooved",
         ),
         N_BLOCKS,
         *texts(integrator="leapfrog, rk4 or plain rk4"),
         *numbers("s", step="integration step h"),
-        *numbers("1", nudge="relative change of the thresholds of a twin; else 0"),
         *texts(quantity="what the error is of"),
         *numbers(
             "1",
-            error="reference and twin: root mean square over the realisations of the relative "
-            "error; t_det, t_avg and resolution, the sample interval, relative to t_max; order: "
+            error="reference: root mean square over the realisations of the relative error; "
+            "t_det, t_avg and resolution, the sample interval, relative to t_max; order: "
             "1 - rank correlation. paired: relative bias. order: mean slope of log error over log "
             "step, from the step to the finest; of the default, to half of it",
             ci_low="order, paired: lower end of the 95 % t interval; else error",
             ci_high="order, paired: upper end; else error",
-            worst="largest modulus among the realisations",
         ),
         column("realisations", pa.int32(), "1", "number of seeds"),
-        *numbers("s", cpu_seconds="median CPU time of one realisation"),
         *numbers("1", force_evaluations="mean number per realisation"),
     ]
 )
@@ -94,14 +89,9 @@ SAMPLE_INTERVAL = 8e-8
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
-NUDGES = (1e-10, 1e-8, 1e-6, HORIZON_NUDGE, 1e-4, 1e-3)
-TWIN_STEP = 5e-9
-TWIN_SEEDS = range(3)
 Errors = dict[str, Array]  #: by what they are of, one for each realisation
-Cost = tuple[float, float]  #: median CPU seconds and mean force evaluations of a realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
-Result = TypeVar("Result")
 
 
 def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
@@ -113,14 +103,12 @@ def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
     force = np.abs(run.force[: len(exact.force)] - exact.force)[upto].max() / exact.force.max()
     both = np.isfinite(exact.t_det) & np.isfinite(run.t_det)
     shift = (run.t_det - exact.t_det) / exact.t_max
-    before_peak, before_horizon = (both & (exact.t_det < end) for end in (exact.t_max, until))
     return {
         "force": float(force),
         "static_friction": run.static_friction / exact.static_friction - 1.0,
         "t_max": run.t_max / exact.t_max - 1.0,
         "t_avg": (run.t_avg - exact.t_avg) / exact.t_max,
-        "t_det before peak": root_mean_square(shift[before_peak]),
-        "t_det before horizon": root_mean_square(shift[before_horizon]),
+        "t_det before horizon": root_mean_square(shift[both & (exact.t_det < until)]),
         "horizon": until / exact.t_max,
         "order": 1.0 - float(spearmanr(run.t_det[both], exact.t_det[both]).statistic),
         "resolution": float(exact.time[1] / exact.t_max),
@@ -138,12 +126,6 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
-def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
-    """Return what `solve` returns, and the CPU seconds that it took."""
-    start = time.process_time()
-    return solve(), time.process_time() - start
-
-
 def solve_with(
     integrator: str,
     step: float,
@@ -158,11 +140,9 @@ def solve_with(
     return simulate(*surface, integrator=integrator, **how)
 
 
-def cost_of(integrator: str, runs: Iterable[tuple[Computed, float]]) -> Cost:
-    """Return the cost of one of these timed runs."""
-    solutions, seconds = zip(*runs, strict=True)
-    steps = float(np.mean([run.steps for run in solutions]))
-    return float(np.median(seconds)), steps * FORCE_EVALUATIONS[integrator]
+def evaluations(integrator: str, runs: Sequence[Computed]) -> float:
+    """Return the mean number of force evaluations of these runs."""
+    return FORCE_EVALUATIONS[integrator] * float(np.mean([run.steps for run in runs]))
 
 
 def single_rows(scene: str) -> Iterator[Row]:
@@ -171,16 +151,14 @@ def single_rows(scene: str) -> Iterator[Row]:
     surfaces = [drawn(pattern, seed) for seed in range(seeds)]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
-    horizons = [horizon(*twins(scene, seed, HORIZON_NUDGE)) for seed in range(seeds)]
+    horizons = [horizon(*twins(scene, seed)) for seed in range(seeds)]
     for integrator in FORCE_EVALUATIONS:
-        solve_with(integrator, STEPS[0], surfaces[0], SAMPLE_INTERVAL)  # compiled first
         found: dict[float, Errors] = {}
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
-            runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
-            computed = [run for run, _ in runs]
-            found[step] = stacked(map(run_errors, computed, exact, horizons))
-            cost = cost_of(integrator, runs)
-            yield from rows_of("reference", scene, integrator, step, found[step], cost)
+            runs = [solve_with(integrator, step, surface, duration) for surface in surfaces]
+            found[step] = stacked(map(run_errors, runs, exact, horizons))
+            spent = evaluations(integrator, runs)
+            yield from rows_of("reference", scene, integrator, step, found[step], spent)
         if integrator != PLAIN:
             for steps in (SETTLED_STEPS, (STEP, STEP / 2.0)):
                 orders = {name: orders_of(steps, found, name) for name in ORDERED}
@@ -198,61 +176,48 @@ def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of every method against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
     fine = ensemble(scene, "leapfrog", FINE_STEP, seeds)
-    exact, longest = means_of(fine), max(float(run.time[-1]) for run, _ in fine)
+    exact, longest = means_of(fine), max(float(run.time[-1]) for run in fine)
     for integrator, steps in PAIRED_STEPS.items():
         few = min(seeds, PAIRED_SEEDS.get(integrator, seeds))
         for step in steps:
             runs = ensemble(scene, integrator, step, few, longest)
-            means, cost = means_of(runs), cost_of(integrator, runs)
+            means, spent = means_of(runs), evaluations(integrator, runs)
             errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
-            yield from rows_of("paired", scene, integrator, step, errors, cost)
+            yield from rows_of("paired", scene, integrator, step, errors, spent)
     spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread)
 
 
 def ensemble(
     scene: str, integrator: str, step: float, seeds: int, duration: float = 0.0
-) -> list[tuple[Computed, float]]:
-    """Return one run per seed, with its CPU seconds.
+) -> list[Computed]:
+    """Return one run per seed.
 
     `duration`, s, is for the plain method; the integrators stop once the surface slides.
     """
     pattern = _SURFACES[scene].ensemble
+    solve: Callable[..., Computed] = plain_rk4.solve if integrator == PLAIN else simulate
     how: Row = {"step": step, "sample_interval": SAMPLE_INTERVAL}
-    solve: Callable[..., Computed]
     if integrator == PLAIN:
-        solve = partial(plain_rk4.solve, duration=duration, **how)
+        how["duration"] = duration
     else:
         how["integrator"] = integrator
-        solve = partial(simulate, prelude=compute_prelude(pattern.contact, **how), **how)
-    return [
-        timed(partial(solve, *drawn(pattern, seed)))
-        for seed in tqdm(range(seeds), desc=f"{integrator} {step:g}")
-    ]
+        how["prelude"] = compute_prelude(pattern.contact, **how)
+    described = f"{integrator} {step:g}"
+    return [solve(*drawn(pattern, seed), **how) for seed in tqdm(range(seeds), desc=described)]
 
 
-def means_of(runs: Iterable[tuple[Computed, float]]) -> Errors:
+def means_of(runs: Sequence[Computed]) -> Errors:
     """Return what ensembles are used for, each (seeds,)."""
-    computed = [run for run, _ in runs]
-    return {name: np.array([getattr(run, name) for run in computed]) for name in MEANS}
+    return {name: np.array([getattr(run, name) for run in runs]) for name in MEANS}
 
 
-def twin_rows(scene: str) -> Iterator[Row]:
-    """Runs against themselves with thresholds changed by a little, at a fine step."""
-    steps = _SURFACES[scene].duration / TWIN_STEP
-    for nudge in tqdm(NUDGES, desc=f"{scene}, twins"):
-        pairs = [timed(partial(twins, scene, seed, nudge)) for seed in TWIN_SEEDS]
-        errors = stacked(run_errors(other, one, horizon(one, other)) for (one, other), _ in pairs)
-        cost = (float(np.median([seconds for _, seconds in pairs])) / 2.0, steps)
-        yield from rows_of("twin", scene, "leapfrog", TWIN_STEP, errors, cost, nudge)
-
-
-def twins(scene: str, seed: int, nudge: float) -> tuple[Computed, Computed]:
-    """A run, and one with each threshold changed by a random share of the size of `nudge`."""
+def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
+    """Return a run, and one with each threshold changed by a random share like `HORIZON_NUDGE`."""
     contact, mu_static, mu_dynamic = drawn(_SURFACES[scene].single, seed)
-    change = 1.0 + nudge * np.random.default_rng(seed).standard_normal(mu_static.shape)
+    change = 1.0 + HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(mu_static.shape)
     one, other = (
-        solve_with("leapfrog", TWIN_STEP, (contact, mu, mu_dynamic), _SURFACES[scene].duration)
+        solve_with("leapfrog", FINE_STEP, (contact, mu, mu_dynamic), _SURFACES[scene].duration)
         for mu in (mu_static, mu_static * change)
     )
     return one, other
@@ -272,16 +237,19 @@ def rows_of(
     integrator: str,
     step: float,
     errors: Errors,
-    cost: Cost = (0.0, 0.0),
-    nudge: float = 0.0,
+    spent: float = 0.0,
 ) -> Iterator[Row]:
-    """Summarise the errors of several realisations, a row per quantity."""
-    ensembles, of_means = ("paired", "scatter"), ("paired", "scatter", "order")
-    pattern = _SURFACES[scene].ensemble if comparison in ensembles else _SURFACES[scene].single
+    """Summarise the errors of several realisations, a row per quantity.
+
+    `spent` is the mean number of force evaluations of a realisation.
+    """
+    single = comparison in ("reference", "order")
+    pattern = _SURFACES[scene].single if single else _SURFACES[scene].ensemble
     for quantity, values in errors.items():
-        count, error, half = len(values), root_mean_square(values), 0.0
-        if comparison in of_means:
-            error = float(values.mean())
+        count, error, half = len(values), float(values.mean()), 0.0
+        if comparison == "reference":
+            error = root_mean_square(values)
+        else:
             half = half_width(float(values.std(ddof=1)), count)
         yield {
             "comparison": comparison,
@@ -289,17 +257,14 @@ def rows_of(
             "n_blocks": pattern.n_blocks,
             "integrator": integrator,
             "step": step,
-            "nudge": nudge,
             "quantity": quantity,
             "error": error,
             "ci_low": error - half,
             "ci_high": error + half,
-            "worst": float(np.abs(values).max()),
             "realisations": count,
-            "cpu_seconds": cost[0],
-            "force_evaluations": cost[1],
+            "force_evaluations": spent,
         }
 
 
 #: Rows of each comparison, by its name, from the name of a scene.
-ROWS = {"reference": single_rows, "paired": paired_rows, "twin": twin_rows}
+ROWS = {"reference": single_rows, "paired": paired_rows}

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 import pyarrow as pa
 
+from springblock.analysis.ensembles import OBSERVABLES
 from springblock.io.rows import Row
 from springblock.model.scene import COLUMNS
 
 _KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns that identify a row
-_OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
 Key = tuple[tuple[str, object], ...]  #: names and values that identify a row
 _LEVEL = 0.95  #: joint confidence level of all comparisons of a table
 
@@ -113,7 +113,7 @@ def discrepancies(first: pa.Table, second: pa.Table) -> list[Discrepancy]:
     differ less than the tests assume.
     """
     columns = {*first.column_names} & {*second.column_names}
-    if {"seed", *_OBSERVABLES} <= columns:
+    if {"seed", *OBSERVABLES} <= columns:
         return list(_means(first, second))
     value = next((name for name in ("correlation", "l_c") if name in columns), None)
     return list(_with_limits(first, second, value)) if value else []
@@ -129,7 +129,7 @@ def _means(first: pa.Table, second: pa.Table) -> Iterator[Discrepancy]:
 
     ours, theirs = (_by_key(table, COLUMNS) for table in (first, second))
     for scene in [scene for scene in ours if scene in theirs]:
-        for name in _OBSERVABLES:
+        for name in OBSERVABLES:
             values = (np.array([row[name] for row in rows[scene]]) for rows in (ours, theirs))
             one, other = (sample[np.isfinite(sample)] for sample in values)
             if min(len(one), len(other)) > 1 and np.ptp([*one, *other]) > 0.0:

@@ -10,9 +10,8 @@ the amplitude open, A exp(-r/l) is also fitted; its l is the decay length of the
 denominator are sums over all pillars, both sides of each, both directions along it and a few x₀
 (`references`). The means ⟨τ⟩ are those of each block, as in the paper.
 
-Intervals are BCa intervals over whole realisations, since all pillars of a realisation belong to
-one surface (`design_effect` measures the effect). Intervals and bias follow Efron & Tibshirani
-1993, doi:10.1201/9780429246593.
+Intervals are BCa intervals (Efron & Tibshirani 1993, doi:10.1201/9780429246593) over whole
+realisations, since all pillars of a realisation belong to one surface.
 """
 
 from collections.abc import Sequence
@@ -118,13 +117,9 @@ class Length(NamedTuple):
     """Correlation length in blocks; 0.1 means no correlation."""
 
     fitted: Interval  #: l_c of exp(-r/l_c), by weighted least squares
-    integral: Interval  #: l of the exponential with the same sum over r
     tail: Interval  #: l of A exp(-r/l) with A free; NaN for fewer than three r
     amplitude: Interval  #: A of that fit
-    bias: float  #: bias of `fitted`, by jackknife
     last: int  #: all fits use r = 1 ... last
-    deviation: float  #: largest difference of c(r) and exp(-r/l_c), in standard errors
-    residual: Interval  #: c(r) - A exp(-r/l), (last,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,20 +174,9 @@ class Correlation:
         return self.weighted(bootstrap_weights(len(self.times)))
 
     @cached_property
-    def _left_out(self) -> Array:
-        """c(r) with each realisation omitted in turn, (k, r)."""
-        k = len(self.times)
-        return self.weighted((1.0 - np.eye(k)) / (k - 1.0))
-
-    @cached_property
     def interval(self) -> Interval:
         """c(r) with its 95 % interval, (r,) each; c(0) = 1 exactly."""
         return bootstrap_interval(self.weighted, len(self.times))
-
-    @property
-    def bias(self) -> Array:
-        """Jackknife estimate of the bias of c(r), (r,), a ratio of means, of order 1/k."""
-        return _jackknife_bias(self.mean, self._left_out)
 
     @property
     def last(self) -> int:
@@ -207,28 +191,11 @@ class Correlation:
         def estimates(weights: Array) -> Array:
             c = self.weighted(weights)[:, span]
             tail = fit_tail(c, error)
-            gain = amplitude(c, error, tail)
-            residual = c - gain[:, None] * np.exp(-_distances(self.last) / tail[:, None])
-            return np.column_stack([fit_length(c, error), integral_length(c), tail, gain, residual])
+            return np.column_stack([fit_length(c, error), tail, amplitude(c, error, tail)])
 
         found = bootstrap_interval(estimates, len(self.times))
-        fitted, integral, tail, gain = (Interval(*(limit[i] for limit in found)) for i in range(4))
-        bias = _jackknife_bias(fitted.mean, fit_length(self._left_out[:, span], error))
-        distance = np.abs(self.mean[span] - np.exp(-_distances(self.last) / fitted.mean))
-        return Length(
-            fitted=fitted,
-            integral=integral,
-            tail=tail,
-            amplitude=gain,
-            bias=float(bias),
-            last=self.last,
-            deviation=float((distance / error).max()),
-            residual=Interval(*(limit[4:] for limit in found)),
-        )
-
-
-def _jackknife_bias(mean: Array, left_out: Array) -> Array:
-    return (len(left_out) - 1.0) * (left_out.mean(axis=0) - mean)
+        fitted, tail, gain = (Interval(*each) for each in np.transpose(found))
+        return Length(fitted, tail, gain, self.last)
 
 
 def _decays(last: int) -> Array:
@@ -275,21 +242,3 @@ def amplitude(correlation: Array, error: Array, lengths: Array) -> Array:
 
 def _distances(last: int) -> Array:
     return np.arange(1.0, last + 1.0)
-
-
-def integral_length(correlation: Array) -> Array:
-    """Length of the exponential with the same sum as c(r) from r = 1 on, (b, r); (b,)."""
-    sums = _decays(correlation.shape[-1]).sum(axis=0)  # 1/(exp(1/l) - 1) for a long range
-    return np.interp(correlation.sum(axis=-1), sums, _LENGTHS)
-
-
-def design_effect(times: Array) -> float:
-    """Ratio of the variance of c(r) to that for independent pillars.
-
-    `times` as from `side_times`; the ratio is that of bootstrap variances, summed over r. An
-    interval over pillars would be too narrow by its square root. On pillars of 6 and 20 blocks it
-    is 0.9 to 1.1: pillars detach almost independently of each other.
-    """
-    places = (times - times.mean(axis=0)).reshape(-1, 1, *times.shape[2:])
-    whole, apart = (Correlation(part).resampled.var(axis=0).sum() for part in (times, places))
-    return float(whole / apart)

@@ -1,17 +1,17 @@
 """Static friction over the size of pillars and over their distance, at one total load."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import partial
 from operator import itemgetter
 from typing import Any
 
 import numpy as np
+from scipy.special import chdtri
 
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, mean_interval, standard_error
-from springblock.beyond.question import Ensembles, direction, grouped, has_pillars_alone, number
+from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
 from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
 from springblock.simulation.run import Array, Run
@@ -20,6 +20,7 @@ NEEDS = "group friction"
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
 _FEWEST = 3  #: sizes with a minimum between them
+_LEVEL = 0.05  #: of the test of additive effects
 
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
@@ -85,15 +86,25 @@ def unexplained(found: Map) -> dict[str, Array]:
 
 
 def explained(found: Map) -> dict[str, Interval]:
-    """Fraction of the variance of mean static friction over the map that each model explains."""
+    """Fractions of the variance of mean static friction over the map.
 
-    def fraction(means: Array, left: Array) -> Array:
-        return 1.0 - ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1)
+    They are what "size" explains beyond contact fraction, what "contact" explains beyond size, how
+    much more the former is, and what "both" explain. Sizes and contact fractions are unevenly
+    combined, so that both explain less than the sum of what each explains alone.
+    """
+    projections = unexplained(found)
 
-    return {
-        name: interval(list(found.values()), np.mean, partial(fraction, left=left))
-        for name, left in unexplained(found).items()
+    def left_by(model: str, means: Array) -> Array:
+        return ((means @ projections[model]) ** 2).mean(axis=-1) / means.var(axis=-1)
+
+    fractions: dict[str, Callable[[Array], Array]] = {
+        "size": lambda means: left_by("contact", means) - left_by("both", means),
+        "contact": lambda means: left_by("size", means) - left_by("both", means),
+        "more by size": lambda means: left_by("contact", means) - left_by("size", means),
+        "both": lambda means: 1.0 - left_by("both", means),
     }
+    values = list(found.values())
+    return {name: interval(values, np.mean, each) for name, each in fractions.items()}
 
 
 def residuals(found: Map) -> dict[Pillars, float]:
@@ -112,20 +123,24 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     shares, left = explained(found), np.array([*residuals(found).values()])
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
     rms = np.sqrt((left**2).sum() / freedom)
-    size, contact, both = (number(share, " %", 100.0) for share in shares.values())
-    more = direction(shares["contact"], shares["size"])
-    words = {
-        "increases": "Static friction depends on the size of pillars more than on contact fraction",
-        "decreases": "Static friction depends on contact fraction more than on the size of pillars",
-    }.get(more, "Size and contact fraction explain static friction equally well")
+    size, contact, more, both = (number(share, " %", 100.0) for share in shares.values())
+    words = "Static friction depends on the size of pillars more than on contact fraction"
+    if shares["more by size"].high < 0.0:
+        words = "Static friction depends on contact fraction more than on the size of pillars"
+    elif not shares["more by size"].low > 0.0:
+        words = "Size and contact fraction explain static friction equally well"
     yield (
-        f"**{words}**: size alone explains {size} of its variance over {len(found)} surfaces, and "
-        f"contact fraction alone {contact}."
+        f"**{words}**: of its variance over {len(found)} surfaces, size explains {size} beyond "
+        f"what contact fraction explains, and contact fraction {contact} beyond what size "
+        f"explains (difference: {more})."
     )
+    add_up = "the effects add up to within the scatter"
+    if (left**2).sum() / scatter**2 > chdtri(freedom, _LEVEL):
+        add_up = "the effects of size and contact fraction do not simply add up"
     yield (
         f"The sum of both factors explains {both}. Its residuals have a root mean square of "
-        f"{rms:.4f} (over {freedom} degrees of freedom); the standard error of the means is "
-        f"{scatter:.4f}."
+        f"{rms:.4f} (over {freedom} degrees of freedom), and the standard error of the means is "
+        f"{scatter:.4f}: {add_up} (chi-squared test at 5 %)."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
     lines = []

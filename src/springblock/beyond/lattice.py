@@ -17,13 +17,12 @@ from springblock.beyond.question import (
     change,
     direction,
     is_even,
-    listed,
     number,
     on_one_side,
 )
 from springblock.beyond.resampling import side_length
 from springblock.io.records import Record
-from springblock.io.rows import markdown_table
+from springblock.io.rows import listed, markdown_table
 from springblock.mechanism.elasticity import Layer
 
 NEEDS = "groups lattice, disorder and layer"
@@ -56,7 +55,7 @@ class Quantity(NamedTuple):
 
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Changes = dict[str, tuple[bool, str]]  #: whether a value changes, and how, by comparison
+Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb and sentence
 
 
 class Comparison(NamedTuple):
@@ -145,7 +144,8 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Qua
         found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
         found[Quantity(f"static friction {name}")] = mean_interval(force[best])
         shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
-        found[Quantity(f"the share of precursors {name}", "%")] = mean_interval(shares)
+        possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
+        found[Quantity(f"the share of precursors {name}", "%")] = possible
         if broad in sizes:
             more = Quantity(f"static friction on pillars of {broad:g} µm minus that of {best:g} µm")
             found[more] = difference_interval(force[broad], force[best])
@@ -208,8 +208,8 @@ def changes(
         if len(known) >= 2:
             (first, before), (last, after) = known[0], known[-1]
             places = f" at {_place(first, axis)}", f" at {_place(last, axis)}"
-            has_moved = direction(before, after) != UNCHANGED
-            said[kind] = has_moved, f"{words}: {change(before, after, unit, places)}."
+            sentence = f"{words}: {change(before, after, unit, places)}."
+            said[kind] = direction(before, after), sentence
     return said
 
 
@@ -227,24 +227,35 @@ def _moves(compared: Mapping[str, Comparison]) -> Changes:
             best = {
                 at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
             }
-            moves = are_apart(best.values())
+            verb = "changes" if are_apart(best.values()) else UNCHANGED
             places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
-            said[kind] = moves, f"{words}: {'changes' if moves else UNCHANGED} ({places})."
+            among = listed([f"{size:g}" for size in common])
+            said[kind] = verb, f"{words}: {verb} ({places}; among {among} µm)."
     return said
 
 
 def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
     """Say what changes with l, in all refinements of the lattice or in some, and with l_z."""
-    every, some, none, layer = (list[str]() for _ in range(4))
+    every, opposite, some, none, layer = (list[str]() for _ in range(5))
     for (name, unit), by_comparison in changed.items():
-        moves = {kind: has_moved for kind, (has_moved, _) in by_comparison.items()}
-        if unit != "blocks":  # the same in µm is among them
-            if moves.pop("layer", False):
-                layer.append(name)
-            if moves:
-                place = every if all(moves.values()) else some if any(moves.values()) else none
-                place.append(name)
-    cases = {"in every case below": every, "in some cases": some, "in no case": none}
+        verbs = {kind: verb for kind, (verb, _) in by_comparison.items()}
+        if unit == "blocks":  # the same in µm is among them
+            continue
+        if verbs.pop("layer", UNCHANGED) != UNCHANGED:
+            layer.append(name)
+        found = {*verbs.values()}
+        if found == {UNCHANGED}:
+            none.append(name)
+        elif UNCHANGED in found:
+            some.append(name)
+        elif found:
+            (every if len(found) == 1 else opposite).append(name)
+    cases = {
+        "in every case below": every,
+        "in every case, but not in the same direction": opposite,
+        "in some cases": some,
+        "in no case": none,
+    }
     of_lattice = "; ".join(f"{how}, {_grouped(names)}" for how, names in cases.items() if names)
     return (
         f"**Refining the lattice changes**, {of_lattice}. **A thicker layer changes** "

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from springblock.analysis.statistics import Interval
+from springblock.analysis.statistics import Interval, independent_difference
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 
@@ -70,19 +70,15 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
 
 def change(first: Interval, last: Interval, unit: str = "", at: tuple[str, str] = ("", "")) -> str:
     """Say how a value changes, from the first to the last place, which `at` names."""
-    before, after = f"{number(first, unit)}{at[0]}", f"{number(last, unit)}{at[1]}"
-    verb = direction(first, last)
-    values = f"({before}, {after})" if verb == UNCHANGED else f"from {before} to {after}"
-    return f"{verb} {values}"
+    apart = independent_difference(last, first)
+    values = f"from {number(first, unit)}{at[0]} to {number(last, unit)}{at[1]}"
+    scatter = "" if apart.low == apart.high else f" (difference: {number(apart, unit)})"
+    return f"{direction(first, last)} {values}{scatter}"
 
 
 def direction(first: Interval, last: Interval) -> str:
-    """Say whether a value changes significantly: its 95 % intervals do not overlap."""
-    if last.high < first.low:
+    """Say whether a value changes: the 95 % interval of the difference excludes zero."""
+    apart = independent_difference(last, first)
+    if apart.high < 0.0:
         return "decreases"
-    return "increases" if last.low > first.high else UNCHANGED
-
-
-def listed(names: Sequence[str]) -> str:
-    """Join names as a sentence does."""
-    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+    return "increases" if apart.low > 0.0 else UNCHANGED

@@ -12,13 +12,12 @@ from springblock.beyond.question import (
     change,
     grouped,
     is_even,
-    listed,
     number,
     on_one_side,
 )
 from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
-from springblock.io.rows import markdown_table
+from springblock.io.rows import listed, markdown_table
 
 NEEDS = "groups pillars and scatter"
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 from springblock.analysis.correlation import LAST, Correlation, groove_times, side_times
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import Ensembles, change, grouped, listed, number
+from springblock.beyond.question import Ensembles, change, grouped, number
 from springblock.beyond.resampling import FEWEST, decay_length
 from springblock.io.records import Record
-from springblock.io.rows import markdown_table
+from springblock.io.rows import listed, markdown_table
 from springblock.model.direction import degrees
 from springblock.simulation.run import Array
 

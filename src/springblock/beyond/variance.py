@@ -7,9 +7,9 @@ import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
-from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, listed, number
+from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
 from springblock.beyond.resampling import interval
-from springblock.io.rows import markdown_table
+from springblock.io.rows import listed, markdown_table
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
@@ -66,11 +66,26 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if found:
         laws = listed([_law(*each) for each in found.items()])
         yield (
-            "**The variance of static friction between realisations is proportional to n^-x**, "
-            f"where n = N² blocks and x = 1 for independent blocks. We find {laws}."
+            "**The variance of static friction between realisations decreases approximately as "
+            f"n^-x**, where n = N² blocks. We find {laws}. Independent blocks have x = 1, but so "
+            "has any surface on which correlation extends over a fixed number of blocks."
         )
+        steps = listed([_last_step(*each) for each in found.items()])
+        yield f"**Between the two largest surfaces** the variance changes by {steps}."
         header = ["surface", "N", "static friction", "variance / 1e-6", "realisations"]
         yield markdown_table(header, [line for each in found.items() for line in _lines(*each)])
+
+
+def _last_step(pattern: Pattern, sizes: Mapping[int, Array]) -> str:
+    """Compare the variances on the two largest surfaces with x = 1."""
+    smaller, larger = list(sizes)[-2:]
+    values = [sizes[larger], sizes[smaller]]
+    ratio = interval(values, _VARIANCE, lambda found: found[..., 0] / found[..., 1])
+    expected = (smaller / larger) ** 2
+    within = "within" if ratio.low <= expected <= ratio.high else "outside"
+    place = f"{name(pattern)}, N = {smaller} and {larger}"
+    one = f"x = 1 gives {expected:.2g}, {within} the interval"
+    return f"a factor of {number(ratio)} ({place}; {one})"
 
 
 def _law(pattern: Pattern, sizes: Mapping[int, Array]) -> str:

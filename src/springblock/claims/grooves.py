@@ -78,11 +78,10 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
         s for s in evidence.records if replace(s, direction=ALONG) in along and s not in along
     ]
     for scene in sorted(turned, key=lambda s: (degrees(s.direction), s.n_p2)):
-        case, name = (
-            {"degrees": degrees(scene.direction)},
-            f"{_LESSER}, pawls of {scene.n_p2} blocks",
+        case = {"degrees": degrees(scene.direction)}
+        yield prominent(
+            evidence, scene, _ONE_PEAK, case, f"{_LESSER}, pawls of {scene.n_p2} blocks"
         )
-        yield prominent(evidence, scene, _ONE_PEAK, case, name)
 
 
 @claim("Without hierarchy one load peak", "3.3", 9, _NO_HIERARCHY, "universal")
@@ -163,11 +162,8 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     across. Where 40 realisations left the latter open, there are 200.
     """
     for along, case in _third_levels(evidence):
-        for scene, way, claimed in (
-            (along, "along", _TWO_PEAKS),
-            (across(along), "across", _ONE_PEAK),
-        ):
-            yield prominent(evidence, scene, claimed, case, f"{_LESSER}, {way} the grooves")
+        yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
+        yield prominent(evidence, across(along), _ONE_PEAK, case, f"{_LESSER}, across the grooves")
 
 
 @claim("A load peak for every level", "5", 9, _THREE_LEVELS, "universal")

@@ -234,12 +234,10 @@ def small_force_suffices(evidence: Evidence) -> Iterator[Finding]:
         return peaks.additional / (float(peaks.run.force.max()) - peaks.sliding)
 
     name = "the growth of the force from between the peaks to 90 % detachment"
-    for against, quantity in (
-        ("the force itself", over_lowest),
-        ("static minus dynamic friction", over_excess),
-    ):
-        reading = {"small against": against}
-        yield from _means(evidence, f"{name} over {against}", quantity, ranges.NEGLIGIBLE, reading)
+    readings = {"the force itself": over_lowest, "static minus dynamic friction": over_excess}
+    for against, quantity in readings.items():
+        reading, over = {"small against": against}, f"{name} over {against}"
+        yield from _means(evidence, over, quantity, ranges.NEGLIGIBLE, reading)
 
 
 def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
@@ -277,4 +275,5 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
         f"(interval over {len(found)} surfaces)"
     )
     change = partial_slope(n_p, n_p2, y) if min(map(len, found.values())) > 1 else UNKNOWN
-    yield Finding({}, statistic, change, ranges.NEGATIVE, surfaces.in_files(*found), "1/block")
+    source = surfaces.in_files(*found)
+    yield Finding({}, statistic, change, ranges.NEGATIVE, source, "1/block", "surfaces")

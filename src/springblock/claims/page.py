@@ -47,15 +47,8 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     earlier, parts = register.verdicts(), []
-    header = [
-        "statement",
-        "form",
-        "verdict",
-        "earlier seeds",
-        "1.0.0",
-        "deciding finding",
-        "claimed",
-    ]
+    header = ["statement", "form", "verdict", "earlier seeds", "1.0.0"]
+    header += ["deciding finding", "claimed"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
         for number, part in group:
@@ -64,10 +57,10 @@ def _contents(numbered: Sequence[Part]) -> list[str]:
             link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
             old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
             found = _deciding(part)
-            said = (
-                [f"{_in_words(found, part)}.", _range(found)] if found else [_missing(first), "–"]
-            )
-            lines.append([link, first["form"], verdict, *old, *said])
+            said, claimed = _missing(first), "–"
+            if found:
+                said, claimed = f"{_in_words(found, part)}.", _range(found)
+            lines.append([link, first["form"], verdict, *old, said, claimed])
         parts += [f"### Section {section}: {_SECTIONS[section]}", markdown_table(header, lines)]
     return parts
 
@@ -135,14 +128,14 @@ def _says(statistic: str, key: str, value: str) -> bool:
 
 
 def _needed(row: Row) -> str:
-    """Say how many realisations would settle an open finding."""
+    """Say how many realisations, or surfaces, would settle an open finding."""
     wanted = row["needed"]
     if math.isnan(wanted):
         return "no interval"
     if math.isinf(wanted):
-        return "no number of realisations settles it"
+        return f"no number of {row['sample']} settles it"
     digits = 10 ** max(0, len(str(int(wanted))) - 2)
-    return f"about {math.ceil(wanted / digits) * digits} realisations would settle it"
+    return f"about {math.ceil(wanted / digits) * digits} {row['sample']} would settle it"
 
 
 def _section(number: int, part: Sequence[Row]) -> str:

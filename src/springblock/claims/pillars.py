@@ -347,10 +347,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         lowest, broad = _lowest(evidence, scenes), max(scenes, key=lambda s: s.n_p)
         runs, n_p = evidence.records[broad], lowest.n_p
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
-        for curve, (value, low, high) in (
-            (ranges.PLAIN, fit.fitted),
-            (ranges.SCALED, fit.tail),
-        ):
+        fits = {ranges.PLAIN: fit.fitted, ranges.SCALED: fit.tail}
+        for curve, (value, low, high) in fits.items():
             yield Finding(
                 {_SCATTER: scatter, "fit": curve},
                 f"the size of lowest static friction, n_p = {n_p}, over l_c at n_p = {broad.n_p}",

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import students_t
 from springblock.io.records import Record
-from springblock.io.rows import Row
+from springblock.io.rows import Row, listed
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
@@ -58,6 +58,7 @@ class Finding:
     claimed: Range
     rests_on: str  #: separated by "; "
     unit: str = "1"
+    sample: str = "realisations"  #: of what the statistic has a sample
 
     def outcome(self, together: int = 1) -> str:
         """Return whether the claim "holds", "fails" or is "open", given several findings.
@@ -211,7 +212,7 @@ def boundary(cases: Sequence[tuple[Case, str]], *outcomes: str) -> str:
     for outcome in outcomes:
         if where := _phrases(cases, alone[:1] or differing, outcome):
             verb = "is open" if outcome == "open" else outcome
-            parts.append(f"it {verb} {_listed(where)}")
+            parts.append(f"it {verb} {listed(where)}")
     return capitalised(f"{'; '.join(parts)}.")
 
 
@@ -222,7 +223,7 @@ def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: st
     key, *others = keys
     if not others:
         values = [case.get(key, "") for case, _ in cases]
-        return [phrase(key, _listed(_ranges(values, [found == outcome for _, found in cases])))]
+        return [phrase(key, listed(_ranges(values, [found == outcome for _, found in cases])))]
     phrases = []
     for value in dict.fromkeys(case.get(key, "") for case, _ in cases):
         group = [(case, found) for case, found in cases if case.get(key, "") == value]
@@ -246,10 +247,6 @@ def capitalised(text: str) -> str:
     """Return the text with a capital first letter, unless it begins with a symbol."""
     first = text.partition(" ")[0]
     return text[:1].upper() + text[1:] if first.isalpha() else text
-
-
-def _listed(names: Sequence[str]) -> str:
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
 def describe(case: Case) -> str:

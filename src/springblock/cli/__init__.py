@@ -3,6 +3,8 @@
 import atexit
 import gc
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pkgutil import resolve_name
 
 import click
@@ -32,7 +34,28 @@ COMMANDS = {
 }
 
 
+@contextmanager
+def one_sentence() -> Iterator[None]:
+    """Report errors of the input in one sentence, without a traceback."""
+    try:
+        yield
+    except click.exceptions.Exit:  # a RuntimeError, after --help
+        raise
+    except (OSError, TypeError, ValueError, RuntimeError) as error:
+        raise click.ClickException(str(error)) from error
+
+
 class _LazyGroup(click.Group):
+    """Commands imported when they are called, whose errors and interruption end in one line."""
+
+    def invoke(self, ctx: click.Context) -> object:
+        try:
+            with one_sentence():
+                return super().invoke(ctx)
+        except KeyboardInterrupt:
+            click.echo("\nInterrupted.", err=True)
+            ctx.exit(130)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
 

@@ -1,8 +1,8 @@
 """springblock claims: verdicts on the paper's statements, as a table and as a page."""
 
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -12,8 +12,8 @@ from springblock.claims.page import page
 from springblock.claims.rule import Evidence, enough
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
-from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
-from springblock.files import whole_file
+from springblock.cli.options import INPUT, OUTPUT, code_version
+from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
@@ -41,15 +41,14 @@ def _stress(records: Records) -> dict[Scene, Array]:
     }
 
 
-def _files(option: str, what: str) -> Callable[..., Any]:
-    return click.option(option, type=INPUT, multiple=True, help=f"{what} Can be repeated.")
+_files = partial(click.option, type=INPUT, multiple=True)
 
 
 @click.command("claims")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
-@_files("--correlation", "Table of correlation functions.")
-@_files("--correlation-length", "Table of correlation lengths.")
-@_files("--work-precision", "Table of work and precision.")
+@_files("--correlation", help="Table of correlation functions. Can be repeated.")
+@_files("--correlation-length", help="Table of correlation lengths. Can be repeated.")
+@_files("--work-precision", help="Table of work and precision. Can be repeated.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 @click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
@@ -66,19 +65,17 @@ def claims(
 
     Statements whose data are missing are not tested.
     """
-    with one_sentence():
-        records = by_scene(read_records(batches))
-        tables = *correlation, *correlation_length
-        refuse_mixture((file, load(file)) for file in (batches[0], *tables))
-        evidence = Evidence(
-            records=enough(records),
-            correlation=enough(_tables(correlation, records)),
-            correlation_length=enough(_tables(correlation_length, records)),
-            stress=_stress(records),
-            precision=[row for table in work_precision for row in load(table).to_pylist()],
-        )
-        table = rows(CLAIMS, evidence)
-        origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
-        write(rows_to_table(table, SCHEMA), output, origin)
-        with whole_file(text) as partial:
-            partial.write_text(page(table), encoding="utf-8")
+    records = by_scene(read_records(batches))
+    tables = *correlation, *correlation_length
+    refuse_mixture((file, load(file)) for file in (batches[0], *tables))
+    evidence = Evidence(
+        records=enough(records),
+        correlation=enough(_tables(correlation, records)),
+        correlation_length=enough(_tables(correlation_length, records)),
+        stress=_stress(records),
+        precision=[row for table in work_precision for row in load(table).to_pylist()],
+    )
+    table = rows(CLAIMS, evidence)
+    origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
+    write(rows_to_table(table, SCHEMA), output, origin)
+    write_text(text, page(table))

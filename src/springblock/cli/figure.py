@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options, with_options
+from springblock.cli.options import INPUT, OUTPUT, scene_options, with_options
 from springblock.io.parquet import load, read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
@@ -86,10 +86,9 @@ class _Figures(click.Group):
         takes, given = _SOURCES[type(declared.source)]
 
         def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
-            with one_sentence():
-                picture = drawing(cmd_name)(*given(declared.source, **inputs))
-                for output in outputs:
-                    save(picture, output, caption or declared.usual_caption)
+            picture = drawing(cmd_name)(*given(declared.source, **inputs))
+            for output in outputs:
+                save(picture, output, caption or declared.usual_caption)
 
         command = click.command(cmd_name, help=declared.usual_caption, short_help=declared.title)
         return command(with_options([*takes, _CAPTION, _OUTPUTS], write))

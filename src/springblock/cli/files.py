@@ -6,8 +6,8 @@ from pathlib import Path
 import click
 import pyarrow as pa
 
-from springblock.cli.options import INPUT, OUTPUT, one_sentence
-from springblock.files import whole_file
+from springblock.cli.options import INPUT, OUTPUT
+from springblock.files import write_text
 from springblock.io.fields import VARIABLES, read_fields
 from springblock.io.parquet import load, origin_of
 from springblock.model.scene import Scene
@@ -21,10 +21,9 @@ _SHOWN = 12  #: largest number of scenes listed
 @click.argument("file", type=INPUT)
 def info(file: Path) -> None:
     """Describe FILE (table, prelude or fields): rows, scenes, origin, columns with their units."""
-    with one_sentence():
-        describe = _fields if file.suffix == ".nc" else _table
-        for line in _prelude(file) if zipfile.is_zipfile(file) else describe(file):
-            click.echo(line)
+    describe = _fields if file.suffix == ".nc" else _table
+    for line in _prelude(file) if zipfile.is_zipfile(file) else describe(file):
+        click.echo(line)
 
 
 def _fields(file: Path) -> list[str]:
@@ -77,5 +76,4 @@ def _scenes(table: pa.Table) -> list[str]:
 @click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
     """Write the meaning and unit of every column of every table."""
-    with whole_file(output) as partial:
-        partial.write_text(page(tables()), encoding="utf-8")
+    write_text(output, page(tables()))

@@ -7,8 +7,8 @@ import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
 from springblock.beyond.question import by_scene
-from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
-from springblock.files import whole_file
+from springblock.cli.options import INPUT, OUTPUT, code_version
+from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.mechanism.surfaces import TABLES
@@ -45,17 +45,15 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
     realisations and, if there is one, production; mechanism writes the page on friction and load
     peaks from its tables; beyond answers questions beyond the paper from batches of realisations.
     """
-    with one_sentence():
-        wanted, least, most = INPUTS[name]
-        if len(inputs) < least or (most is not None and len(inputs) > most):
-            raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
-        if name in MEASURED:
-            _measure(name, output)
-        elif name == "collect":
-            _collect(inputs, configuration, output)
-        else:
-            with whole_file(output) as partial:
-                partial.write_text(_page(name, inputs), encoding="utf-8")
+    wanted, least, most = INPUTS[name]
+    if len(inputs) < least or (most is not None and len(inputs) > most):
+        raise ValueError(f"{name}: {len(inputs)} files given; give {wanted}")
+    if name in MEASURED:
+        _measure(name, output)
+    elif name == "collect":
+        _collect(inputs, configuration, output)
+    else:
+        write_text(output, _page(name, inputs))
 
 
 def _measure(name: str, output: Path) -> None:
@@ -118,8 +116,6 @@ def report(
     from springblock.report import own as of_own  # need the packages of the study
     from springblock.report import page
 
-    with one_sentence():
-        shown = dict(films)
-        text = of_own.page(own, files, shown) if own else page.page(files, shown)
-        with whole_file(output) as partial:
-            partial.write_text(text, encoding="utf-8")
+    shown = dict(films)
+    text = of_own.page(own, files, shown) if own else page.page(files, shown)
+    write_text(output, text)

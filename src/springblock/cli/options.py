@@ -1,9 +1,8 @@
 """Options and error handling shared by several commands."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import fields
-from functools import wraps
+from functools import partial, wraps
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -29,6 +28,8 @@ class _Output(click.Path):
         return path
 
 
+#: An option whose help shows its default.
+defaulted = partial(click.option, show_default=True)
 OUTPUT = _Output(dir_okay=False, path_type=Path)
 INPUT = click.Path(exists=True, dir_okay=False, path_type=Path)
 
@@ -61,13 +62,7 @@ SURFACE = [
     click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
     click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
     click.option("--along-3", type=click.Choice("xy"), help="Axis of these grooves; y by default."),
-    click.option(
-        "--edges",
-        type=click.Choice(EDGES),
-        default="free",
-        show_default=True,
-        help="Edges of the surface.",
-    ),
+    defaulted("--edges", type=click.Choice(EDGES), default="free", help="Edges of the surface."),
     click.option(
         "--mask",
         type=INPUT,
@@ -91,11 +86,10 @@ SURFACE = [
 ]
 _SCENE = [
     *SURFACE,
-    click.option(
+    defaulted(
         "--direction",
         default="x",
         callback=given(normalised),
-        show_default=True,
         help="Sliding direction: x, y or degrees from x.",
     ),
     click.option(
@@ -113,9 +107,7 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_scene(**options: Any) -> Any:
-        with one_sentence():
-            scene = scene_of(options)
-        return command(scene=scene, **options)
+        return command(scene=scene_of(options), **options)
 
     return with_options(_SCENE, with_scene)
 
@@ -123,6 +115,8 @@ def scene_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def scene_of(options: dict[str, Any], **others: Any) -> Scene:
     """Remove the options of a scene from `options`, and return the scene."""
     given = {field.name: options.pop(field.name, None) for field in fields(Scene)} | others
+    if not given["n_blocks"] and given["mask"] is None:
+        raise ValueError("the surface has no size; give --n-blocks or --mask")
     return Scene(**given | {"along_3": given["along_3"] or ""})
 
 
@@ -143,12 +137,3 @@ def code_version(step: str) -> str:
     context = click.get_current_context(silent=True)
     given = context.find_root().params.get("code") if context else None
     return f"{version('springblock')}+{given}" if given else provenance.code_version(step)
-
-
-@contextmanager
-def one_sentence() -> Iterator[None]:
-    """Report errors of the input in one sentence, without a traceback."""
-    try:
-        yield
-    except (OSError, TypeError, ValueError, RuntimeError) as error:
-        raise click.ClickException(str(error)) from error

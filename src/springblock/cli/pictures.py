@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 from matplotlib.figure import Figure
 
-from springblock.cli.options import INPUT, OUTPUT, one_sentence, scene_options
+from springblock.cli.options import INPUT, OUTPUT, scene_options
 from springblock.io.fields import read_fields
 from springblock.io.parquet import read as read_tables
 from springblock.io.records import Record, read
@@ -62,23 +62,22 @@ def plot(
     For a file of fields (.nc), draw maps of shear stress and slip. With --over, draw all runs of
     FILES, which may be tables of realisations, against a parameter.
     """
-    with one_sentence():
-        if files[0].suffix == ".nc":
-            picture = _fields(files, seed is not None or over or observables)
-            caption = still.FIELDS_CAPTION
-        elif over is None:
-            if len(files) > 1:
-                raise ValueError(f"{len(files)} files given; give one, or a parameter with --over")
-            picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
-        else:
-            rows = read_tables(files, SUMMARY).to_pylist()
-            found = lines(rows, over)
-            picture = sweep.draw(found, over, observables or ["static_friction"])
-            caption = sweep.caption(found)
-            if left_out := len(rows) - len(sweep.drawn(found)):
-                click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
-        for output in outputs:
-            save(picture, output, caption)
+    if files[0].suffix == ".nc":
+        picture = _fields(files, seed is not None or over or observables)
+        caption = still.FIELDS_CAPTION
+    elif over is None:
+        if len(files) > 1:
+            raise ValueError(f"{len(files)} files given; give one, or a parameter with --over")
+        picture, caption = still.plot(_chosen(files[0], seed)), still.RUN_CAPTION
+    else:
+        rows = read_tables(files, SUMMARY).to_pylist()
+        found = lines(rows, over)
+        picture = sweep.draw(found, over, observables or ["static_friction"])
+        caption = sweep.caption(found)
+        if left_out := len(rows) - len(sweep.drawn(found)):
+            click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
+    for output in outputs:
+        save(picture, output, caption)
 
 
 @click.command("animate")
@@ -87,8 +86,7 @@ def plot(
 @click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file; 7.5 s.")
 def animate(run: Path, seed: int | None, output: Path) -> None:
     """Film one run of a file RUN: the detaching blocks beside the force curve."""
-    with one_sentence():
-        film.animate(_chosen(run, seed), output)
+    film.animate(_chosen(run, seed), output)
 
 
 @click.command("show")
@@ -96,6 +94,5 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 @click.option("--output", type=OUTPUT, required=True, help="PDF, PNG or SVG file.")
 def show(scene: Scene, output: Path) -> None:
     """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
-    with one_sentence():
-        picture = still.show(scene.contact, scene.direction, str(scene))
-        save(picture, output, still.SURFACE_CAPTION)
+    picture = still.show(scene.contact, scene.direction, str(scene))
+    save(picture, output, still.SURFACE_CAPTION)

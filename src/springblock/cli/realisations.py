@@ -8,14 +8,8 @@ import click
 import numpy as np
 
 from springblock.accuracy.conventions import suspects
-from springblock.analysis.correlation import (
-    Correlation,
-    Length,
-    design_effect,
-    groove_times,
-    side_times,
-)
-from springblock.cli.options import INPUT, OUTPUT, code_version, one_sentence
+from springblock.analysis.correlation import Correlation, Length, groove_times, side_times
+from springblock.cli.options import INPUT, OUTPUT, code_version
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import Record, read_records
 from springblock.io.rows import Row
@@ -32,18 +26,15 @@ def aggregate(
     batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
 ) -> None:
     """Collect the summaries of all BATCHES into one table, a row per realisation."""
-    with one_sentence():
-        table = read(batches, SUMMARY)
-        if realisations not in (None, table.num_rows):
-            raise ValueError(
-                f"{table.num_rows} realisations in the batches; expected {realisations}"
-            )
-        table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
-        for row in suspects(table.to_pylist(), COLUMNS):
-            which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
-            click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
-        metadata = {"code_version": code_version("simulate"), "configuration_digest": configuration}
-        write(table, output, metadata)
+    table = read(batches, SUMMARY)
+    if realisations not in (None, table.num_rows):
+        raise ValueError(f"{table.num_rows} realisations in the batches; expected {realisations}")
+    table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
+    for row in suspects(table.to_pylist(), COLUMNS):
+        which = ", ".join(f"{key} = {row[key]}" for key in [*COLUMNS, "seed"])
+        click.echo(f"warning: energy residual {row['energy_error']:.1e} at {which}")
+    metadata = {"code_version": code_version("simulate"), "configuration_digest": configuration}
+    write(table, output, metadata)
 
 
 @click.command("correlation")
@@ -52,18 +43,16 @@ def aggregate(
 @click.option("--output-length", type=OUTPUT, required=True, help="Parquet file of l_c.")
 def correlation(batches: tuple[Path, ...], output_correlation: Path, output_length: Path) -> None:
     """Correlate detachment times along the sides of pillars; BATCHES hold one scene."""
-    with one_sentence():
-        curves: list[Row] = []
-        lengths: list[Row] = []
-        for side, times in _sides(read_records(batches)):
-            found = Correlation(times)
-            length = found.length()
-            curves += [side | row for row in _curve(found, length)]
-            lengths.append(side | _length(length) | {"design_effect": design_effect(times)})
-        digest = origin_of(load(batches[0], []))["configuration_digest"]
-        metadata = {"code_version": code_version("analyse"), "configuration_digest": digest}
-        write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
-        write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
+    curves: list[Row] = []
+    lengths: list[Row] = []
+    for side, times in _sides(read_records(batches)):
+        found = Correlation(times)
+        curves += [side | row for row in _curve(found)]
+        lengths.append(side | _length(found.length()))
+    digest = origin_of(load(batches[0], []))["configuration_digest"]
+    metadata = {"code_version": code_version("analyse"), "configuration_digest": digest}
+    write(rows_to_table(curves, CORRELATION), output_correlation, metadata)
+    write(rows_to_table(lengths, CORRELATION_LENGTH), output_length, metadata)
 
 
 def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
@@ -81,27 +70,18 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
         yield columns | {"side": "grooves"}, groove_times(records, scene.pattern)
 
 
-def _curve(found: Correlation, length: Length) -> Iterator[Row]:
+def _curve(found: Correlation) -> Iterator[Row]:
     k, pillars, sides, _ = found.times.shape
-    residuals = np.full((3, len(found.mean)), np.nan)
-    residuals[:, 1 : length.last + 1] = length.residual
-    correlations = np.transpose(found.interval)
-    for r, (each, bias, residual) in enumerate(
-        zip(correlations, found.bias, residuals.T, strict=True)
-    ):
-        limits = _columns("correlation", each, "ci") | _columns("residual", residual)
-        yield {"r": r, **limits, "bias": bias, "samples": k * pillars * sides}
+    for r, each in enumerate(np.transpose(found.interval)):
+        yield {"r": r, **_columns("correlation", each, "ci"), "samples": k * pillars * sides}
 
 
 def _length(length: Length) -> Row:
     return {
         **_columns("l_c", length.fitted, "ci"),
-        **_columns("integral", length.integral),
         **_columns("tail", length.tail),
         **_columns("amplitude", length.amplitude),
-        "bias": length.bias,
         "r_last": length.last,
-        "deviation": length.deviation,
     }
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from springblock.analysis import comparison
-from springblock.cli.options import INPUT, OUTPUT, one_sentence
+from springblock.cli.options import INPUT, OUTPUT, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
 
@@ -21,17 +21,14 @@ def verify(results: Path, other: Path | None) -> None:
     With OTHER, compare the tables of two studies within their intervals, or two files to the bit.
     The exit status is 0 without a fault or significant difference, and 1 otherwise.
     """
-    with one_sentence():
-        if results.is_file():
-            _verify_bits(results, other)
-            return
-        found = [fault.reason for fault in audit.faults(results)]
-        for line in found or [
-            f"{results}: every file is complete, in its place and of the current code"
-        ]:
-            click.echo(line)
-        if other is not None:
-            found += _differences(results, other)
+    if results.is_file():
+        _verify_bits(results, other)
+        return
+    found = [fault.reason for fault in audit.faults(results)]
+    complete = f"{results}: every file is complete, in its place and of the current code"
+    click.echo("\n".join(found or [complete]))
+    if other is not None:
+        found += _differences(results, other)
     if found:
         raise SystemExit(1)
 
@@ -90,8 +87,7 @@ def repair(results: Path) -> None:
 
     Nothing is deleted: they are moved to the folder `set-aside` of RESULTS.
     """
-    with one_sentence():
-        found = list(audit.set_aside(results))
+    found = list(audit.set_aside(results))
     for fault in found:
         click.echo(fault.reason)
     files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
@@ -100,11 +96,10 @@ def repair(results: Path) -> None:
 
 @click.command("archive")
 @click.argument("results", type=FOLDER)
-@click.option(
+@defaulted(
     "--configuration",
     type=INPUT,
     default=Path("config/config.yaml"),
-    show_default=True,
     help="Configuration of the study.",
 )
 @click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
@@ -112,6 +107,5 @@ def archive_study(results: Path, configuration: Path, output: Path) -> None:
     """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
     from springblock.study.archive import archive  # needs the packages of the study
 
-    with one_sentence():
-        number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
+    number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
     click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

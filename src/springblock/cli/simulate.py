@@ -19,9 +19,9 @@ from springblock.cli.options import (
     INPUT,
     OUTPUT,
     code_version,
+    defaulted,
     given,
     name_value_pairs,
-    one_sentence,
     scene_options,
     with_options,
 )
@@ -53,21 +53,17 @@ SETUP = [
         "--law",
         help="Law of friction: coulomb, slip_weakening, velocity_weakening or a file FILE.py.",
     ),
-    click.option(
+    defaulted(
         "--integrator",
         type=click.Choice(list(INTEGRATORS)),
         default="leapfrog",
-        show_default=True,
         help="Time integrator.",
     ),
-    click.option(
-        "--step", type=float, default=STEP, show_default=True, help="Integration step, s."
-    ),
-    click.option(
+    defaulted("--step", type=float, default=STEP, help="Integration step, s."),
+    defaulted(
         "--sample-interval",
         type=float,
         default=SAMPLE_INTERVAL,
-        show_default=True,
         help="Time between samples of the force, s.",
     ),
 ]
@@ -78,8 +74,7 @@ def setup_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def with_setup(*, scene: Scene, **options: Any) -> Any:
-        with one_sentence():
-            setup = setup_of(options).vary(dict(scene.varied))
+        setup = setup_of(options).vary(dict(scene.varied))
         return command(scene=scene, setup=setup, **options)
 
     return scene_options(with_options(SETUP, with_setup))
@@ -130,9 +125,7 @@ def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
 #: As in the configuration of the study: up to a million seeds, from 1e18 at most.
 _MOST_SEEDS = 10**6
 _SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
-_CORES = click.option(
-    "--cores", type=int, default=1, show_default=True, help="Cores for one large surface."
-)
+_CORES = defaulted("--cores", type=int, default=1, help="Cores for one large surface.")
 
 
 @click.command("prelude")
@@ -141,8 +134,7 @@ _CORES = click.option(
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
     """Compute the loading of a scene before its first detachment, shared by all seeds."""
-    with one_sentence():
-        replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
+    replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
 
 
 def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
@@ -154,13 +146,7 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
 
 @click.command("simulate")
 @setup_options
-@click.option(
-    "--first-seed",
-    type=_SEED,
-    default=0,
-    show_default=True,
-    help="First seed of the friction coefficients.",
-)
+@defaulted("--first-seed", type=_SEED, default=0, help="First seed of the friction coefficients.")
 @click.option("--last-seed", type=_SEED, help="Last seed, included; the first seed by default.")
 @click.option(
     "--duration", type=float, help="Simulated time, s; by default until after the force peak."
@@ -216,25 +202,24 @@ def simulate_batch(
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
-    with one_sentence():
-        _check_fields(field_file, output, snapshot_times, seeds)
-        begun = None if prelude is None else _prelude(prelude)
-        row = partial(realised, scene, setup, prelude=begun, cores=cores, progress=single, **asked)
-        row = partial(row, field_file=field_file)
-        metadata = metadata_of(setup.constants | asked)
-        folder = output.with_name(f"{output.name}.checkpoint")
-        if minutes is not None:
-            belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
-            belongs |= {"fields": str(field_file)} if field_file else {}
-            row = partial(row, checkpoint_interval=60.0 * minutes)
-            row = partial(_kept_row, folder, belongs, row)
-        counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
-        with logging_redirect_tqdm(), counted as bar:
-            rows = [row(seed=seed) for seed in bar]
-        write(batch_table(rows), output, metadata)
-        click.echo(_in_words(rows))
-        if minutes is not None:
-            shutil.rmtree(folder)
+    _check_fields(field_file, output, snapshot_times, seeds)
+    begun = None if prelude is None else _prelude(prelude)
+    row = partial(realised, scene, setup, prelude=begun, cores=cores, progress=single, **asked)
+    row = partial(row, field_file=field_file)
+    metadata = metadata_of(setup.constants | asked)
+    folder = output.with_name(f"{output.name}.checkpoint")
+    if minutes is not None:
+        belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
+        belongs |= {"fields": str(field_file)} if field_file else {}
+        row = partial(row, checkpoint_interval=60.0 * minutes)
+        row = partial(_kept_row, folder, belongs, row)
+    counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
+    with logging_redirect_tqdm(), counted as bar:
+        rows = [row(seed=seed) for seed in bar]
+    write(batch_table(rows), output, metadata)
+    click.echo(_in_words(rows))
+    if minutes is not None:
+        shutil.rmtree(folder)
 
 
 def _prelude(file: Path) -> Prelude:
@@ -249,7 +234,7 @@ def _in_words(rows: list[Row]) -> str:
     """Summarise runs: means, and standard errors of several."""
     told = []
     for name, unit, factor in (
-        ("static_friction", "", 1.0),
+        ("static_friction", "", 1),
         ("t_max", " µs", 1e6),
         ("t_avg", " µs", 1e6),
     ):
@@ -326,8 +311,7 @@ def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None
     surface = Scene(n_blocks=4).contact
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
-        with one_sentence():
-            how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
-            begun = compute_prelude(surface, **how)
-            simulate(surface, *draw_friction(4, 0), prelude=begun, duration=1e-6, **how)
+        how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
+        begun = compute_prelude(surface, **how)
+        simulate(surface, *draw_friction(4, 0), prelude=begun, duration=1e-6, **how)
         click.echo(f"compiled: {integrator} with the friction law {law}")

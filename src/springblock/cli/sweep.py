@@ -1,10 +1,12 @@
 """springblock sweep: ensembles for several constants and directions, without Snakemake."""
 
+import signal
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from itertools import product
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,15 +14,8 @@ import click
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.cli.options import SURFACE, given, one_sentence, scene_of, with_options
-from springblock.cli.simulate import (
-    SETUP,
-    batch_table,
-    loaded,
-    metadata_of,
-    realised,
-    setup_of,
-)
+from springblock.cli.options import SURFACE, defaulted, given, scene_of, with_options
+from springblock.cli.simulate import SETUP, batch_table, loaded, metadata_of, realised, setup_of
 from springblock.io.parquet import load, origin_of, read, write
 from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
@@ -47,18 +42,23 @@ class Job(NamedTuple):
         """Return the metadata of the file: code and configuration."""
         return metadata_of(self.setup.constants | self.asked)
 
-    def run(self) -> int:
-        """Simulate the seeds, unless the file exists; return their number."""
+    @property
+    def is_done(self) -> bool:
+        """Whether the file exists; raise ValueError if it has other runs."""
         if not self.file.exists():
-            prelude = loaded(self.scene, self.setup)
-            rows = [
-                realised(self.scene, self.setup, seed, prelude=prelude, **self.asked)
-                for seed in self.seeds
-            ]
-            self.file.parent.mkdir(parents=True, exist_ok=True)
-            write(batch_table(rows), self.file, self.metadata)
-        elif not self.metadata.items() <= origin_of(load(self.file, [])).items():
+            return False
+        if not self.metadata.items() <= origin_of(load(self.file, [])).items():
             raise ValueError(f"{self.file} has runs with other constants or code; remove it")
+        return True
+
+    def run(self) -> int:
+        """Simulate the seeds, and return their number."""
+        prelude = loaded(self.scene, self.setup)
+        rows = [
+            realised(self.scene, self.setup, seed, prelude=prelude, **self.asked)
+            for seed in self.seeds
+        ]
+        write(batch_table(rows), self.file, self.metadata)
         return len(self.seeds)
 
 
@@ -74,12 +74,11 @@ def _varied(pairs: tuple[str, ...]) -> list[Varied]:
 
 
 _SWEPT = [
-    click.option(
+    defaulted(
         "--direction",
         "directions",
         default="x",
         callback=given(_directions),
-        show_default=True,
         help="Sliding directions, separated by commas: x, y or degrees from x.",
     ),
     click.option(
@@ -88,19 +87,13 @@ _SWEPT = [
         callback=given(_varied),
         help="Values of a constant: slider_velocity=5e-4,1e-3. Can be repeated.",
     ),
-    click.option(
-        "--seeds",
-        type=click.IntRange(1, 10**6),
-        default=10,
-        show_default=True,
-        help="Realisations of each ensemble.",
+    defaulted(
+        "--seeds", type=click.IntRange(1, 10**6), default=10, help="Realisations of each ensemble."
     ),
     click.option(
         "--duration", type=float, help="Simulated time, s; by default until after the force peak."
     ),
-    click.option(
-        "--jobs", type=click.IntRange(1), default=1, show_default=True, help="Parallel processes."
-    ),
+    defaulted("--jobs", type=click.IntRange(1), default=1, help="Parallel processes."),
     click.option(
         "--output", type=click.Path(file_okay=False, path_type=Path), required=True, help="Folder."
     ),
@@ -128,25 +121,24 @@ def sweep(
     The output folder receives the runs, the table realisations.parquet and a figure against each
     constant or direction with several values. Runs already in the folder are not repeated.
     """
-    with one_sentence():
-        usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
-        scenes = [
-            replace(surface, direction=direction, varied=_own(varied, usual))
-            for varied, direction in product(vary, directions)
-        ]
-        work = [
-            Job(scene, usual.vary(dict(scene.varied)), part, file, {"duration": duration})
-            for scene in scenes
-            for part, file in _batches(scene, seeds, output)
-        ]
-        _run(work, jobs)
-        files = [job.file for job in work]
-        table = _collected(files, output / "realisations.parquet", work[0])
-        for over in axes(scenes):
-            found = lines(table.to_pylist(), over)
-            picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
-            save(picture, output / f"{over}.png", plot.caption(found))
-        click.echo(f"springblock table {output} shows the means")
+    usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
+    scenes = [
+        replace(surface, direction=direction, varied=_own(varied, usual))
+        for varied, direction in product(vary, directions)
+    ]
+    work = [
+        Job(scene, usual.vary(dict(scene.varied)), part, file, {"duration": duration})
+        for scene in scenes
+        for part, file in _batches(scene, seeds, output)
+    ]
+    _run([job for job in work if not job.is_done], jobs)
+    files = [job.file for job in work]
+    table = _collected(files, output / "realisations.parquet", work[0])
+    for over in axes(scenes):
+        found = lines(table.to_pylist(), over)
+        picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
+        save(picture, output / f"{over}.png", plot.caption(found))
+    click.echo(f"springblock table {output} shows the means")
 
 
 def _own(varied: Varied, usual: Setup) -> Varied:
@@ -166,14 +158,27 @@ def _run(work: list[Job], jobs: int) -> None:
     number = sum(len(job.seeds) for job in work)
     with (
         tqdm(total=number, unit="realisation") as bar,
-        ProcessPoolExecutor(jobs, get_context("spawn")) as pool,
+        ProcessPoolExecutor(jobs, get_context("spawn"), _exit_on_termination) as pool,
     ):
+        # Workers inherit that Ctrl-C is ignored; they are terminated below.
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        running = [pool.submit(job.run) for job in work]
+        signal.signal(signal.SIGINT, handler)
         try:
-            for done in as_completed([pool.submit(job.run) for job in work]):
+            for done in as_completed(running):
                 bar.update(done.result())
         except BaseException:
-            pool.shutdown(cancel_futures=True)
+            pool.shutdown(wait=False, cancel_futures=True)
+            for worker in active_children():
+                while worker.is_alive():  # it may have taken another job meanwhile
+                    worker.terminate()
+                    worker.join(0.1)
             raise
+
+
+def _exit_on_termination() -> None:
+    """Let a worker remove its temporary files when it is terminated."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())
 
 
 def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:

@@ -20,7 +20,7 @@ from springblock.analysis.ensembles import (
 )
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import number
-from springblock.cli.options import OUTPUT, one_sentence
+from springblock.cli.options import OUTPUT, defaulted
 from springblock.files import whole_file
 from springblock.io.parquet import load
 from springblock.io.rows import Row
@@ -28,12 +28,11 @@ from springblock.io.schemas import SUMMARY
 
 _PATH = click.Path(exists=True, path_type=Path)
 _SHOWN = 5  #: largest number of unpaired ensembles listed
-_OF = click.option(
+_OF = defaulted(
     "--of",
     type=click.Choice(OBSERVABLES),
     multiple=True,
     default=("static_friction", "t_max", "t_avg"),
-    show_default=True,
     help="Observable. Can be repeated.",
 )
 _OUTPUT = click.option(
@@ -55,14 +54,11 @@ def table(
 
     Intervals are 95 % intervals of Student's t.
     """
-    with one_sentence():
-        members = ensembles(_rows(paths), by)
-        names = list(by) or telling(each.names for each in members)
-        columns = {"runs": [len(each.rows) for each in members]}
-        intervals = {name: [mean(each, name) for each in members] for name in of}
-        _show([each.names for each in members], names, columns, intervals)
-        if output:
-            _write([each.names for each in members], names, columns, intervals, output)
+    members = ensembles(_rows(paths), by)
+    names = list(by) or telling(each.names for each in members)
+    columns = {"runs": [len(each.rows) for each in members]}
+    intervals = {name: [mean(each, name) for each in members] for name in of}
+    _report([each.names for each in members], names, columns, intervals, output)
 
 
 @click.command("compare")
@@ -76,27 +72,24 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
     For each ensemble in both: the difference of means with its 95 % interval, paired where seeds
     and friction coefficients are the same. `springblock verify` compares to the bit.
     """
-    with one_sentence():
-        one, other = (ensembles(_rows([path])) for path in (first, second))
-        differ, found = changes(one, other)
-        for name, (ours, theirs) in differ.items():
-            click.echo(f"{name}: {ours} in {first}, {theirs} in {second}")
-        if not found:
-            raise ValueError(f"{first} and {second} have no ensemble in common")
-        shared = [id(part) for each in found for part in (each.first, each.second)]
-        for path, members in ((first, one), (second, other)):
-            _tell_alone(path, [each for each in members if id(each) not in shared])
-        every = [each.names for each in found]
-        names = telling(every)
-        columns = {
-            "runs": [f"{len(each.first.rows)}, {len(each.second.rows)}" for each in found],
-            "difference": ["by seed" if each.paired else "of means" for each in found],
-        }
-        intervals = {name: [each.of(name) for each in found] for name in of}
-        click.echo("Second minus first:")
-        _show(every, names, columns, intervals)
-        if output:
-            _write(every, names, columns, intervals, output)
+    one, other = (ensembles(_rows([path])) for path in (first, second))
+    differ, found = changes(one, other)
+    for name, (ours, theirs) in differ.items():
+        click.echo(f"{name}: {ours} in {first}, {theirs} in {second}")
+    if not found:
+        raise ValueError(f"{first} and {second} have no ensemble in common")
+    shared = [id(part) for each in found for part in (each.first, each.second)]
+    for path, members in ((first, one), (second, other)):
+        _tell_alone(path, [each for each in members if id(each) not in shared])
+    every = [each.names for each in found]
+    names = telling(every)
+    columns = {
+        "runs": [f"{len(each.first.rows)}, {len(each.second.rows)}" for each in found],
+        "difference": ["by seed" if each.paired else "of means" for each in found],
+    }
+    intervals = {name: [each.of(name) for each in found] for name in of}
+    click.echo("Second minus first:")
+    _report(every, names, columns, intervals, output)
 
 
 def _rows(paths: Sequence[Path]) -> list[Row]:
@@ -127,44 +120,42 @@ def _tell_alone(path: Path, members: Sequence[Ensemble]) -> None:
         click.echo(f"only in {path}: {len(members) - _SHOWN} more")
 
 
-def _show(
+def _report(
     members: Sequence[Names],
     names: Sequence[str],
     columns: dict[str, list[Any]],
     intervals: dict[str, list[Interval]],
+    output: Path | None,
 ) -> None:
-    """Print a row per ensemble, times in µs."""
+    """Print a row per ensemble, times in µs, and write it in SI units if a file is given.
+
+    The file has separate columns for the limits of intervals.
+    """
     told: dict[str, list[Any]] = {name: [each.get(name, "") for each in members] for name in names}
-    told |= columns
+    kept: dict[str, list[Any]] = {name: [each.get(name) for each in members] for name in names}
+    told, kept = told | columns, kept | columns
     for name, found in intervals.items():
         unit, factor = (" (µs)", 1e6) if name.startswith("t_") else ("", 1.0)
         told[name + unit] = [number(each, factor=factor) for each in found]
+        for i, end in enumerate(("", "_low", "_high")):
+            kept[name + end] = [float(each[i]) for each in found]
     lines = [[name, *map(str, cells)] for name, cells in told.items()]
     padded = [[cell.ljust(max(map(len, line))) for cell in line] for line in lines]
     for row in zip(*padded, strict=True):
         click.echo("  ".join(row).rstrip())
+    if output:
+        _write(kept, output)
 
 
-def _write(
-    members: Sequence[Names],
-    names: Sequence[str],
-    columns: dict[str, list[Any]],
-    intervals: dict[str, list[Interval]],
-    output: Path,
-) -> None:
-    """Write the table as CSV or Parquet, with separate columns for the limits of intervals."""
-    found: dict[str, list[Any]] = {name: [each.get(name) for each in members] for name in names}
-    found |= columns
-    for name, values in intervals.items():
-        for i, end in enumerate(("", "_low", "_high")):
-            found[name + end] = [float(each[i]) for each in values]
+def _write(columns: dict[str, list[Any]], output: Path) -> None:
+    """Write a table as CSV or Parquet."""
     with whole_file(output) as partial:
         if output.suffix == ".parquet":
-            pq.write_table(pa.table(found), partial)
+            pq.write_table(pa.table(columns), partial)
         elif output.suffix == ".csv":
             with partial.open("w", newline="", encoding="utf-8") as file:
                 writer = csv.writer(file)
-                writer.writerow(found)
-                writer.writerows(zip(*found.values(), strict=True))
+                writer.writerow(columns)
+                writer.writerows(zip(*columns.values(), strict=True))
         else:
             raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")

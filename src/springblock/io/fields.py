@@ -14,7 +14,11 @@ from springblock.simulation.fields import BlockState, Fields
 
 #: Dimensions of a field.
 _PLACED = ("time", "y", "x")
-_DOI = "https://doi.org/10.1016/j.ijsolstr.2022.111525"
+_ABOUT = {
+    "Conventions": "CF-1.11",
+    "title": "Fields of a spring-block model of the onset of frictional sliding",
+    "references": "https://doi.org/10.1016/j.ijsolstr.2022.111525",
+}
 #: Exceptions that scipy raises on a truncated file or one of another format.
 _UNREADABLE = AttributeError, IndexError, KeyError, OSError, TypeError, ValueError
 
@@ -57,7 +61,7 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
         raise ValueError("there are no fields to write: the run was given no snapshot_times")
     columns = _columns(fields)
     with whole_file(Path(path)) as partial, netcdf_file(partial, "w", version=2) as file:
-        for name, value in (_described() | attributes).items():
+        for name, value in (_ABOUT | attributes).items():
             if hasattr(file, name):  # scipy's object uses the name
                 raise ValueError(f"no attribute of a NetCDF file can be called {name!r}")
             # scipy would store a float in single precision, and text as Latin-1
@@ -97,14 +101,6 @@ def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
         "stress_x": fields.stress[:, 0] + in_contact,
         "stress_y": fields.stress[:, 1] + in_contact,
         "state": fields.state,
-    }
-
-
-def _described() -> dict[str, str]:
-    return {
-        "Conventions": "CF-1.11",
-        "title": "Fields of a spring-block model of the onset of frictional sliding",
-        "references": _DOI,
     }
 
 

@@ -15,3 +15,8 @@ def markdown_table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str
     """Return a table in Markdown."""
     cells = [header, ["---"] * len(header), *lines]
     return "\n".join("| " + " | ".join(line) + " |" for line in cells)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Join names as a sentence does."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

@@ -18,6 +18,12 @@ def texts(**meanings: str) -> list[pa.Field]:
     return [column(name, pa.string(), "1", meaning) for name, meaning in meanings.items()]
 
 
+def _limits(name: str, unit: str) -> list[pa.Field]:
+    """Return the columns of the limits of an interval."""
+    meanings = {f"{name}_low": "lower limit of its 95 % interval", f"{name}_high": "upper limit"}
+    return numbers(unit, **meanings)
+
+
 N_BLOCKS = column("n_blocks", pa.int32(), "blocks", "side N of the surface")
 
 #: Columns that identify a scene, by the names of `Scene`.
@@ -113,12 +119,7 @@ CORRELATION = pa.schema(
         *_SIDE,
         column("r", pa.int32(), "blocks", "distance along the side from its middle"),
         column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
-        column("ci_low", pa.float64(), "1", "lower limit of its 95 % interval"),
-        column("ci_high", pa.float64(), "1", "upper limit"),
-        column("bias", pa.float64(), "1", "jackknife estimate of its bias; not subtracted"),
-        column("residual", pa.float64(), "1", "c(r) - A exp(-r/l) of the tail; NaN beyond the fit"),
-        column("residual_low", pa.float64(), "1", "lower limit of its 95 % interval"),
-        column("residual_high", pa.float64(), "1", "upper limit"),
+        *_limits("ci", "1"),
         column("samples", pa.int32(), "1", "number of sides: realisations × pillars × 2"),
     ]
 )
@@ -128,31 +129,17 @@ CORRELATION_LENGTH = pa.schema(
     [
         *_SIDE,
         column("l_c", pa.float64(), "blocks", "weighted least-squares fit of exp(-r/l_c)"),
-        column("ci_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
-        column("ci_high", pa.float64(), "blocks", "upper limit"),
-        column("bias", pa.float64(), "blocks", "jackknife estimate of its bias; not subtracted"),
+        *_limits("ci", "blocks"),
         column(
             "r_last",
             pa.int32(),
             "blocks",
             "last r of the fits, which begin at r = 1: 6, or n_p/3 on sides of less than 20 blocks",
         ),
-        column("deviation", pa.float64(), "standard errors", "largest |c(r) - exp(-r/l_c)|"),
-        column("integral", pa.float64(), "blocks", "l for which exp(-r/l) has the sum of c(r)"),
-        column("integral_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
-        column("integral_high", pa.float64(), "blocks", "upper limit"),
         column("tail", pa.float64(), "blocks", "l in A exp(-r/l) with A free; NaN if r_last < 3"),
-        column("tail_low", pa.float64(), "blocks", "lower limit of its 95 % interval"),
-        column("tail_high", pa.float64(), "blocks", "upper limit"),
+        *_limits("tail", "blocks"),
         column("amplitude", pa.float64(), "1", "A in A exp(-r/l)"),
-        column("amplitude_low", pa.float64(), "1", "lower limit of its 95 % interval"),
-        column("amplitude_high", pa.float64(), "1", "upper limit"),
-        column(
-            "design_effect",
-            pa.float64(),
-            "1",
-            "variance of c(r) over that for independent pillars",
-        ),
+        *_limits("amplitude", "1"),
     ]
 )
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from springblock.analysis.lowest import Lowest, lowest
 from springblock.analysis.statistics import mean_interval, prominence
-from springblock.io.rows import markdown_table
+from springblock.io.rows import listed, markdown_table
 from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
 from springblock.model.material import Material
@@ -59,16 +59,21 @@ def _of_friction(table: pd.DataFrame) -> Fields:
     means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
     error = (means["overshooting"] / means["simulation"] - 1.0).abs()
     small = error.index[(error < 0.01).cummin()].max()
-    minima, lines, steps = means.idxmin(), [], []
+    minima, lines, steps = _minima(table), [], []
     for n_p, part in sizes:
         values = [written(part[name], 4) for name in NAMES]
         lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *values])
         percent = 100.0 / part["simulation"].mean()
         changes = [written(percent * (part[to] - part[of]), 1) for of, to in _STEPS]
         steps.append([f"{n_p}", *changes])
+    raised, lowered = _changed_by(table, "independent", "quasi_static")
+    _, overshot = _changed_by(table, "quasi_static", "overshooting")
     header = [f"{NAMES[of]} → {NAMES[to]}" for of, to in _STEPS]
     return {
-        "lowest": minima["simulation"],
+        "lowest": minima["simulation"].place,
+        "raised": listed(raised),
+        "lowered": _all_or(lowered, len(means) - len(raised), "all others"),
+        "overshot": _all_or(overshot, len(means), "all sizes"),
         "small": small,
         "small_error": error.loc[:small].max(),
         "worst_error": error.max(),
@@ -79,8 +84,19 @@ def _of_friction(table: pd.DataFrame) -> Fields:
         "friction": markdown_table(["n_p", "SD/mean of stress", *NAMES.values()], lines),
         "steps": markdown_table(["n_p", *header], steps),
         "correlation": np.corrcoef(variation, means["simulation"])[0, 1],
-        "minima": ", ".join(f"n_p = {minima[name]} ({NAMES[name]})" for name in NAMES),
+        "minima": minima,
     }
+
+
+def _all_or(sizes: list[str], most: int, words: str) -> str:
+    return words if len(sizes) == most else f"those of {listed(sizes)}"
+
+
+def _changed_by(table: pd.DataFrame, of: str, to: str) -> tuple[list[str], list[str]]:
+    """Return the sizes on which a step raises friction significantly, and those it lowers."""
+    steps = {n_p: mean_interval(part[to] - part[of]) for n_p, part in table.groupby("n_p")}
+    raised = [str(n_p) for n_p, step in steps.items() if step.low > 0.0]
+    return raised, [str(n_p) for n_p, step in steps.items() if step.high < 0.0]
 
 
 def _of_variants(table: pd.DataFrame) -> Fields:
@@ -88,9 +104,11 @@ def _of_variants(table: pd.DataFrame) -> Fields:
     flat = table[table["n_p"] == 0]
     pillars = table.drop(flat.index)
     cases = dict(iter(pillars.groupby(pillars.apply(_case, axis=1), sort=False)))
-    lines, sentences = [], []
+    lines, sentences, raising = [], [], []
     for name, rows in cases.items():
         uneven, found = rows.groupby("n_p")["stress_variation"].first(), _minima(rows)
+        raised, _ = _changed_by(rows, "quasi_static", "overshooting")
+        raising += [name] if str(found["simulation"].place) in raised else []
         most = f"{uneven.idxmax()} ({uneven.max():.2f})"
         lines.append([name, ", ".join(map(str, uneven.index)), most, *map(str, found.values())])
         sentences.append(_sentence(name, rows, found))
@@ -107,6 +125,7 @@ def _of_variants(table: pd.DataFrame) -> Fields:
         "uneven": thin["stress_variation"].max(),
         "thin": {name: found.place for name, found in minima.items()},
         "near": (min(near), max(near)),
+        "raising": listed(raising) or "no case",
         "excess": written(excess.groupby(thick["seed"]).mean(), 1),
     }
 
@@ -156,18 +175,20 @@ def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str
 
 def _of_budget(table: pd.DataFrame) -> Fields:
     """Return the fields on the forces on edges and core."""
-    lines = []
+    lines, falls = [], {}
     for direction, model in product(_ALONG, ("simulation", "overshooting")):
         rows = table[(table["direction"] == direction) & (table["model"] == model)]
         runs = np.array([_milestones(run) for _, run in rows.groupby("seed")])
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[direction], NAMES[model], *cells])
+        falls[direction, model] = runs[:, -1]
     header = ["grooves", "model", "edges, largest", "at (µs)", "edges, at core's largest"]
     header += ["core, largest", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
         "edge_share": table["edge_share"].iloc[0],
         "budget": markdown_table(header, lines),
+        "deeper": written(falls["x", "simulation"] - falls["x", "overshooting"], 1),
     }
 
 
@@ -200,9 +221,12 @@ def _of_pawls() -> Fields:
 def _of_peaks(table: pd.DataFrame) -> Fields:
     """Return the fields on predicted and measured load peaks."""
     tested = _surfaces(table[~table["trained"]])
-    has_two, is_papers = tested["has_two"], tested["varied"] == ""
-    papers, is_wide = tested[is_papers], tested["n_p2"].between(*_WIDE)
+    is_papers = tested["varied"] == ""
+    papers, others = tested[is_papers], tested[~is_papers]
+    parts = {"the paper's": papers, "other": others, "all": tested}
+    scores = {name: _scores(part) for name, part in parts.items()}
     missed = papers[papers["should_have_two"] != papers["has_two"]]
+    across = tested[(tested["direction"] == "y") & tested["has_two"]]
     along = papers[(papers["direction"] == "x") & (papers["n_p"] == 0)]
     two, one = (along.loc[along["has_two"] == it, "n_p2"] for it in (True, False))
     return {
@@ -210,13 +234,17 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
         "surfaces": len(tested) // 2,
         "peaks_seeds": table["seed"].nunique(),
         "confusion": _confusion(tested),
-        "score": _score(tested),
         "wide": _WIDE,
-        "by_width": (((tested["direction"] == "x") & is_wide) == has_two).sum(),
-        "papers_score": _score(papers),
+        "scores": markdown_table(
+            ["constants", "cases", "prediction", "rule", "one peak everywhere"],
+            [[name, str(len(parts[name])), *map(str, hits)] for name, hits in scores.items()],
+        ),
+        "than_rule": _compared(*scores["all"][:2]),
+        "than_one": _compared(scores["other"][0], scores["other"][2]),
+        "across_two": len(across),
+        "across_found": across["should_have_two"].sum() or "none",
         "close": ((missed["low"] <= _MEASURED_TWO) & (missed["high"] >= _MEASURED_TWO)).sum(),
         "misses": len(missed),
-        "others_score": _score(tested[~is_papers]),
         "two": ", ".join(map(str, sorted(set(two)))),
         "one": ", ".join(map(str, sorted(set(one)))),
         "peaks": _prominences(tested),
@@ -235,9 +263,17 @@ def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
     return found
 
 
-def _score(surfaces: pd.DataFrame) -> str:
-    hits = (surfaces["should_have_two"] == surfaces["has_two"]).sum()
-    return f"{hits} [{(~surfaces['has_two']).sum()}] of {len(surfaces)} cases"
+def _scores(surfaces: pd.DataFrame) -> list[int]:
+    """Return how often the prediction, the rule, and one peak everywhere are right."""
+    by_rule = (surfaces["direction"] == "x") & surfaces["n_p2"].between(*_WIDE)
+    guesses = surfaces["should_have_two"], by_rule, False
+    return [int(np.count_nonzero(surfaces["has_two"] == guess)) for guess in guesses]
+
+
+def _compared(hits: int, others: int) -> str:
+    if hits == others:
+        return "as often as"
+    return "more often than" if hits > others else "less often than"
 
 
 def _confusion(tested: pd.DataFrame) -> str:

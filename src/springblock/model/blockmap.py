@@ -7,6 +7,7 @@ import reprlib
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ _IS_NAMED = re.compile(r".*-[0-9a-f]{8}")
 _POINTS, _BYTES = 2**26, 2**28  #: largest topography, 8192 x 8192 points and some 260 MB
 #: Image formats. Pillow reads more, among them PostScript, for which it starts another program.
 _FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TIFF", "WEBP")
+#: Trends that may be subtracted from heights, and their names in SurfaceTopography.
+TRENDS = {"plane": "height", "quadratic": "curvature"}
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  #: image modes, by Pillow's names
 
 
@@ -34,24 +37,31 @@ class Cut:
     spacing: float  #: m, distance between blocks
     bearing_area: float | None = None  #: share of the blocks in contact, the highest ones
     height: float | None = None  #: m, least height of the blocks in contact
+    channel: str | None = None  #: name of the channel of heights; None: the reader's default
+    detrend: str | None = None  #: trend subtracted from the heights before the cut, of `TRENDS`
 
     @property
     def arguments(self) -> str:
         """The cut as options of `springblock mask`."""
-        named = {"spacing": self.spacing, "bearing-area": self.bearing_area, "height": self.height}
-        return " ".join(f"--{key} {value}" for key, value in named.items() if value is not None)
+        named = {key: getattr(self, key) for key in self.__match_args__[1:]}
+        return " ".join(
+            f"--{key.replace('_', '-')} {quote(str(value))}"
+            for key, value in named.items()
+            if value is not None
+        )
 
     def mask(self) -> Array:
         """Blocks in contact, (N_y, N_x) bool, [y, x].
 
         The height of a block is that of the measured point at its centre; a block without a value
-        is not in contact. Heights are not levelled: level a tilted surface beforehand.
+        is not in contact. Without `detrend` the heights are those of the file, tilt included; with
+        it they are relative to a plane or a quadratic surface, fitted by least squares.
 
         Raises
         ------
         ValueError
-            If the file cannot be read, has no units, or is smaller than a block; if not exactly one
-            of bearing area and height is given; or if these or the spacing are not valid.
+            If the file cannot be read, has no units, lacks the channel, or is smaller than a block;
+            if not exactly one of bearing area and height is given; or if a value is not valid.
         """
         if (self.bearing_area is None) == (self.height is None):
             raise ValueError(f"{self.topography}: give either bearing_area or height")
@@ -59,7 +69,9 @@ class Cut:
             raise ValueError(f"bearing_area must be in (0, 1], not {self.bearing_area!r}")
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
-        heights = _on_blocks(self.topography, self.spacing)
+        if self.detrend not in (None, *TRENDS):
+            raise ValueError(f"detrend must be {' or '.join(TRENDS)}, not {self.detrend!r}")
+        heights = self._heights()
         level = self.height
         if self.bearing_area is not None:
             highest = np.sort(heights[np.isfinite(heights)])[::-1]
@@ -72,6 +84,21 @@ class Cut:
                 f"{np.nanmax(heights):.4g} m"
             )
         return contact
+
+    def _heights(self) -> Array:
+        """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN if not measured."""
+        heights, sizes = _measured(self.topography, self.channel, self.detrend)
+        number = [size / self.spacing * (1.0 + 1e-9) for size in sizes]
+        if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
+            raise ValueError(
+                f"{self.topography} is {sizes[0]:.4g} x {sizes[1]:.4g} m; each side must hold 1 to "
+                f"{MAX_BLOCKS} blocks of spacing = {self.spacing!r} m"
+            )
+        x, y = (
+            ((np.arange(n) + 0.5) * self.spacing / size * points).astype(int)
+            for n, size, points in zip(map(int, number), sizes, heights.shape, strict=True)
+        )
+        return heights[np.ix_(x, y)].T
 
 
 @dataclass(frozen=True)
@@ -196,23 +223,13 @@ def _image(file: Path) -> Array:
     return shades[::-1]
 
 
-def _on_blocks(file: Path, spacing: float) -> Array:
-    """Heights in m at the centres of blocks, (N_y, N_x), [y, x]; NaN if not measured."""
-    heights, sizes = _measured(file)
-    number = [size / spacing * (1.0 + 1e-9) for size in sizes]
-    if not all(1.0 <= blocks < MAX_BLOCKS + 1.0 for blocks in number):
-        raise ValueError(
-            f"{file} is {sizes[0]:.4g} x {sizes[1]:.4g} m; each side must hold 1 to {MAX_BLOCKS} "
-            f"blocks of spacing = {spacing!r} m"
-        )
-    x, y = (
-        ((np.arange(n) + 0.5) * spacing / size * points).astype(int)
-        for n, size, points in zip(map(int, number), sizes, heights.shape, strict=True)
-    )
-    return heights[np.ix_(x, y)].T
+class _Unsuitable(ValueError):
+    """A topography that can be read and not be used."""
 
 
-def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
+def _measured(
+    file: Path, channel: str | None, detrend: str | None
+) -> tuple[Array, tuple[float, float]]:
     """Heights, [x, y], NaN if not measured, and size along x and y, all in m.
 
     Read by SurfaceTopography (https://contactengineering.github.io/SurfaceTopography/).
@@ -231,10 +248,16 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
     no_units = f"{file} must contain the size of the surface and its unit of length"
     try:
         with open_topography(file) as reader:
-            points = math.prod(reader.default_channel.nb_grid_pts)
+            channels = {each.name: each for each in reader.channels}
+            if channel is not None and channel not in channels:
+                raise _Unsuitable(f"channel must be one of {', '.join(channels)}, not {channel!r}")
+            chosen = reader.default_channel if channel is None else channels[channel]
+            points = math.prod(chosen.nb_grid_pts)
             if points > _POINTS:
-                raise ValueError(f"it has {points} points; {_POINTS} is the largest number")
-            read = reader.topography()
+                raise _Unsuitable(f"it has {points} points; {_POINTS} is the largest number")
+            read = reader.topography(channel_index=chosen.index)
+    except _Unsuitable as error:
+        raise ValueError(f"{file}: {error}") from None
     except ReadFileError:
         raise ValueError(f"{file} is not a topography that SurfaceTopography can read") from None
     except Exception as error:  # readers of some formats let any error pass
@@ -246,6 +269,8 @@ def _measured(file: Path) -> tuple[Array, tuple[float, float]]:
         raise ValueError(no_units)
     try:
         metres = read.to_unit("m")
+        if detrend is not None:
+            metres = metres.detrend(TRENDS[detrend])
         heights: Array = np.ma.filled(np.ma.asarray(metres.heights(), dtype=float), np.nan)
     except ValueError:
         raise ValueError(f"{file}: its unit must be a length, not {read.unit!r}") from None

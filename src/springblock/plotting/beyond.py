@@ -11,6 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 from pandas import DataFrame
+from seaborn import heatmap
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.lowest import lowest
@@ -232,15 +233,11 @@ def _draw_peaks(
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
     means = {key.n_p2: {at: v.mean() for at, v in each.items()} for key, each in part.items()}
-    cells = DataFrame(means).sort_index().T.sort_index()  # by pawl and angle
-    ax.imshow(cells, cmap=_COLORS, vmin=0.0, vmax=largest, origin="lower", aspect="auto")
-    for (row, column), value in np.ndenumerate(cells.to_numpy()):
-        if np.isfinite(value):
-            color = "white" if value > 0.55 * largest else "black"
-            ax.text(column, row, f"{value:.1f}", ha="center", va="center", color=color)
-    ax.set_xticks(range(len(cells.columns)), [f"{angle:g}" for angle in cells.columns])
-    ax.set_yticks(range(len(cells)), cells.index)
-    ax.tick_params(length=0.0)
+    cells = DataFrame(means).sort_index().T.sort_index(ascending=False)  # by pawl and angle
+    cells.columns = [f"{angle:g}" for angle in cells]
+    look: Look = {"cmap": _COLORS, "vmin": 0.0, "vmax": largest, "cbar": False}
+    heatmap(cells, ax=ax, annot=True, fmt=".1f", **look)
+    ax.tick_params(length=0.0, rotation=0.0)
 
 
 def beyond_precursors(ensembles: Folders) -> Figure:
@@ -275,9 +272,8 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
 
 def _draw_shares(ax: Axes, masks: Iterable[clusters.Mask], color: Any, **look: Any) -> None:
     """Draw the share of blocks in clusters of a size or more."""
-    sizes = np.sort(np.concatenate([cluster_sizes(mask) for mask in masks]))
-    share = np.cumsum(sizes[::-1])[::-1] / sizes.sum()
-    ax.step(sizes, share, where="pre", color=color, **look)
+    sizes = np.concatenate([cluster_sizes(mask) for mask in masks])
+    ax.ecdf(sizes, weights=sizes, complementary=True, color=color, **look)
 
 
 def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:

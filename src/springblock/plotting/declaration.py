@@ -17,15 +17,6 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
 
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
-#: Category of the figures in each module of `plotting`.
-_CATEGORIES = {
-    "paper_surfaces": "Figures",
-    "paper_results": "Figures",
-    "supplement": "Supplement",
-    "mechanism": "Mechanism",
-    "accuracy": "Accuracy",
-    "beyond": "Beyond",
-}
 Scenes = Sequence[Scene]
 Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
@@ -137,8 +128,8 @@ class Declaration:
 
     @property
     def category(self) -> str:
-        """Return the heading of the figure in the report."""
-        return _CATEGORIES[self.module]
+        """Return the heading of the figure in the report: Figures, or the name of its module."""
+        return "Figures" if self.module.startswith("paper_") else self.module.capitalize()
 
     def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
         """Return the caption with the surfaces, seeds and material of a study."""

@@ -250,7 +250,7 @@ FIGURES: dict[str, Declaration] = {
         t_max. {ENDS}""",
     ),
     "work_precision": Declaration(
-        title="Error against run time",
+        title="Error against work",
         module="accuracy",
         caption="""a-c) Error of first detachment times in single realisations against force
         evaluations, relative to a solution that locates every event, before the horizon up to which

@@ -9,18 +9,7 @@ from numpy.typing import NDArray
 
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
-from springblock.plotting.maps import draw_sliding
-from springblock.plotting.style import (
-    COLUMN,
-    DOUBLE,
-    KILO,
-    MICRO,
-    MM,
-    NANO,
-    ONE_AND_A_HALF,
-    color_bar,
-    journal,
-)
+from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.fields import Fields
 from springblock.simulation.run import Run
 
@@ -40,7 +29,7 @@ contact on. Arrow: sliding direction."""
 _SNAPSHOTS = 4  #: largest number shown: the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 #: Width in mm of maps of stress and slip at so many times.
-_WIDTHS = {1: COLUMN, 2: COLUMN, 3: ONE_AND_A_HALF, 4: DOUBLE}
+_WIDTHS = {1: COLUMN, 2: COLUMN, 3: style.ONE_AND_A_HALF, 4: DOUBLE}
 #: What text takes beside the maps, the tallest map, and a letter of the title, mm.
 _TEXT, _TALLEST, _LETTER = 34.0, 90.0, 1.4
 _ENLARGED = 24  #: blocks along a side of the part of a surface that is enlarged
@@ -108,9 +97,9 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     picture.suptitle(
         fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium"
     )
-    drawn = (fields.shear_stress, KILO, maps.STRESS), (fields.slip, NANO, maps.SLIP)
-    for row, (values, factor, label) in enumerate(drawn):
-        shown = factor * values[chosen]
+    stress = style.KILO * fields.shear_stress[chosen], maps.STRESS
+    slip = style.NANO * fields.slip[chosen], maps.SLIP
+    for row, (shown, label) in enumerate((stress, slip)):
         look = maps.sequential(shown)
         for ax, one, time in zip(panels[row * count :], shown, fields.time[chosen], strict=False):
             image = maps.draw_map(ax, one, **look)
@@ -129,7 +118,7 @@ def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> 
     title = "\n".join(filter(None, [name, share.replace("%", " %")]))
     picture.suptitle(title, fontsize="medium", linespacing=1.4)
     maps.draw_contact(whole, contact)
-    draw_sliding(whole, direction)
+    maps.draw_sliding(whole, direction)
     corner = []  # of a window that shows the first contact with a margin, and lies inside
     for axis, size in enumerate(contact.shape):
         first = int(np.argmax(contact.any(axis=1 - axis)))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.budget import Bias, choices, finest_bias, measured
+from springblock.accuracy.budget import Bias, finest_bias, measured
 from springblock.accuracy.conventions import ENSEMBLE
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
@@ -19,8 +19,6 @@ from springblock.plotting.style import MICRO
 
 Tables = Mapping[str, Sequence[Row]]  #: rows by name of the table
 Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
-
-_FINE = STEP / 2.0  #: s, the step that the default is compared with
 
 
 def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
@@ -152,7 +150,7 @@ def _peaks(tables: Tables) -> dict[str, Any]:
 
 
 def _errors(cases: Mapping[tuple[str, str], list[Row]]) -> dict[str, Any]:
-    """Bias of the mean t_avg at the default step, and what half that step costs and gains."""
+    """Bias of the mean t_avg at the default step, beside its scatter."""
     if not cases:
         return {}
     biases, scatter = {}, {}
@@ -160,17 +158,11 @@ def _errors(cases: Mapping[tuple[str, str], list[Row]]) -> dict[str, Any]:
         (row,) = select(rows, step=STEP)
         biases[scene] = Bias.of(row).high + finest_bias(rows)
         scatter[scene] = row["deviation"] / row["scale"] / np.sqrt(ENSEMBLE)
-    pillars = {row["step"]: row for row in cases["t_avg", "pillared"]}
-    seconds = {each.step: each.spent(10) for each in choices(pillars.values())}
     return {
         "title": f"The time step biases t_avg by at most {max(biases.values()):.2%}",
         "step": f"{STEP:.0e}",
-        "fine": f"{_FINE:.0e}",
         "seeds": ENSEMBLE,
         "cases": [(name, f"{biases[name]:.2%}", f"{scatter[name]:.2%}") for name in biases],
-        "seconds": [f"{seconds[step]:.1f}" for step in (STEP, _FINE)],
-        "biases": [_in_percent(pillars[step]) for step in (STEP, _FINE)],
-        "change": f"{abs(pillars[STEP]['value'] / pillars[_FINE]['value'] - 1.0):.2%}",
     }
 
 
@@ -194,12 +186,6 @@ def _quoted(row: Row) -> str:
     """Write the value of a finding on a statement as the page of statements does."""
     value, low, high = _interval(row)
     return f"{value:.3g} [{low:.3g}, {high:.3g}]"
-
-
-def _in_percent(row: Row) -> str:
-    """Write a bias of the table `production` with its interval."""
-    bias, low, high = (100.0 * row[key] / row["scale"] for key in ("bias", "ci_low", "ci_high"))
-    return f"{bias:.3f} [{low:.3f}, {high:.3f}]"
 
 
 def _lag(rows: Sequence[Row]) -> Interval:

@@ -100,6 +100,8 @@ def _mark(name: str, tokens: Sequence[Token], pages: Collection[str]) -> None:
             token.attrSet("id", f"{name}-{anchor(tokens[i + 1].content)}")
         if token.type == "td_open":
             token.attrSet("class", _width(tokens[i + 1].content))
+        if token.type == "th_open" and not tokens[i + 1].content:
+            token.tag = tokens[i + 2].tag = "td"  # a column without a name has no heading
         for child in token.children or ():
             _link(name, child, pages)
             if child.type == "text":

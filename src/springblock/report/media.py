@@ -44,7 +44,6 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     poster = Image.fromarray(film.frames(run, [run.t_max - run.time[1], run.t_max])[-1])
     return {
         "name": path.stem,
-        "title": path.stem.capitalize(),
         "text": in_words(run),
         "source": _address("video/mp4", path.read_bytes()),
         "poster": _webp(poster),  # at the force maximum

@@ -103,8 +103,7 @@ function search(bar, table, rows, same) {
 }
 
 function sort(table, body, rows) {
-  table.querySelectorAll("thead th").forEach((head, column) => {
-    if (!head.textContent.trim()) return;
+  table.querySelectorAll("thead th").forEach((head) => {
     const button = make("button", {});
     button.append(...head.childNodes);
     head.append(button);
@@ -112,7 +111,7 @@ function sort(table, body, rows) {
       const up = head.getAttribute("aria-sort") !== "ascending";
       for (const each of head.parentNode.children) each.removeAttribute("aria-sort");
       head.setAttribute("aria-sort", up ? "ascending" : "descending");
-      const key = new Map(rows.map((row) => [row, row.cells[column].textContent.trim()]));
+      const key = new Map(rows.map((row) => [row, row.cells[head.cellIndex].textContent.trim()]));
       const by = new Intl.Collator("en", { numeric: true }).compare;
       const order = (a, b) => parseFloat(a) - parseFloat(b) || by(a, b);
       body.append(...[...rows].sort((a, b) => (up ? 1 : -1) * order(key.get(a), key.get(b))));

@@ -12,11 +12,10 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from springblock.beyond.question import listed
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
 from springblock.io.parquet import load
-from springblock.io.rows import Row
+from springblock.io.rows import Row, listed
 from springblock.report import findings, markup, media
 
 #: Parts of the page in their order, before further pages, and the titles of those without a page.

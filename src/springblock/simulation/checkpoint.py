@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
@@ -20,15 +20,15 @@ Array = NDArray[np.float64]
 
 
 def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[str, str]:
-    """Return digests of everything that determines a run, by the names used in error messages.
+    """Return all that determines a run, as text or digest, by the names used in error messages.
 
     `surface` comes from `prelude.conditions`. The number of cores and the prelude are left out,
     since results do not depend on them.
     """
     coefficients = b"".join(mu.tobytes() for mu in friction)
     return {
-        "scene or setup": _digest(surface.encode()),
-        "friction coefficients": _digest(coefficients),
+        "scene or setup": surface,
+        "friction coefficients": hashlib.sha256(coefficients).hexdigest(),
         **{name: repr(value) for name, value in asked.items()},
         "code": digest("simulate"),
     }
@@ -64,13 +64,12 @@ class Checkpoint:
         """Whether the interval since the last checkpoint has passed."""
         return monotonic() - self.written >= self.interval
 
-    def save(self, state: State, taken: Iterable[Samples], snapshots: Sequence[Array]) -> None:
+    def save(self, state: State, taken: Samples, snapshots: Sequence[Array]) -> None:
         """Write the state of a run between two samples, whole or not at all."""
-        samples = [np.concatenate(parts) for parts in zip(*taken, strict=True)]
         arrays: dict[str, Any] = {
             "belongs": json.dumps(self.belongs),
             "snapshots": np.array(snapshots),
-            **dict(zip(Samples._fields, samples, strict=True)),
+            **taken._asdict(),
             **{f"field_{i}": values for i, values in enumerate(_fields(state))},
         }
         with whole_file(self.path) as partial, partial.open("wb") as file:
@@ -85,28 +84,22 @@ class Checkpoint:
         ValueError
             If the file is not a checkpoint, or belongs to another run, naming what differs.
         """
-        kept = _read(self.path)
-        check_belonging(self.path, json.loads(str(kept["belongs"])), self.belongs)
+        try:
+            kept = read_arrays(self.path)
+            belongs = json.loads(str(kept["belongs"]))
+        except KeyError:
+            raise ValueError(
+                f"{self.path} is not a checkpoint: it holds {', '.join(kept)}"
+            ) from None
+        except ValueError as error:
+            raise ValueError(f"{self.path} is not a checkpoint: {error}") from error
+        check_belonging(self.path, belongs, self.belongs)
         for i, values in enumerate(_fields(state)):
             values[:] = kept[f"field_{i}"]
         return Samples(*(kept[name] for name in Samples._fields)), list(kept["snapshots"])
-
-
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        kept = read_arrays(path)
-    except ValueError as error:
-        raise ValueError(f"{path} is not a checkpoint: {error}") from error
-    if "belongs" not in kept:
-        raise ValueError(f"{path} is not a checkpoint: it holds {', '.join(kept)}")
-    return kept
 
 
 def _fields(state: State) -> list[NDArray[Any]]:
     """Return all fields that determine the rest of a run; scratch arrays are not among them."""
     of_law = [part for part in state.law or () if isinstance(part, np.ndarray)]
     return [*state.blocks, *state.work, state.ledger, *of_law]
-
-
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()

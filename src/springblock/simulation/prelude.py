@@ -58,11 +58,6 @@ class Prelude:
     code_version: str = ""  #: version of the code, if computed by a command
 
     @property
-    def surface(self) -> str:
-        """Pattern, edges and direction of its scene, in the format of `surface`."""
-        return json.dumps(json.loads(self.conditions)[:4])
-
-    @property
     def constants(self) -> dict[str, Any]:
         """Constants of its material, by name."""
         return dict(json.loads(self.conditions)[4])
@@ -131,21 +126,13 @@ def _together(stored: NDArray[Any]) -> Any:
     return np.ascontiguousarray(np.moveaxis(stored, 0, -1)).view(np.float64)[..., 0]
 
 
-def surface(
-    contact: NDArray[np.bool_], towards: tuple[float, float], periodic: bool = False
-) -> str:
-    """Return pattern, edges and direction as text."""
-    mask = np.packbits(contact).tobytes().hex()
-    return json.dumps([contact.shape, periodic, mask, towards])
-
-
 def conditions(
     contact: NDArray[np.bool_], setup: Setup, towards: tuple[float, float], periodic: bool
 ) -> str:
     """Return all that determines the motion before the first detachment, as text."""
-    pulled = json.loads(surface(contact, towards, periodic))
+    mask, constants = np.packbits(contact).tobytes().hex(), dict(setup.material.items())
     how = setup.integrator, setup.step, setup.every
-    return json.dumps([*pulled, dict(setup.material.items()), *how])
+    return json.dumps([contact.shape, periodic, mask, towards, constants, *how])
 
 
 def compute_prelude(

@@ -149,7 +149,7 @@ def simulate(
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
             if kept is not None and kept.is_due:
-                kept.save(motion.state, motion.record, snapshots)
+                kept.save(motion.state, motion.recorded(), snapshots)
     run = motion.result(snapshots, stops)
     if kept is not None:
         kept.path.unlink(missing_ok=True)
@@ -224,7 +224,8 @@ class _Motion:
         last = float(t_det.max())
         now = self.steps * step
         if math.isfinite(last):
-            return now > _WITHOUT_DROP * last or first_minimum(self.force()) is not None
+            force = np.hypot(*self.recorded()[:2])
+            return now > _WITHOUT_DROP * last or first_minimum(force) is not None
         if now > limit:
             stuck = int(np.isinf(t_det).sum())
             raise SimulationError(
@@ -233,11 +234,9 @@ class _Motion:
             )
         return False
 
-    def force(self) -> Array:
-        """|ΣF_s| so far, in the kernels' units."""
-        x = np.concatenate([samples.force_x for samples in self.record])
-        y = np.concatenate([samples.force_y for samples in self.record])
-        return np.hypot(x, y)
+    def recorded(self) -> Samples:
+        """Samples so far, in the kernels' units."""
+        return Samples(*map(np.concatenate, zip(*self.record, strict=True)))
 
     def displacement(self) -> Array:
         """(2, N_y, N_x) m."""
@@ -267,16 +266,16 @@ class _Motion:
             self.state, self.constants, self.steps
         )
         velocity = self._vectors(*velocity) * material.spacing / step
-        force = self._newton() * self.force()
+        force_x, force_y, switches = self.recorded()
         energy = self._energy(velocity, heat)
         if not math.isfinite(energy.relative_residual):
             raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
         fields = self._fields(snapshots, stops)
         return Realisation(
             time=time,
-            force=force,
+            force=self._newton() * np.hypot(force_x, force_y),
             detachments=self._first_detachments(),
-            switches=np.concatenate([samples.switches for samples in self.record]),
+            switches=switches,
             t_det=t_det,
             normal_force=material.block_load * n_y * n_x,
             energy=energy,

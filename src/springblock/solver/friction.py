@@ -28,8 +28,8 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     speed = math.sqrt(mean_x * mean_x + mean_y * mean_y)
     friction = resistance(law, state, speed, -end, static, dynamic)
     new_x, new_y, slides, w_dot_v = coulomb(wx, wy, vx, vy, fx, fy, static, friction)
-    slip = math.sqrt(new_x * new_x + new_y * new_y)
-    store_state(law, b, state, slip, slides)
+    slip_rate = math.sqrt(new_x * new_x + new_y * new_y)
+    store_state(law, b, state, slip_rate, slides)
     return new_x, new_y, slides, w_dot_v
 
 

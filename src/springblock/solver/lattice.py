@@ -6,6 +6,7 @@ Lengths are in l, velocities in l per step, times in steps, and forces in the ve
 in one step.
 """
 
+from collections.abc import Callable
 from copy import deepcopy
 from itertools import count
 from typing import NamedTuple, Protocol
@@ -101,22 +102,10 @@ class Samples(NamedTuple):
         return cls(np.zeros(count), np.zeros(count), np.zeros(count, np.int64))
 
 
-class Advance(Protocol):
-    """Function that advances a state in time."""
-
-    def __call__(
-        self,
-        state: State,
-        constants: Constants,
-        first: int,
-        steps: int,
-        every: int,
-        samples: Samples,
-    ) -> tuple[int, int, int]:
-        """Advance by `steps` steps from step `first` on, and sample after every `every` steps.
-
-        Returns the number of steps taken, and row and column of a broken spring, -1 if none is.
-        """
+#: Function that advances a state by `steps` steps from step `first` on, and samples after every
+#: `every` steps: (state, constants, first, steps, every, samples) -> number of steps taken, and row
+#: and column of a broken spring, -1 if none is.
+Advance = Callable[[State, Constants, int, int, int, Samples], tuple[int, int, int]]
 
 
 class Integrator(Protocol):

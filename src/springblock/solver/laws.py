@@ -116,20 +116,12 @@ def _stronger(law, static, dynamic):
     return max(static, dynamic)
 
 
-def _no_state(law):
-    return 0.0
-
-
-def _no_slip(law, b):
+def _zero(law, *arguments):
     return 0.0
 
 
 def _slip_so_far(law, b):
     return law.slip[b]
-
-
-def _none_before(law, state, moved):
-    return 0.0
 
 
 def _slip_before(law, state, moved):
@@ -148,9 +140,9 @@ def _store_slip(law, b, state, moved, slides):
 _STATELESS: dict[str, Callable[..., Any]] = {
     "share_of_end": _half,
     "strength": _stronger,
-    "state_at_release": _no_state,
-    "state_of": _no_slip,
-    "state_before": _none_before,
+    "state_at_release": _zero,
+    "state_of": _zero,
+    "state_before": _zero,
     "store_state": _store_nothing,
 }
 #: Functions of each law by its type; their signatures are given at the end of this module.

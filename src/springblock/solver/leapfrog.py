@@ -92,19 +92,9 @@ def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
-    return Rows(
-        in_contact=in_contact,
-        awake=awake,
-        wake=np.zeros(n, np.int64),
-        sliding=sliding,
-        switching=np.zeros(n, np.int64),
-        released=np.zeros(n, np.int64),
-        attached=np.ones(n, np.bool_),
-        x=np.zeros(n),
-        y=np.zeros(n),
-        heat=np.zeros(n),
-        squares=np.zeros(n),
-    )
+    wake, switching, released = np.zeros((3, n), np.int64)
+    attached, sums = np.ones(n, np.bool_), np.zeros((4, n))
+    return Rows(in_contact, awake, wake, sliding, switching, released, attached, *sums)
 
 
 @njit(inline="always")

@@ -41,16 +41,11 @@ def shares(constants: Constants, cores: int) -> list[Share]:
     size, (n_y, n_x) = int(constants.band_rows), constants.grid.shape
     bands = -(-n_y // size)
     cuts = np.unique(np.linspace(0, bands, min(cores, bands) + 1).astype(int)) * size
-    return [
-        Share(
-            U(start),
-            U(min(stop, n_y)),
-            scratch(),
-            scratch(),
-            make_releases((min(stop, n_y) - start) * n_x),
-        )
-        for start, stop in zip(cuts[:-1].tolist(), cuts[1:].tolist(), strict=True)
-    ]
+    parts = []
+    for start, stop in zip(cuts[:-1].tolist(), np.minimum(cuts[1:], n_y).tolist(), strict=True):
+        released = make_releases((stop - start) * n_x)
+        parts.append(Share(U(start), U(stop), scratch(), scratch(), released))
+    return parts
 
 
 @kernel

@@ -40,15 +40,9 @@ class Releases(NamedTuple):
 
 def make_releases(blocks: int) -> Releases:
     """Return work arrays for this many blocks, which take memory only when written to."""
-    return Releases(
-        np.empty(blocks, np.int64),
-        np.empty(blocks, np.int64),
-        np.empty(blocks),
-        np.empty(blocks),
-        np.empty(blocks),
-        np.empty((2, 5, 5)),
-        np.empty((2, 3, 3)),
-    )
+    row, x = np.empty((2, blocks), np.int64)
+    ax, ay, share = np.empty((3, blocks))
+    return Releases(row, x, ax, ay, share, np.empty((2, 5, 5)), np.empty((2, 3, 3)))
 
 
 @njit(inline="always")

@@ -1,10 +1,12 @@
-"""Stability limits of the integrators, in a module that compiles nothing."""
+"""Stability of the integrators, in a module that compiles nothing."""
 
 import math
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+
+from springblock.model.material import Material
 
 Array = NDArray[np.float64]
 
@@ -40,3 +42,21 @@ IS_STABLE: dict[str, Callable[[float, Array, float], bool]] = {
     "leapfrog": leapfrog_is_stable,
     "rk4": rk4_is_stable,
 }
+
+
+def is_stable(integrator: str, step: float, material: Material) -> bool:
+    """Return whether no mode of the lattice grows."""
+    omega = np.linspace(material.omega_min, material.omega_max, 33)
+    return IS_STABLE[integrator](step, omega, material.gamma)
+
+
+def limit(integrator: str, material: Material) -> float:
+    """Return the largest stable step, s, by bisection of `is_stable`."""
+    stable, unstable = 0.0, 4.0 * (1.0 + material.gamma / material.omega_max) / material.omega_max
+    for _ in range(50):
+        middle = 0.5 * (stable + unstable)
+        if is_stable(integrator, middle, material):
+            stable = middle
+        else:
+            unstable = middle
+    return stable

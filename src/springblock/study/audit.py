@@ -33,7 +33,6 @@ _MADE_BY = {
     "mechanism": ("mechanism/*.parquet", "tables/mechanism*.parquet"),
     "claims": ("tables/claims.parquet",),
 }
-_ASIDE = "set-aside"
 
 
 class Fault(NamedTuple):
@@ -57,7 +56,7 @@ def faults(results: Path) -> Iterator[Fault]:
 def set_aside(results: Path) -> Iterator[Fault]:
     """Move files that cannot be used to the folder `set-aside`, with their relative paths."""
     for fault in list(faults(results)):
-        place = results / _ASIDE / fault.file.relative_to(results)
+        place = results / "set-aside" / fault.file.relative_to(results)
         while place.exists():
             place = place.with_name(f"{place.name}.again")
         place.parent.mkdir(parents=True, exist_ok=True)

@@ -332,10 +332,11 @@ def _maps(
 def _masks(
     configuration: Configuration, grid: Mapping[str, Any], constants: Varied
 ) -> Iterator[BlockMap]:
-    cuts = {key: _listed(grid[key]) for key in ("bearing_area", "height") if key in grid}
+    of_cut = ("bearing_area", "height", "channel", "detrend")
+    cuts = {key: _listed(grid[key]) for key in of_cut if key in grid}
     if "mask" in grid:
         if "topography" in grid or cuts:
-            raise ValueError("mask cannot be combined with topography, bearing_area or height")
+            raise ValueError(f"mask cannot be combined with topography, {', '.join(of_cut)}")
         yield from (BlockMap.mask(Path(file)) for file in _listed(grid["mask"]))
     elif "topography" in grid:
         spacing = dict(constants).get("spacing", setup(configuration).material.spacing)

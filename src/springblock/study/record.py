@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-from springblock.files import whole_file
+from springblock.files import write_text
 from springblock.provenance import STEPS, digest
 
 RECORD = "study.json"
@@ -67,8 +67,7 @@ def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> Non
     if now in record["made"]:
         record["made"].remove(now)
     record["made"].append(now)
-    with whole_file(results / RECORD) as partial:
-        partial.write_text(json.dumps(record, indent=1), encoding="utf-8")
+    write_text(results / RECORD, json.dumps(record, indent=1))
 
 
 def read(results: Path) -> dict[str, Any] | None:

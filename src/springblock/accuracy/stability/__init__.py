@@ -1,7 +1,8 @@
 """Stiff and extreme cases, and the rows of results/tables/stability.parquet.
 
 Every case says what it expects, in a word, and measures what comes out. Most compare a number with
-its closed form; how far it may be off follows from the order of the scheme, or from rounding:
+its closed form or with an accurate integration; how far it may be off follows from the order of the
+scheme, or from rounding:
 
 - A release is placed within its step: exactly where the force rises evenly, as it does before the
   first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
@@ -32,7 +33,7 @@ SCHEMA = pa.schema(
         *texts(
             case="name of the case",
             family="what is taken to its extremes",
-            integrator="leapfrog or rk4; both where no step is taken",
+            integrator="leapfrog or rk4",
         ),
         *numbers(
             "1",
@@ -71,7 +72,6 @@ FAMILIES = (
 
 def all_cases() -> Iterator[Case]:
     """Return every case, by both integrators."""
-    yield limits.HIGHEST_MODE
     for cases in FAMILIES:
         for integrator in INTEGRATORS:
             yield from cases(integrator)

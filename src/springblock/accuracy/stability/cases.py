@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.kernels import limit
 from springblock.accuracy.specimens import Surface
 from springblock.model.material import Material
 from springblock.simulation.run import Realisation
-from springblock.simulation.simulate import SimulationError, simulate
+from springblock.simulation.simulate import simulate
+from springblock.solver.stability import limit
 
 PAPER = Material()
 SEED = 1
@@ -44,7 +44,7 @@ class Case:
     """One extreme, the attempt that shows it, and the outcome that is expected."""
 
     family: str
-    integrator: str  #: both where no step is taken
+    integrator: str
     extreme: str
     parameter: float  #: what varies within the family
     quantity: str  #: what `Outcome.value` is
@@ -55,7 +55,7 @@ class Case:
     @property
     def name(self) -> str:
         """Return the name of the case, which no other one has."""
-        return self.extreme if self.integrator == "both" else f"{self.extreme}, {self.integrator}"
+        return f"{self.extreme}, {self.integrator}"
 
     def outcome(self) -> Outcome:
         """Run the attempt; an exception that it did not ask for is an outcome too."""
@@ -86,6 +86,11 @@ class Pull:
     def h(self) -> float:
         """Return the step in 1/omega."""
         return self.step * self.material.omega_min
+
+    @property
+    def speed(self) -> float:
+        """Return the slider's speed in F_n omega/K_s."""
+        return 1.0 / (release(self.material) * self.material.omega_min)
 
     def simulate(
         self, surface: Surface, count: int | None = None, every: int = 0, **options: Any
@@ -143,17 +148,6 @@ def compared(
     error = value / closed_form - 1.0
     word = word if abs(error) <= tolerance else f"is off by {error:.2g}"
     return Outcome(word, energy_error, float(value), float(closed_form), float(tolerance))
-
-
-def refusal(call: Callable[[], object], reason: str) -> Outcome:
-    """Judge whether a call is refused before any step, or ends during its run, for `reason`."""
-    try:
-        with np.errstate(all="ignore"):  # the exception has to come without NumPy's warnings
-            call()
-    except (ValueError, SimulationError) as error:
-        word = "refused" if isinstance(error, ValueError) else "raises"
-        return Outcome(word if reason in str(error) else str(error))
-    return Outcome("ends as if nothing were wrong")
 
 
 def named_after(words: str, error: Exception) -> float:

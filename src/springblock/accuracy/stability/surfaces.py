@@ -1,15 +1,14 @@
-"""Columns and surfaces: stiffness, strain, scatter, load, size, and numbers too large."""
+"""Columns and surfaces: stiffness, strain, scatter, load, size, and sliders too fast."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache, partial
-from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from springblock.accuracy import kernels, reference
+from springblock.accuracy import kernels
 from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import Array, flat, uniform
 from springblock.accuracy.stability.cases import (
@@ -24,13 +23,12 @@ from springblock.accuracy.stability.cases import (
     compared,
     named_after,
     pulled_at,
-    refusal,
     release,
 )
 from springblock.model.material import Material
-from springblock.model.pattern import MAX_BLOCKS
 from springblock.simulation.run import Realisation
-from springblock.simulation.simulate import SimulationError, simulate
+from springblock.simulation.simulate import SimulationError
+from springblock.solver.stability import limit
 
 #: Two columns of two blocks, the left one held fast. The free ones move by (a, b) and (a, -b): the
 #: axial spring beside them, the one between them (strained by 2b), and a diagonal give K_int times
@@ -53,23 +51,14 @@ def stiffnesses(integrator: str) -> Iterator[Case]:
         yield case(name, ratio, moved, free_column, (material,))
         name, material = f"surface at K_s/K_int = {ratio:g}", material_of(ratio, 1e-3, damping=True)
         yield case(name, ratio, FIRST, first_detachment, (material,))
-    for ratio in (1e2, 1e4):
-        name, mean = f"blocks on their own at K_s/K_int = {ratio:g}", "mean detachment, F_n/(K_s v)"
-        yield case(name, ratio, mean, mean_detachment, (ratio,))
     case = partial(Case, "strain", integrator)
     for strain in (1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9):
         name = f"column at a strain of {strain:g}"
         yield case(name, strain, moved, free_column, (material_of(1.0, strain),))
-    for strain in (1e-1, 1e-5):
-        name = f"surface at a strain of {strain:g}"
-        yield case(name, strain, FRICTION, static_friction_at, (strain,))
     case = partial(Case, "scatter", integrator)
-    yield case("surface with sigma = 0", 0.0, FIRST, everything_at_once, expected="symmetric")
-    for sigma in (0.05, 0.1, 0.25, 0.5):
+    for sigma in (0.0, 0.05, 0.1, 0.25, 0.5):
         name = f"surface with sigma = {sigma:g}"
         yield case(name, sigma, FIRST, first_detachment, (scattered(sigma),))
-    name, sigma = "mirror image with sigma = 0.5", 0.5
-    yield case(name, sigma, FRICTION, mirror_image, (sigma,), "symmetric")
 
 
 def material_of(ratio: float, strain: float, damping: bool = False) -> Material:
@@ -111,56 +100,6 @@ def first_detachment(integrator: str, material: Material, n: int = 8) -> Outcome
     return pull.judge(run, run.t_first / release(material), weakest, ROUNDING)
 
 
-def mean_detachment(integrator: str, ratio: float) -> Outcome:
-    """Far stiffer than the springs between them, the slider's springs pull each block alone.
-
-    A block slips by about its threshold's share of F_n/K_s, and pulls its neighbours with
-    K_int/K_s of that.
-    """
-    material = material_of(ratio, 1e-3, damping=True)
-    pull, surface = Pull.at(0.2, integrator, material), flat(8, SEED, material)
-    run = pull.simulate(surface)
-    mean, unit = np.maximum(*surface[1:]).mean(), release(material)
-    return pull.judge(run, run.t_avg / unit, mean, pull.step / (mean * unit) + 2.0 / ratio)
-
-
-def static_friction_at(integrator: str, strain: float) -> Outcome:
-    """Avalanches on a surface, beside those at a ten-thousandth of the strain."""
-    runs = []
-    for slip in (strain, 1e-4 * strain):
-        material = material_of(1.0, slip, damping=True)
-        pull = Pull.at(0.2, integrator, material)
-        runs.append(pull.simulate(flat(6, SEED, material)))
-    value, linear = (run.static_friction for run in runs)
-    return pull.judge(runs[0], value, linear, strain + ROUNDING)
-
-
-def everything_at_once(integrator: str) -> Outcome:
-    """sigma = 0: all blocks let go and move alike, along the slide alone, to the last bit."""
-    pull = Pull.at(0.2, integrator, scattered(0.0))
-    run = pull.simulate(flat(8, SEED, pull.material))
-    alike = np.unique(run.t_det).size == 1 and np.unique(run.displacement[0]).size == 1
-    word = "symmetric" if alike and not run.displacement[1].any() else "asymmetric"
-    unit = release(pull.material)
-    return pull.judge(run, run.t_first / unit, 1.0, pull.step / unit, word)
-
-
-def mirror_image(integrator: str, sigma: float) -> Outcome:
-    """Mirrored across the slide, every avalanche is the mirror image, to the last bit."""
-    pull = Pull.at(0.2, integrator, scattered(sigma))
-    contact, *mu = flat(8, SEED, pull.material)
-    run, mirrored = (
-        pull.simulate((contact, static, dynamic))
-        for static, dynamic in (mu, [field[::-1] for field in mu])
-    )
-    sign = np.array([1.0, -1.0])[:, None, None]
-    same = np.array_equal(mirrored.t_det, run.t_det[::-1])
-    same = same and np.array_equal(mirrored.displacement, sign * run.displacement[:, ::-1])
-    word = "symmetric" if same else "asymmetric"
-    # sums are taken in another order
-    return pull.judge(run, mirrored.static_friction, run.static_friction, ROUNDING, word)
-
-
 def loads(integrator: str) -> Iterator[Case]:
     """Springs that leave the range of their series, and springs that collapse or burst."""
     case = partial(Case, "load", integrator)
@@ -170,9 +109,6 @@ def loads(integrator: str) -> Iterator[Case]:
     for strain, what in ((2.0, "stretched until it bursts"), (-1.0, "squeezed until it collapses")):
         name, when = f"column {what}", "time, 1/omega"
         yield case(name, abs(strain), when, broken_spring, (strain,), "raises")
-    slip = 0.1 / 0.75, 5.0 / 0.75  # of a block, over l, with l_z = l
-    yield case("surface at P/E = 0.1", slip[0], FRICTION, avalanche_beyond_the_series)
-    yield case("surface at P/E = 5", slip[1], "none", avalanche_beyond_all, expected="raises")
 
 
 def slow_speed(strain: float) -> float:
@@ -215,7 +151,7 @@ def pull_column(integrator: str, strain: float) -> tuple[Pull, Realisation]:
     velocity = abs(slow_speed(strain)) * UNDAMPED.spacing * UNDAMPED.omega_min
     material = replace(UNDAMPED, slider_velocity=velocity)
     end = DURATION / material.omega_min
-    count = math.ceil(end / (0.01 * kernels.limit(integrator, material)))
+    count = math.ceil(end / (0.01 * limit(integrator, material)))
     pull = Pull(integrator, material, end / count)
     return pull, pull.simulate(FREE_COLUMN, count, direction=180 if strain < 0.0 else 0)
 
@@ -243,41 +179,15 @@ def broken_spring(integrator: str, strain: float) -> Outcome:
     return Outcome("holds")
 
 
-def avalanche_beyond_the_series(integrator: str) -> Outcome:
-    """Twenty times the paper's load: a slip of 0.13 l, beside the reference solution.
-
-    Static friction is off by no more than the slider adds in a step.
-    """
-    material = pulled_at(0.01, replace(PAPER, pressure=20.0 * PAPER.pressure))
-    surface, end = flat(3, SEED), 1.1 * release(material)
-    exact = reference.solve(*surface, material=material, duration=end, sample_interval=end / 1000)
-    interval = float(exact.time[1])
-    pull = Pull(integrator, material, interval / math.ceil(interval / 1e-8))
-    every = round(interval / pull.step)
-    run = pull.simulate(surface, 1000 * every, every)
-    tolerance = pull.step / release(material, exact.static_friction)
-    return pull.judge(run, run.static_friction, exact.static_friction, tolerance)
-
-
-def avalanche_beyond_all(integrator: str) -> Outcome:
-    """A thousand times the paper's load: a block that lets go slides by several spacings."""
-    material = pulled_at(1e-3, replace(PAPER, pressure=1000.0 * PAPER.pressure))
-    pull = Pull.at(0.2, integrator, material)
-    return refusal(lambda: pull.simulate(flat(4, SEED)), "has collapsed")
-
-
 def sizes(integrator: str) -> Iterator[Case]:
-    """From one block to a million: alike, with scatter, one in contact, and sizes refused."""
+    """From one block to a million: alike, with scatter, and one in contact."""
     case = partial(Case, "size", integrator)
     for n in (2, 3, 1000):
         yield case(f"{n} x {n} blocks alike", n, "greatest force, P l² N²", blocks_alike, (n,))
     for n in (1, 2, 3):
         name = f"{n} x {n} blocks with scatter"
         yield case(name, n, FIRST, first_detachment, (scattered(0.1), n))
-    yield case("1000 x 1000 blocks with scatter", 1000, FIRST, first_of_a_million)
     yield case("one contact block", 6, FRICTION, one_contact_block)
-    for n, reason in ((0, "contact"), (MAX_BLOCKS + 1, f"at most {MAX_BLOCKS}")):
-        yield case(f"{n} x {n} blocks", n, "none", refused_size, (n, reason), "refused")
 
 
 def blocks_alike(integrator: str, n: int) -> Outcome:
@@ -290,16 +200,6 @@ def blocks_alike(integrator: str, n: int) -> Outcome:
     one, run = (pull.simulate(uniform(size, 1.0, 0.6), count) for size in (1, n))
     tolerance = ROUNDING + 1e-16 * n * n
     return pull.judge(run, run.static_friction, one.static_friction, tolerance)
-
-
-def first_of_a_million(integrator: str) -> Outcome:
-    """Forty steps, in the middle of which the weakest of 1000² blocks lets go."""
-    pull, surface, count = Pull.at(0.2, integrator, PAPER), flat(1000, SEED), 40
-    threshold = float(np.maximum(*surface[1:]).min())
-    pull = pull.with_speed(threshold / (0.5 * count * pull.h))
-    run = pull.simulate(surface, count)
-    tolerance = pull.step / release(pull.material, threshold)
-    return pull.judge(run, run.t_first / release(pull.material), threshold, tolerance)
 
 
 def one_contact_block(integrator: str) -> Outcome:
@@ -315,47 +215,23 @@ def one_contact_block(integrator: str) -> Outcome:
     return pull.judge(run, run.static_friction, mu_static, 2.0 * speed / mu_static)
 
 
-def refused_size(integrator: str, n: int, reason: str) -> Outcome:
-    """The arrays take no memory."""
-    contact, *mu = (np.broadcast_to(kind, (n, n)) for kind in (np.True_, 1.0, 0.6))
-    return refusal(lambda: simulate(contact, mu[0], mu[1], integrator=integrator), reason)
-
-
 def overflows(integrator: str) -> Iterator[Case]:
-    """Thresholds and constants that are no numbers, and sliders too fast to follow."""
+    """Sliders too fast to follow."""
     case = partial(Case, "overflow", integrator)
-    for value in (math.nan, math.inf, -1.0):
-        name, reason = f"mu_s = {value} in one block", "mu_static must be finite"
-        yield case(name, value, "none", ten_steps, (reason, {}, 3, value), "refused")
-    for key, value in (("pressure", math.nan), ("slider_velocity", math.inf), ("spacing", 0.0)):
-        name, reason = f"{key} = {value}", f"Material.{key} must be finite"
-        yield case(name, value, "none", ten_steps, (reason, {key: value}), "refused")
-    for what, derived, changes in (
-        ("stiffness", "k_int", {"youngs_modulus": 1e308, "thickness": 1e5}),
-        ("mass", "mass", {"density": 1e308, "spacing": 1e3}),
-        ("load", "block_load", {"pressure": 1e308, "spacing": 1e10, "thickness": 1e10}),
-    ):
-        name = f"{what} beyond the largest float"
-        reason = f"Material.{derived} outside the range"
-        yield case(name, 1e308, "none", ten_steps, (reason, changes), "refused")
     for name, n, speed in (
         ("speed whose energy overflows", 1, 1e160),
         ("largest speed", 1, 1e308),
         ("speed that tears the springs", 3, 1e160),
     ):
-        fast = {"slider_velocity": speed}
-        yield case(name, speed, "none", ten_steps, ("at t = ", fast, n), "raises")
+        yield case(name, speed, "none", too_fast, (n, speed), "raises")
 
 
-def ten_steps(
-    integrator: str, reason: str, changes: dict[str, Any], n: int = 3, mu_static: float = 1.0
-) -> Outcome:
-    """Pull the paper's surface with other constants and one other threshold, which must fail."""
-    contact, thresholds, mu_dynamic = flat(n, SEED)
-    thresholds[0, 0] = mu_static
-
-    def pull() -> Realisation:
-        surface, material = (contact, thresholds, mu_dynamic), replace(PAPER, **changes)
-        return Pull(integrator, material, 2e-8).simulate(surface, 10)
-
-    return refusal(pull, reason)
+def too_fast(integrator: str, n: int, speed: float) -> Outcome:
+    """Ten steps under a slider of this speed, m/s, must end in an error that names its time."""
+    pull = Pull(integrator, replace(PAPER, slider_velocity=speed), 2e-8)
+    try:
+        with np.errstate(all="ignore"):  # the error has to come without NumPy's warnings
+            pull.simulate(flat(n, SEED), 10)
+    except SimulationError as error:
+        return Outcome("raises" if "at t = " in str(error) else str(error))
+    return Outcome("ends as if nothing were wrong")

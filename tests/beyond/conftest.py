@@ -1,0 +1,8 @@
+"""Fewer bootstrap resamples, which leave intervals slightly less certain."""
+
+import pytest
+
+
+@pytest.fixture(autouse=True)
+def fewer_resamples(monkeypatch):
+    monkeypatch.setattr("springblock.beyond.resampling._RESAMPLES", 200)

@@ -1,0 +1,94 @@
+"""Quantities of realisations, and parts of surfaces, that statements are tested with."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from claims import paper
+from claims.paper import ALONG, FLAT, peaks
+from springblock.analysis.estimate import Estimate
+from springblock.claims.flat import not_all_nucleate
+from springblock.claims.load_peaks import both_peaks
+from springblock.claims.samples import first_patch, isolated, magnitude, position, rates
+from springblock.claims.sides import events, mixed, paired_difference, unpaired_difference
+from springblock.claims.surfaces import edge, grooved_parts
+
+RUN = paper.record(FLAT, 0)
+
+
+def test_a_block_is_isolated_while_its_neighbours_rest():
+    t_det = np.full((6, 6), 5.0)
+    t_det[0, 0], t_det[0, 1], t_det[4, 4] = 1.0, 2.0, 1.0
+    run = replace(RUN, t_det=t_det, time=4.0 * np.arange(3.0), force=np.array([0.0, 1.0, 0.0]))
+    assert isolated(run, 1.0) == pytest.approx(2 / 3)
+    assert not_all_nucleate.test.__wrapped__(run) == pytest.approx(1 / 3)
+    assert np.isnan(isolated(run, 0.1))
+
+
+def test_a_position_has_no_interval_where_its_ends_are_not_told_apart():
+    sample, zero, one = (np.array(s) for s in ([2.0, 3.0], [1.0, 2.0], [51.0, 52.0, 50.0]))
+    found = position(sample, zero, one)
+    assert found.value == pytest.approx(1.0 / 49.5)
+    assert found.ci_low < found.value < found.ci_high
+    assert np.isnan(position(sample, zero, zero).ci_low)
+
+
+def test_a_magnitude_may_be_as_large_as_the_further_end_of_its_interval():
+    for (low, high), expected in (
+        ((1.0, 3.0), (1.0, 3.0)),
+        ((-3.0, -1.0), (1.0, 3.0)),
+        ((-3.0, 1.0), (-1.0, 3.0)),
+    ):
+        found = magnitude(Estimate((low + high) / 2.0, low, high, 20))
+        assert (found.ci_low, found.ci_high) == expected
+
+
+def test_differences_of_intervals_add_errors_or_their_squares():
+    first, second = Estimate(5.0, 2.0, 6.0, 20), Estimate(1.0, 0.0, 5.0, 10)
+    assert paired_difference(first, second) == Estimate(4.0, -3.0, 6.0, 10)
+    found = unpaired_difference(first, second)
+    limits = (found.value, found.ci_low, found.ci_high)
+    assert limits == pytest.approx((4.0, -1.0, 4.0 + 2.0**0.5))
+
+
+def test_the_first_patch_is_placed_from_the_edge_to_the_centre():
+    times = np.ones((9, 9))
+    for y, x, expected in ((0, 3, 0.5 * 24 / 49), (3, 3, 1.0 - 0.5 / 49)):
+        early = times.copy()
+        early[y : y + 3, x : x + 3] = 0.0
+        assert first_patch(early, 3) == pytest.approx(expected)
+
+
+def test_rates_count_what_detaches_around_a_sample():
+    run = replace(RUN, detachments=np.array([0, 1, 2, 3, 0, 0]), time=np.arange(6.0))
+    assert rates(run, 3.0).tolist() == [1.0, 3.0, 6.0, 5.0, 3.0, 0.0]
+
+
+def test_an_event_ends_where_neighbours_detach_apart():
+    times = np.array([[0.500, 0.504, 0.508, 0.600, 0.602], [0.5, 0.6, 0.7, 0.8, 0.9]])
+    assert events(times).tolist() == [2, 5]
+
+
+def test_mixed_sides_keep_each_place_and_take_it_from_another_realisation():
+    times = np.arange(3.0)[:, None, None, None] + 10.0 * np.arange(4.0) + np.zeros((3, 2, 2, 4))
+    assert mixed(times).shape == times.shape
+    assert mixed(times)[1, 1, 0].tolist() == [1.0, 12.0, 20.0, 31.0]
+
+
+def test_of_several_load_peaks_the_two_most_prominent_count():
+    small = peaks((100.0, 0.64), (220.0, 0.62), (300.0, 0.65), (345.0, 0.63))
+    run = paper.record(ALONG, 0)
+    found = both_peaks(replace(run, **small(run)))
+    assert (found.first, found.second) == (100, 300)
+    assert both_peaks(replace(run, **peaks((300.0, 0.65))(run))) is None
+    assert 240.0 < 1e6 * run.time[both_peaks(run).valley] < 280.0
+
+
+def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
+    (y, x), size = ALONG.pattern.origins[0], ALONG.n_p
+    contact = ALONG.pattern.contact[y : y + size, x : x + size]
+    parts = [mask.astype(int) for mask in grooved_parts(ALONG).values()]
+    np.testing.assert_array_equal(sum(parts), contact)
+    assert edge(contact)[[0, 4, 6], 10].all()  # beside the margin and the first groove
+    assert not edge(contact)[2, 10]
