@@ -158,11 +158,11 @@ def _run(work: list[Job], jobs: int) -> None:
     number = sum(len(job.seeds) for job in work)
     with (
         tqdm(total=number, unit="realisation") as bar,
-        ProcessPoolExecutor(jobs, get_context("spawn"), _exit_on_termination) as pool,
+        ProcessPoolExecutor(jobs, get_context("spawn"), _end_when_terminated) as pool,
     ):
         # Workers inherit that Ctrl-C is ignored; they are terminated below.
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
-        running = [pool.submit(job.run) for job in work]
+        running = [pool.submit(_run_one, job) for job in work]
         signal.signal(signal.SIGINT, handler)
         try:
             for done in as_completed(running):
@@ -170,15 +170,23 @@ def _run(work: list[Job], jobs: int) -> None:
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             for worker in active_children():
-                while worker.is_alive():  # it may have taken another job meanwhile
-                    worker.terminate()
-                    worker.join(0.1)
+                worker.terminate()
             raise
 
 
-def _exit_on_termination() -> None:
+def _end_when_terminated() -> None:
     """Let a worker remove its temporary files when it is terminated."""
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit())
+
+    def end(*_: object) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would disturb the first
+        sys.exit()
+
+    signal.signal(signal.SIGTERM, end)
+
+
+def _run_one(job: Job) -> int:
+    """Run a job, unless the worker was terminated: its queue may still hold some."""
+    return 0 if signal.getsignal(signal.SIGTERM) is signal.SIG_IGN else job.run()
 
 
 def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:
