@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from springblock.model.asperities import draw_friction as draw_friction
     from springblock.model.material import Material as Material
     from springblock.model.pattern import Pattern as Pattern
+    from springblock.model.surface import Surface as Surface
     from springblock.plotting.film import animate as animate
     from springblock.plotting.still import plot as plot
     from springblock.simulation.prelude import (
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
         compute_prelude as compute_prelude,
     )
     from springblock.simulation.run import Realisation as Realisation
+    from springblock.simulation.setup import Setup as Setup
     from springblock.simulation.simulate import (
         SimulationError as SimulationError,
     )
@@ -34,7 +36,9 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "Pattern": "model.pattern",
         "Prelude": "simulation.prelude",
         "Realisation": "simulation.run",
+        "Setup": "simulation.setup",
         "SimulationError": "simulation.simulate",
+        "Surface": "model.surface",
         "animate": "plotting.film",
         "compute_prelude": "simulation.prelude",
         "draw_friction": "model.asperities",

@@ -3,10 +3,10 @@
 All blocks are computed in all steps, in SI units and without optimisation. The compiled solver is
 compared with it step by step (`tests/validation/test_specification.py`):
 
-    from springblock import Pattern, draw_friction
+    from springblock import Pattern, Surface
     from springblock.specification import follow
 
-    for state in follow(Pattern.flat(6).contact, *draw_friction(6, seed=0), steps=5000):
+    for state in follow(Surface.draw(Pattern.flat(6).contact, seed=0), steps=5000):
         ...
 """
 
@@ -19,10 +19,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.model.direction import heading
 from springblock.model.law import LawFile
 from springblock.model.material import Material
+from springblock.model.surface import Surface
+from springblock.simulation.setup import DEFAULT, Setup
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -67,32 +68,29 @@ class Law:
 
 
 @dataclass(frozen=True)
-class Surface:
-    """Surface, material, slider and step of a run, as arguments of `simulate`."""
+class Problem:
+    """Surface, setup and sliding direction of a run, as arguments of `simulate`."""
 
-    contact: Mask  #: (N_y, N_x)
-    mu_static: Array  #: (N_y, N_x), or one number for all blocks
-    mu_dynamic: Array
-    material: Material = Material()  # noqa: RUF009
-    direction: str | float = "x"
-    step: float = STEP  #: h, s
-    periodic: bool = False
+    surface: Surface
+    setup: Setup
+    direction: str | float
 
     @cached_property
     def law(self) -> Law:
         """Law of the material."""
-        return Law.of(self.material)
+        return Law.of(self.setup.material)
 
     @cached_property
     def load(self) -> Array:
         """F_n of each block, N: blocks in contact share the whole load, (4)."""
-        load = self.material.block_load * self.contact.size / self.contact.sum()
-        return np.where(self.contact, load, 0.0)
+        contact = self.surface.contact
+        load = self.setup.material.block_load * contact.size / contact.sum()
+        return np.where(contact, load, 0.0)
 
     @cached_property
     def strength(self) -> Array:
         """mu_s F_n of each block, N."""
-        return self.mu_static * self.load
+        return self.surface.mu_static * self.load
 
     @property
     def fresh(self) -> Memory:
@@ -101,8 +99,8 @@ class Surface:
 
     def slider(self, steps: float) -> Array:
         """Displacement v t of the slider at t = `steps` h, (2, 1, 1) m."""
-        velocity = self.material.slider_velocity * np.array(heading(self.direction))
-        return velocity.reshape(2, 1, 1) * self.step * steps
+        velocity = self.setup.material.slider_velocity * np.array(heading(self.direction))
+        return velocity.reshape(2, 1, 1) * self.setup.step * steps
 
 
 @dataclass
@@ -160,39 +158,29 @@ OF_ARRAYS = (*LAWS.values(), slipped)  #: functions that take arrays
 
 
 def follow(
-    contact: Any,
-    mu_static: Any,
-    mu_dynamic: Any,
-    material: Material = Material(),  # noqa: B008
-    direction: str | float = "x",
-    integrator: str = INTEGRATOR,
-    step: float = STEP,
-    steps: int = 1000,
-    periodic: bool = False,
+    surface: Surface, setup: Setup = DEFAULT, direction: str | float = "x", steps: int = 1000
 ) -> Iterator[State]:
     """Pull a surface from rest; yield its state after each of `steps` steps.
 
     Other arguments are those of `simulate`.
     """
-    mask = np.asarray(contact, bool)
-    mu_static, mu_dynamic = np.asarray(mu_static, float), np.asarray(mu_dynamic, float)
-    surface = Surface(mask, mu_static, mu_dynamic, material, direction, step, periodic)
-    zero, never = np.zeros((2, *mask.shape)), np.full(mask.shape, np.inf)
-    state = State(0, zero, zero, surface.fresh, never)
+    problem, shape = Problem(surface, setup, direction), surface.contact.shape
+    zero, never = np.zeros((2, *shape)), np.full(shape, np.inf)
+    state = State(0, zero, zero, problem.fresh, never)
     for _ in range(steps):
-        state = INTEGRATORS[integrator](surface, state)
+        state = INTEGRATORS[setup.integrator](problem, state)
         yield state
 
 
-def spring_force(surface: Surface, u: Array) -> Array:
+def spring_force(problem: Problem, u: Array) -> Array:
     """Sum of F_int over the springs of each block, (2); (2, N_y, N_x) N."""
-    (n_y, n_x), k_int = surface.contact.shape, surface.material.k_int
+    (n_y, n_x), k_int = problem.surface.contact.shape, problem.setup.material.k_int
     y, x = np.mgrid[:n_y, :n_x]
     force = np.zeros_like(u)
     for j, i in _NEIGHBOURS:
         there = (y + j) % n_y, (x + i) % n_x
-        joined = surface.periodic | ((y + j == there[0]) & (x + i == there[1]))
-        rest = np.array([i, j], float).reshape(2, 1, 1) * surface.material.spacing
+        joined = problem.surface.periodic | ((y + j == there[0]) & (x + i == there[1]))
+        rest = np.array([i, j], float).reshape(2, 1, 1) * problem.setup.material.spacing
         apart = u[:, *there] - u  # r_j - r_i less the rest vector
         length = np.hypot(*(rest + apart))
         # r - L without cancellation: (r² - L²)/(r + L)
@@ -202,24 +190,25 @@ def spring_force(surface: Surface, u: Array) -> Array:
     return force
 
 
-def motive_force(surface: Surface, u: Array, steps: float) -> Array:
+def motive_force(problem: Problem, u: Array, steps: float) -> Array:
     """F_mot = F_int + K_s (v t - u) at t = `steps` h, (1) and (3); (2, N_y, N_x) N."""
-    return spring_force(surface, u) + surface.material.k_s * (surface.slider(steps) - u)
+    return spring_force(problem, u) + problem.setup.material.k_s * (problem.slider(steps) - u)
 
 
 def resistance(
-    surface: Surface, tau: float, memory: Memory, speed: Array, share: Array | float
+    problem: Problem, tau: float, memory: Memory, speed: Array, share: Array | float
 ) -> Array:
     """Velocity T that friction removes in one step, at the mean speed V = speed + share T.
 
     Of several solutions V the largest, which a decelerating block reaches first. T is infinite if
     there is no solution: the block stops. If friction increases with V, the solution is unique.
     """
-    law, own = surface.law, {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
+    law, surface = problem.law, problem.surface
+    own = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
 
     def friction_at(mean: Array) -> Array:
-        mu = law.call(law.friction, memory, **own, speed=mean, step=surface.step) + 0.0 * mean
-        return tau / surface.material.mass * surface.load * mu
+        mu = law.call(law.friction, memory, **own, speed=mean, step=problem.setup.step) + 0.0 * mean
+        return tau / problem.setup.material.mass * problem.load * mu
 
     share = np.asarray(share)
     if not share.any():
@@ -238,64 +227,64 @@ def resistance(
     return np.where(bisected | (mean > 0.0), friction_at(mean), np.inf)
 
 
-def leapfrog(surface: Surface, state: State) -> State:
+def leapfrog(problem: Problem, state: State) -> State:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
-    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
+    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
     a = np.exp(-gamma * h)
     tau = (1.0 - a) / gamma if gamma else h
-    k, u, v, contact = state.k, state.u, state.v, surface.contact
-    force = motive_force(surface, u, k)
+    k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
+    force = motive_force(problem, u, k)
     w = a * v + tau / m * force
     w_dot_v = np.sum(v * w, axis=0)
     mean = np.where(w_dot_v > 0.0, v + w, w)
-    end = _share_of_end(surface, tau, state.memory, np.hypot(*v))
+    end = _share_of_end(problem, tau, state.memory, np.hypot(*v))
     at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
-    friction = resistance(surface, tau, state.memory, np.hypot(*at), -end)
-    fresh = surface.fresh
-    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= surface.strength)
+    friction = resistance(problem, tau, state.memory, np.hypot(*at), -end)
+    fresh = problem.fresh
+    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= problem.strength)
     slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):
         new = np.where(slides, w - friction * mean / np.hypot(*mean), 0.0)
-    memory = _where(slides, surface.law.after(state.memory, np.hypot(*new), h), fresh)
+    memory = _where(slides, problem.law.after(state.memory, np.hypot(*new), h), fresh)
     loss = m / tau * np.sum((w - new) * (v + new), axis=0) * h / 2.0
     t_det = np.where(contact & slides, np.minimum(state.t_det, k * h), state.t_det)
     switched = contact & slides & (w_dot_v <= 0.0)
 
     # Releases within the step, (9) to (12)
     released = contact & slides & (np.hypot(*v) == 0.0)
-    at_rest = resistance(surface, tau, fresh, 0.0 * w_dot_v, 0.0) * m / tau
-    threshold = np.maximum(surface.strength, at_rest)
-    before = u - h * _velocity_before(surface, tau, state.memory, force, new)
-    before = np.hypot(*motive_force(surface, before, k - 1))
+    at_rest = resistance(problem, tau, fresh, 0.0 * w_dot_v, 0.0) * m / tau
+    threshold = np.maximum(problem.strength, at_rest)
+    before = u - h * _velocity_before(problem, tau, state.memory, force, new)
+    before = np.hypot(*motive_force(problem, before, k - 1))
     released &= before <= threshold
     theta = np.where(released, np.hypot(*force) - threshold, 0.0)
     theta = np.maximum(theta, 0.0) / np.where(released, np.hypot(*force) - before, 1.0)
     t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
-    k_int, k_s = surface.material.k_int, surface.material.k_s
+    k_int, k_s = problem.setup.material.k_int, problem.setup.material.k_s
     epsilon = h * tau / m * (k_s + 6.0 * k_int) / 4.0
     theta = theta + epsilon * (0.5 - theta)
     slip, speed, size = theta**2 / 2.0 - epsilon / 8.0, 0.5 + theta, np.hypot(*new)
-    memory = _where(released, surface.law.after(fresh, (slip + speed) * size, h), memory)
-    friction_work = m / tau * h * resistance(surface, tau, fresh, 0.5 * size, 0.0) * size
+    memory = _where(released, problem.law.after(fresh, (slip + speed) * size, h), memory)
+    friction_work = m / tau * h * resistance(problem, tau, fresh, 0.5 * size, 0.0) * size
     credit = 0.125 - epsilon / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * slip**2
     heat = friction_work * (slip + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
     loss = loss + np.where(released, heat, 0.0)
     u = u + h * np.where(released, slip + speed, 1.0) * new
     v = np.where(released, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _with_ledger(surface, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
+    return _with_ledger(problem, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
 
 
 def _with_ledger(
-    surface: Surface, now: State, before: State, switched: Mask, loss: Array, path: float
+    problem: Problem, now: State, before: State, switched: Mask, loss: Array, path: float
 ) -> State:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
-    pull = surface.material.k_s * (surface.slider(now.k) - now.u)
+    pull = problem.setup.material.k_s * (problem.slider(now.k) - now.u)
     return replace(
         now,
         switches=before.switches + int(switched.sum()),
-        work=before.work + float(np.sum(pull * surface.slider(1))),
-        heat=before.heat + float(loss[surface.contact].sum()),
+        work=before.work + float(np.sum(pull * problem.slider(1))),
+        heat=before.heat + float(loss[problem.surface.contact].sum()),
         path=before.path + path,
     )
 
@@ -305,41 +294,41 @@ def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
     return {name: np.where(chosen, memory[name], other[name]) for name in memory}
 
 
-def _share_of_end(surface: Surface, tau: float, memory: Memory, speed: Array) -> Array:
+def _share_of_end(problem: Problem, tau: float, memory: Memory, speed: Array) -> Array:
     """Weight of the velocity after a step in the one at which friction is evaluated.
 
     1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
     """
-    slow = resistance(surface, tau, memory, speed, 0.0)
-    rise = resistance(surface, tau, memory, 2.0 * speed, 0.0) - slow
+    slow = resistance(problem, tau, memory, speed, 0.0)
+    rise = resistance(problem, tau, memory, 2.0 * speed, 0.0) - slow
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where((speed > 0.0) & (rise > speed), np.maximum(0.5, 1.0 - speed / rise), 0.5)
 
 
 def _velocity_before(
-    surface: Surface, tau: float, memory: Memory, force: Array, new: Array
+    problem: Problem, tau: float, memory: Memory, force: Array, new: Array
 ) -> Array:
     """Solve (7) for v, given the velocity after the step; zero for blocks that stop in it."""
-    m, a = surface.material.mass, np.exp(-surface.material.gamma * surface.step)
+    m, a = problem.setup.material.mass, np.exp(-problem.setup.material.gamma * problem.setup.step)
     mean = (1.0 + a) * new - tau / m * force
     ahead = np.sign(np.sum(mean * new, axis=0))
     speed = ahead * np.hypot(*mean) / (2.0 * a)
-    friction = resistance(surface, tau, memory, speed, 1.0 / (2.0 * a))
+    friction = resistance(problem, tau, memory, speed, 1.0 / (2.0 * a))
     with np.errstate(invalid="ignore"):
         w = new + friction * ahead * mean / np.hypot(*mean)
     return np.where(new.any(axis=0), (w - tau / m * force) / a, 0.0)
 
 
-def runge_kutta(surface: Surface, state: State) -> State:
+def runge_kutta(problem: Problem, state: State) -> State:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
-    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
-    k, u, v, contact = state.k, state.u, state.v, surface.contact
-    force = motive_force(surface, u, k)
+    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
+    k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
+    force = motive_force(problem, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
-    at_rest = resistance(surface, h, state.memory, h / m * size / 2.0, -0.5)
-    friction = np.where(rests, at_rest, resistance(surface, h, state.memory, np.hypot(*v), 0.0))
-    released = rests & (size > surface.strength) & (h / m * size > friction)
-    e = _direction(surface, force, v, friction, released)
+    at_rest = resistance(problem, h, state.memory, h / m * size / 2.0, -0.5)
+    friction = np.where(rests, at_rest, resistance(problem, h, state.memory, np.hypot(*v), 0.0))
+    released = rests & (size > problem.strength) & (h / m * size > friction)
+    e = _direction(problem, force, v, friction, released)
     stuck = rests & ~released
 
     friction = np.where(stuck, 0.0, friction)
@@ -351,8 +340,8 @@ def runge_kutta(surface: Surface, state: State) -> State:
     for node, weight, reach in _STAGES:
         memory = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
         v_e = np.sum(stage_v * e, axis=0)
-        friction = resistance(surface, h, memory, np.abs(v_e), 0.0)
-        force = motive_force(surface, stage_u, k + node)
+        friction = resistance(problem, h, memory, np.abs(v_e), 0.0)
+        force = motive_force(problem, stage_u, k + node)
         change = np.where(stuck, 0.0, h / m * force - gamma * h * stage_v - friction * e)
         du, dv = du + weight * h * stage_v, dv + weight * change
         friction_work = friction_work + weight * h * friction * v_e
@@ -361,14 +350,14 @@ def runge_kutta(surface: Surface, state: State) -> State:
 
     # Releases before the step, (9), (12) and (13)
     v = np.where(released, 0.0, v)
-    threshold = np.maximum(surface.strength, surface.mu_dynamic * surface.load)
+    threshold = np.maximum(problem.strength, problem.surface.mu_dynamic * problem.load)
     before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
-    before = np.hypot(*motive_force(surface, before, k - 1))
-    now = np.hypot(*motive_force(surface, u, k))
+    before = np.hypot(*motive_force(problem, before, k - 1))
+    now = np.hypot(*motive_force(problem, u, k))
     theta = np.maximum(now - threshold, 0.0) / np.where(released, now - before, 1.0)
     theta = np.where(before <= threshold, theta, 0.5)
     t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
-    epsilon = h**2 / m * (surface.material.k_s + 6.0 * surface.material.k_int) / 8.0
+    epsilon = h**2 / m * (problem.setup.material.k_s + 6.0 * problem.setup.material.k_int) / 8.0
     theta = theta + epsilon * (0.5 - theta)
     extra = np.where(released, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
     du = du + extra * h * a
@@ -382,23 +371,23 @@ def runge_kutta(surface: Surface, state: State) -> State:
     slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + du_e)
     new = np.where(turned, 0.0, new)
     after, loss = State(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
-    return _with_ledger(surface, after, state, released, loss, path)
+    return _with_ledger(problem, after, state, released, loss, path)
 
 
-def _direction(surface: Surface, force: Array, v: Array, friction: Array, released: Mask) -> Array:
+def _direction(problem: Problem, force: Array, v: Array, friction: Array, released: Mask) -> Array:
     """Unit vectors e: of the velocity in the middle of the step, or of the force at a release.
 
     Under weakening laws the velocity in the middle of the step is the implicit one.
     """
-    m, h, gamma = surface.material.mass, surface.step, surface.material.gamma
+    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
-        back = friction if surface.law.friction is coulomb else 0.0
+        back = friction if problem.law.friction is coulomb else 0.0
         middle = v + (h / m * force - back * ahead) / (2.0 * (1.0 + gamma * h) ** 2)
         on = np.sum(middle * ahead, axis=0) > 0.0
         sliding = np.where(on, middle / np.hypot(*middle), ahead)
         e = np.where(released, force / np.hypot(*force), sliding)
-    return np.where(surface.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
+    return np.where(problem.surface.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
 
 
 INTEGRATORS = {"leapfrog": leapfrog, "rk4": runge_kutta}

@@ -7,6 +7,7 @@ import numpy as np
 
 from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.simulation.simulate import SimulationError
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, close_edges, close_rows, prepare, unpadded
@@ -68,8 +69,8 @@ def swing(
     Returns its displacement after so many steps.
     """
     method, shape = INTEGRATORS[integrator], displacement.shape[1:]
-    surface = np.ones(shape, bool), np.zeros(shape), np.zeros(shape)
-    state, constants = prepare(*surface, material, (0.0, 0.0), method, step, periodic=periodic)
+    surface = Surface(np.ones(shape, bool), 0.0, 0.0, periodic)
+    state, constants = prepare(surface, material, (0.0, 0.0), method, step)
     blocks, grid = state.blocks, constants.grid
     blocks.static[:] = 0.0
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):

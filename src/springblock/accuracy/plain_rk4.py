@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.solver.compilation import cached_njit
 
 Array = NDArray[np.float64]
@@ -88,21 +89,15 @@ def _integrate(contact, mu_s_load, mu_d_load, c, h, every, force, t_det):
             force[(k + 1) // every] = np.sqrt(fx**2 + (c[1] * r[:, :, 1].sum()) ** 2)
 
 
-def solve(
-    contact: NDArray[np.bool_],
-    mu_static: Array,
-    mu_dynamic: Array,
-    duration: float,
-    step: float,
-    sample_interval: float,
-) -> Solution:
-    """Pull one surface along x; arguments and units as of `springblock.simulate`."""
-    m = Material()
+def solve(surface: Surface, duration: float, step: float, sample_interval: float) -> Solution:
+    """Pull a surface of the paper's material along x; all times in s."""
+    m, contact = Material(), surface.contact
     load = m.block_load * contact.size / contact.sum()
     every, samples = round(sample_interval / step), round(duration / sample_interval)
     force, t_det = np.zeros(samples + 1), np.full(contact.shape, np.nan)
     constants = (m.k_int, m.k_s, m.mass, m.spacing, m.gamma, m.slider_velocity)
-    _integrate(contact, mu_static * load, mu_dynamic * load, constants, step, every, force, t_det)
+    loads = surface.mu_static * load, surface.mu_dynamic * load
+    _integrate(contact, *loads, constants, step, every, force, t_det)
     peak = int(force.argmax())
     return Solution(
         time=np.arange(samples + 1.0) * sample_interval,

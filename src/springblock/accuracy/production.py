@@ -24,6 +24,7 @@ from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
+from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 
 SCHEMA = pa.schema(
@@ -127,13 +128,13 @@ def simulate_ensembles(
 
     Steps take turns at every seed, so that what slows one of them slows all.
     """
-    how: dict[float, Row] = {h: {"step": h, "sample_interval": SAMPLE_INTERVAL} for h in STEPS}
-    compute_prelude(Pattern.flat(4).contact, **how[STEP])  # compiled first
-    preludes = {h: timed(partial(compute_prelude, pattern.contact, **how[h])) for h in STEPS}
+    setups = {h: Setup(step=h, sample_interval=SAMPLE_INTERVAL) for h in STEPS}
+    compute_prelude(Pattern.flat(4).contact)  # compiled first
+    preludes = {h: timed(partial(compute_prelude, pattern.contact, setups[h])) for h in STEPS}
     kept: dict[float, list[Kept]] = {h: [] for h in STEPS}
     for seed in tqdm(range(seeds), desc="seeds"):
         for h, (prelude, _) in preludes.items():
-            pull = partial(simulate, *drawn(pattern, seed), prelude=prelude, **how[h])
+            pull = partial(simulate, drawn(pattern, seed), setups[h], prelude=prelude)
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
     return seconds, {h: Kept(*map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}

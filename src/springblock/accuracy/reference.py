@@ -40,9 +40,11 @@ from scipy import sparse
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq, minimize_scalar
 
-from springblock.accuracy.specimens import Array, Surface
+from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 
+Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)
@@ -138,12 +140,12 @@ class _System:
     friction, and against damping.
     """
 
-    def __init__(self, surface: Surface, material: Material, periodic: bool, times: Array) -> None:
-        contact, mu_static, mu_dynamic = surface
+    def __init__(self, surface: Surface, material: Material, times: Array) -> None:
+        contact, mu_static, mu_dynamic = surface.contact, surface.mu_static, surface.mu_dynamic
         _, length, time = _units(material)
         self.n = contact.size
         stiffness = material.k_int / material.k_s
-        self._lattice = _Lattice(contact, periodic, material.spacing / length, stiffness)
+        self._lattice = _Lattice(contact, surface.periodic, material.spacing / length, stiffness)
         self._drift = np.array([[material.slider_velocity / (length / time)], [0.0]])
         self._gamma = material.gamma * time
         touching = contact.ravel()
@@ -341,20 +343,16 @@ def _positive(lengths: Array) -> Array:
 
 
 def solve(
-    contact: Flags,
-    mu_static: Array,
-    mu_dynamic: Array,
+    surface: Surface,
     material: Material = Material(),  # noqa: B008  (frozen)
     duration: float = 1.3e-4,
-    sample_interval: float = 2e-7,
+    sample_interval: float = SAMPLE_INTERVAL,
     accuracy: float = ACCURACY,
-    periodic: bool = False,
 ) -> Reference:
-    """Solve the model for one surface (N_y, N_x), from rest at t = 0, pulled along x.
+    """Solve the model for one surface, from rest at t = 0, pulled along x.
 
-    Where it is `periodic`, springs join opposite edges. Coefficients of friction are not read
-    outside the contact. Duration and interval are in s; `accuracy` is the relative tolerance of
-    each step, the default or less, see `STOP_SPEED`.
+    Duration and interval are in s; `accuracy` is the relative tolerance of each step, the default
+    or less, see `STOP_SPEED`.
     Raises ValueError where the law of friction is not Coulomb's.
     """
     if material.law != "coulomb":
@@ -363,7 +361,7 @@ def solve(
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     times = np.minimum(samples, duration) / time_unit
-    system = _System((contact, mu_static, mu_dynamic), material, periodic, times)
+    system = _System(surface, material, times)
     t_det = np.full(system.n, np.nan)
     y = np.zeros(4 * system.n + 3)  # at rest, unstrained
     while (left := duration / time_unit - system.offset) > 0.0:
@@ -376,7 +374,7 @@ def solve(
     return Reference(
         time=samples,
         force=force * force_unit,
-        t_det=t_det.reshape(contact.shape),
+        t_det=t_det.reshape(surface.contact.shape),
         static_friction=float(force[peak]) / system.n,
         t_max=float(samples[peak]),
         t_avg=float(np.nanmean(t_det)) if np.isfinite(t_det).any() else float("nan"),

@@ -27,13 +27,15 @@ from springblock.accuracy.conventions import (
     PLAIN,
     half_width,
 )
-from springblock.accuracy.specimens import Array, Surface, drawn
+from springblock.accuracy.specimens import Array, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
+from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Realisation
+from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
 
@@ -134,10 +136,10 @@ def solve_with(
     sample_interval: float = SAMPLE_INTERVAL,
 ) -> Computed:
     """Compute one realisation by any of the three methods."""
-    how: Row = {"step": step, "duration": duration, "sample_interval": sample_interval}
     if integrator == PLAIN:
-        return plain_rk4.solve(*surface, **how)
-    return simulate(*surface, integrator=integrator, **how)
+        return plain_rk4.solve(surface, duration, step, sample_interval)
+    setup = Setup(integrator=integrator, step=step, sample_interval=sample_interval)
+    return simulate(surface, setup, duration=duration)
 
 
 def evaluations(integrator: str, runs: Sequence[Computed]) -> float:
@@ -150,7 +152,7 @@ def single_rows(scene: str) -> Iterator[Row]:
     pattern, duration, seeds, *_ = _SURFACES[scene]
     surfaces = [drawn(pattern, seed) for seed in range(seeds)]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
-    exact = [solve(*surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
+    exact = [solve(surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed)) for seed in range(seeds)]
     for integrator in FORCE_EVALUATIONS:
         found: dict[float, Errors] = {}
@@ -196,15 +198,14 @@ def ensemble(
     `duration`, s, is for the plain method; the integrators stop once the surface slides.
     """
     pattern = _SURFACES[scene].ensemble
-    solve: Callable[..., Computed] = plain_rk4.solve if integrator == PLAIN else simulate
-    how: Row = {"step": step, "sample_interval": SAMPLE_INTERVAL}
+    solve: Callable[[Surface], Computed]
     if integrator == PLAIN:
-        how["duration"] = duration
+        solve = partial(solve_with, PLAIN, step, duration=duration)
     else:
-        how["integrator"] = integrator
-        how["prelude"] = compute_prelude(pattern.contact, **how)
+        setup = Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
+        solve = partial(simulate, setup=setup, prelude=compute_prelude(pattern.contact, setup))
     described = f"{integrator} {step:g}"
-    return [solve(*drawn(pattern, seed), **how) for seed in tqdm(range(seeds), desc=described)]
+    return [solve(drawn(pattern, seed)) for seed in tqdm(range(seeds), desc=described)]
 
 
 def means_of(runs: Sequence[Computed]) -> Errors:
@@ -214,12 +215,11 @@ def means_of(runs: Sequence[Computed]) -> Errors:
 
 def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
     """Return a run, and one with each threshold changed by a random share like `HORIZON_NUDGE`."""
-    contact, mu_static, mu_dynamic = drawn(_SURFACES[scene].single, seed)
+    surface, duration = drawn(_SURFACES[scene].single, seed), _SURFACES[scene].duration
+    contact, mu_static = surface.contact, surface.mu_static
     change = 1.0 + HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(mu_static.shape)
-    one, other = (
-        solve_with("leapfrog", FINE_STEP, (contact, mu, mu_dynamic), _SURFACES[scene].duration)
-        for mu in (mu_static, mu_static * change)
-    )
+    nudged = Surface(contact, mu_static * change, surface.mu_dynamic)
+    one, other = (solve_with("leapfrog", FINE_STEP, each, duration) for each in (surface, nudged))
     return one, other
 
 

@@ -34,6 +34,7 @@ from springblock.model.asperities import draw_friction
 from springblock.model.defaults import SAMPLE_INTERVAL, STEP
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
+from springblock.model.surface import Surface
 from springblock.provenance import configuration_digest, same_code
 from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.prelude import Prelude, compute_prelude
@@ -88,14 +89,13 @@ def setup_of(options: dict[str, Any]) -> Setup:
     return Setup(Material().vary(constants), **given)
 
 
-def coefficients(scene: Scene, seed: int, material: Material) -> tuple[Any, Any]:
-    """Return mu_static and mu_dynamic, (N_y, N_x) each: random, or from the files of the scene."""
-    mu_static, mu_dynamic = draw_friction(scene.shape, seed, material, scene.is_periodic)
-    of_static, of_dynamic = scene.mu_static_field, scene.mu_dynamic_field
-    return (
-        mu_static if of_static is None else of_static.values,
-        mu_dynamic if of_dynamic is None else of_dynamic.values,
-    )
+def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
+    """Return the surface of a scene, its coefficients random or from the files of the scene."""
+    drawn = draw_friction(scene.shape, seed, material, scene.is_periodic)
+    files = scene.mu_static_field, scene.mu_dynamic_field
+    pairs = zip(drawn, files, strict=True)
+    mu: Any = (random if file is None else file.values for random, file in pairs)
+    return Surface(scene.contact, *mu, periodic=scene.is_periodic)
 
 
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
@@ -139,9 +139,9 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
 def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     """Compute the prelude of a scene."""
-    known = scene.mu_static_field and scene.mu_static_field.values
-    how = {"mu_static": known, "periodic": scene.is_periodic, "cores": cores, **vars(setup)}
-    return compute_prelude(scene.contact, direction=scene.direction, **how)
+    known: Any = scene.mu_static_field and scene.mu_static_field.values
+    how = setup, scene.direction, scene.is_periodic, cores
+    return compute_prelude(scene.contact, *how, mu_static=known)
 
 
 @click.command("simulate")
@@ -264,10 +264,9 @@ def realised(
     scene: Scene, setup: Setup, seed: int, field_file: Path | None = None, **options: Any
 ) -> Row:
     """Run one realisation, and write its fields if a file is given."""
-    drawn = coefficients(scene, seed, setup.material)
-    options |= {"direction": scene.direction, "periodic": scene.is_periodic, **vars(setup)}
     try:
-        run = simulate(scene.contact, *drawn, **options)
+        surface = surface_of(scene, seed, setup.material)
+        run = simulate(surface, setup, scene.direction, **options)
     except SimulationError as error:
         raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
     if field_file is not None:
@@ -308,10 +307,10 @@ def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
 @click.option("--law", "laws", multiple=True, help="As for `springblock simulate`.")
 def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
     """Compile the integrators with laws of friction, once for all jobs."""
-    surface = Scene(n_blocks=4).contact
+    surface = Surface.draw(Scene(n_blocks=4).contact, seed=0)
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}
-        how: Any = {"integrator": integrator, "material": Material(law=law, **constants)}
-        begun = compute_prelude(surface, **how)
-        simulate(surface, *draw_friction(4, 0), prelude=begun, duration=1e-6, **how)
+        setup = Setup(Material(law=law, **constants), integrator)
+        begun = compute_prelude(surface.contact, setup)
+        simulate(surface, setup, prelude=begun, duration=1e-6)
         click.echo(f"compiled: {integrator} with the friction law {law}")

@@ -22,9 +22,9 @@ from springblock.io.schemas import SCENE, SETUP, column, numbers, texts
 from springblock.mechanism import models, pawls
 from springblock.mechanism.elasticity import Array, Layer, lattice_stiffness
 from springblock.mechanism.surfaces import TABLES, TRAINING
-from springblock.model.asperities import draw_friction
 from springblock.model.material import Material
 from springblock.model.scene import Scene
+from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
 from springblock.simulation.run import Run, friction
 from springblock.simulation.setup import Setup
@@ -174,13 +174,13 @@ def _runs(
     surface: Scene, seeds: int, **options: Any
 ) -> Iterator[tuple[Row, tuple[Array, Array], Run]]:
     """Yield the first columns of a row, the coefficients of friction and the run of each seed."""
-    material, contact = _material(surface), surface.contact
-    prelude = compute_prelude(contact, material, surface.direction)
-    constants = surface.row | Setup().vary(dict(surface.varied)).constants
+    setup, contact = Setup().vary(dict(surface.varied)), surface.contact
+    prelude = compute_prelude(contact, setup, surface.direction)
+    constants = surface.row | setup.constants
     for seed in tqdm(range(seeds), desc=str(surface), unit="seed"):
-        drawn = draw_friction(surface.shape, seed, material)
-        run = simulate(contact, *drawn, material, surface.direction, prelude=prelude, **options)
-        yield constants | {"seed": seed}, drawn, run
+        drawn = Surface.draw(contact, seed, setup.material)
+        run = simulate(drawn, setup, surface.direction, prelude=prelude, **options)
+        yield constants | {"seed": seed}, (drawn.mu_static, drawn.mu_dynamic), run
 
 
 def _material(surface: Scene) -> Material:

@@ -19,11 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
-from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.direction import heading
-from springblock.model.material import Material
-from springblock.simulation.checks import checked_surface
-from springblock.simulation.setup import PAPER, Setup
+from springblock.model.surface import Surface, as_mask
+from springblock.simulation.checks import check_type
+from springblock.simulation.setup import DEFAULT, Setup
 from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
 from springblock.solver.laws import strengths
@@ -137,30 +136,26 @@ def conditions(
 
 def compute_prelude(
     contact: ArrayLike,
-    material: Material = PAPER,
+    setup: Setup = DEFAULT,
     direction: str | float = "x",
-    integrator: str = INTEGRATOR,
-    step: float = STEP,
-    sample_interval: float = SAMPLE_INTERVAL,
-    cores: int = 1,
     periodic: bool = False,
+    cores: int = 1,
     mu_static: ArrayLike | None = None,
 ) -> Prelude:
     """Load a surface whose blocks never detach, until in most realisations one would have.
 
-    `simulate` takes the prelude for any seed. Arguments and errors are those of `simulate`; if
-    `mu_static` is given instead of drawn, only the last state before a detachment is stored.
+    `simulate` takes the prelude for any seed. Arguments and errors are those of `Surface` and
+    `simulate`; if `mu_static` is given instead of drawn, only the last state before a detachment is
+    stored.
     """
-    ones = np.ones(np.shape(contact))
-    mask, _, _ = checked_surface(contact, ones, ones, periodic)
-    setup, towards = Setup(material, integrator, step, sample_interval), heading(direction)
+    check_type("setup", setup, Setup)
+    mask, material = as_mask(contact), setup.material
+    surface, towards = Surface(mask, 1.0, 0.0, periodic), heading(direction)
     strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
     setup.check_length(mask, float(strongest))
-    nothing = np.zeros(mask.shape)
-    state, constants = prepare(
-        mask, ones, nothing, material, towards, INTEGRATORS[integrator], step, True, periodic
-    )
-    advance, every = on_cores(integrator, cores), setup.every
+    method = INTEGRATORS[setup.integrator]
+    state, constants = prepare(surface, material, towards, method, setup.step, keep_peak=True)
+    advance, every = on_cores(setup.integrator, cores), setup.every
     blocks, peak = state.blocks, state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.law import LawFile
 from springblock.model.material import Material
-from springblock.simulation.checks import check_positive, whole_multiple
+from springblock.simulation.checks import check_positive, check_type, whole_multiple
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
@@ -22,7 +22,16 @@ _MOST_SAMPLES = 2**31 - 1
 
 @dataclass(frozen=True)
 class Setup:
-    """Material and numerical parameters of a run, as arguments of `simulate`.
+    """Material and numerical parameters of a run.
+
+    Parameters
+    ----------
+    material : Material
+    integrator : "leapfrog" or "rk4"
+    step : s
+        Integration step h.
+    sample_interval : s
+        Time between samples of the force; a multiple of the step.
 
     Raises
     ------
@@ -32,12 +41,11 @@ class Setup:
 
     material: Material = PAPER
     integrator: str = INTEGRATOR
-    step: float = STEP  #: s
-    sample_interval: float = SAMPLE_INTERVAL  #: s, a multiple of the step
+    step: float = STEP
+    sample_interval: float = SAMPLE_INTERVAL
 
     def __post_init__(self) -> None:
-        if not isinstance(self.material, Material):
-            raise TypeError(f"material must be a Material, not {self.material!r}")
+        check_type("material", self.material, Material)
         if self.integrator not in IS_STABLE:
             known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
@@ -123,3 +131,7 @@ class Setup:
                 raise ValueError(
                     f"integrator must be leapfrog with the law {law}, not {self.integrator!r}"
                 )
+
+
+#: Setup of the paper.
+DEFAULT = Setup()

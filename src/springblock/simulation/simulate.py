@@ -6,19 +6,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from tqdm import tqdm
 
-from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.direction import heading
-from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.simulation.checkpoint import Checkpoint, belonging
-from springblock.simulation.checks import checked_surface, count_samples, snapshot_samples
+from springblock.simulation.checks import check_type, count_samples, snapshot_samples
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
-from springblock.simulation.setup import PAPER, Setup
+from springblock.simulation.setup import DEFAULT, Setup
 from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import (
     SQUARES,
@@ -49,19 +48,13 @@ class SimulationError(RuntimeError):
 
 
 def simulate(
-    contact: ArrayLike,
-    mu_static: ArrayLike,
-    mu_dynamic: ArrayLike,
-    material: Material = PAPER,
+    surface: Surface,
+    setup: Setup = DEFAULT,
     direction: str | float = "x",
-    integrator: str = INTEGRATOR,
-    step: float = STEP,
     duration: float | None = None,
-    sample_interval: float = SAMPLE_INTERVAL,
     snapshot_times: Sequence[float] = (),
     prelude: Prelude | None = None,
     cores: int = 1,
-    periodic: bool = False,
     progress: bool = False,
     checkpoint: str | Path | None = None,
     checkpoint_interval: float = 300.0,
@@ -73,22 +66,16 @@ def simulate(
 
     Parameters
     ----------
-    contact : (N_y, N_x) bool, or 0 and 1, [y, x]
-        Blocks in contact with the substrate, as `Pattern.contact`.
-    mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
-        Microscopic friction coefficients; values outside the contact are ignored.
-    material : Material
+    surface : Surface
+        Blocks in contact, and their friction coefficients.
+    setup : Setup
+        Material, integrator, step and sample interval; the paper's by default.
     direction : "x", "y" or an angle from x in degrees
         Sliding direction.
-    integrator : "leapfrog" or "rk4"
-    step : s
-        Integration step h.
     duration : s, or None
         None: until every contact block has detached and the force has passed its peak and the
         first minimum after it. If the force does not drop, until 1.5 times the time of the last
         first detachment.
-    sample_interval : s
-        Time between samples of the force; a multiple of the step.
     snapshot_times : s
         Times at which `Realisation.fields` are stored, in ascending order; multiples of the
         sample interval. A run without duration lasts at least until the last of them.
@@ -97,9 +84,6 @@ def simulate(
         time; results are the same.
     cores : int
         Number of cores for the leapfrog on one large surface; results are the same to the bit.
-    periodic : bool
-        Whether springs join opposite edges, which are free otherwise. Each side must have at
-        least 3 blocks.
     progress : bool
         Whether to show a progress bar on stderr.
     checkpoint : Path
@@ -111,30 +95,27 @@ def simulate(
     Raises
     ------
     TypeError, ValueError
-        If an argument is not valid, the step is unstable, or prelude or checkpoint belong to
-        another run.
+        If an argument is not valid, or prelude or checkpoint belong to another run.
     SimulationError
         If a spring leaves 1/2 to 2 times its rest length or becomes NaN, with time and block; or
         if blocks do not detach in a run without duration.
     """
-    contact, mu_static, mu_dynamic = checked_surface(contact, mu_static, mu_dynamic, periodic)
-    setup = Setup(material, integrator, step, sample_interval)
-    advance, towards = on_cores(integrator, cores), heading(direction)
-    stops = snapshot_samples(snapshot_times, sample_interval, contact.size, duration)
-    strongest = float(np.maximum(mu_static, mu_dynamic)[contact].max())
+    check_type("surface", surface, Surface)
+    check_type("setup", setup, Setup)
+    contact, strongest, interval = surface.contact, surface.strongest, setup.sample_interval
+    advance, towards = on_cores(setup.integrator, cores), heading(direction)
+    stops = snapshot_samples(snapshot_times, interval, contact.size, duration)
     setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
-    end = None if duration is None else count_samples(duration, sample_interval)
+    end = None if duration is None else count_samples(duration, interval)
     limit = _LATEST * setup.loading_time(contact, strongest)
 
-    surface = contact, mu_static, mu_dynamic
-    state, constants = prepare(
-        *surface, material, towards, INTEGRATORS[integrator], step, periodic=periodic
-    )
-    motion = _Motion(setup, advance, state, constants)
-    here = conditions(contact, setup, towards, periodic)
+    method = INTEGRATORS[setup.integrator]
+    motion = _Motion(setup, advance, *prepare(surface, setup.material, towards, method, setup.step))
+    here = conditions(contact, setup, towards, surface.periodic)
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
-        belongs = belonging(here, surface[1:], duration=end, snapshot_times=stops)
+        friction = surface.mu_static, surface.mu_dynamic
+        belongs = belonging(here, friction, duration=end, snapshot_times=stops)
         kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
         snapshots = motion.resume(kept)
     if prelude is not None:

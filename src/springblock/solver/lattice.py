@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.solver.compilation import kernel
 from springblock.solver.laws import Law, law_of
 from springblock.solver.springs import (
@@ -130,20 +131,18 @@ _NO_THRESHOLD = 1e-300
 
 
 def prepare(
-    contact: NDArray[np.bool_],
-    mu_static: Array,
-    mu_dynamic: Array,
+    surface: Surface,
     material: Material,
     heading: tuple[float, float],
     integrator: Integrator,
     step: float,
     keep_peak: bool = False,
-    periodic: bool = False,
 ) -> tuple[State, Constants]:
     """Return state and constants of a run in the kernels' units, at rest and unstrained.
 
-    `heading` is the unit vector of the slider velocity; opposite edges are joined if `periodic`.
+    `heading` is the unit vector of the slider velocity.
     """
+    contact, periodic = surface.contact, surface.periodic
     grid = Grid.of(contact.shape, periodic)
     n_y, n_x = contact.shape
     # m per step, per N
@@ -162,8 +161,9 @@ def prepare(
     def field() -> Array:
         return aligned((n_y + periodic) * int(grid.pitch), 9 * next(fields))
 
-    static = np.where(contact, np.maximum(mu_static * load * velocity_per_force, _NO_THRESHOLD), 0)
-    dynamic = np.where(contact, mu_dynamic * load * velocity_per_force, 0.0)
+    static = np.maximum(surface.mu_static * load * velocity_per_force, _NO_THRESHOLD)
+    static = np.where(contact, static, 0.0)
+    dynamic = surface.mu_dynamic * load * velocity_per_force
     blocks = Blocks(
         ux=field(),
         uy=field(),

@@ -16,7 +16,8 @@ from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.scene import LENGTHS, MAPS, TEXTS, Scene, Varied
-from springblock.simulation.checks import checked_surface, count_samples, snapshot_samples
+from springblock.model.surface import Surface
+from springblock.simulation.checks import count_samples, snapshot_samples
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
 
@@ -153,8 +154,8 @@ def is_own(configuration: Configuration) -> bool:
 
 
 def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
-    scene, ones = ensemble.scene, np.ones(ensemble.scene.shape)
-    checked_surface(scene.contact, ones, ones, scene.is_periodic)
+    scene = ensemble.scene
+    Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
     _check_draws(ensemble, own.material)
     for duration in (None, ensemble.duration):  # its prelude and its realisations

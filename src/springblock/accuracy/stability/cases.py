@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.specimens import Surface
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.simulation.run import Realisation
+from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.stability import limit
 
@@ -97,15 +98,8 @@ class Pull:
     ) -> Realisation:
         """Take `count` steps, sampling `every` so many or at the end; by default until all slid."""
         every = every or count or 5
-        return simulate(
-            *surface,
-            material=self.material,
-            integrator=self.integrator,
-            step=self.step,
-            sample_interval=every * self.step,
-            duration=count and count * self.step,
-            **options,
-        )
+        setup = Setup(self.material, self.integrator, self.step, every * self.step)
+        return simulate(surface, setup, duration=count and count * self.step, **options)
 
     def keeps_energy(self, run: Realisation) -> bool:
         """Judge the error of the energy balance, as a share of the work.

@@ -26,6 +26,7 @@ from springblock.accuracy.stability.cases import (
     release,
 )
 from springblock.model.material import Material
+from springblock.model.surface import Surface
 from springblock.simulation.run import Realisation
 from springblock.simulation.simulate import SimulationError
 from springblock.solver.stability import limit
@@ -34,11 +35,7 @@ from springblock.solver.stability import limit
 #: axial spring beside them, the one between them (strained by 2b), and a diagonal give K_int times
 #: this matrix.
 COLUMNS = np.array([[1.25, -0.25], [-0.25, 2.25]])
-FREE_COLUMN = (
-    np.array([[True, False], [True, False]]),
-    np.array([[1e9, 0.0], [1e9, 0.0]]),
-    np.zeros((2, 2)),
-)
+FREE_COLUMN = Surface([[1, 0], [1, 0]], mu_static=1e9, mu_dynamic=0.0)
 BURST, COLLAPSE = 3.0, -0.75  #: (r/L)² - 1 of a spring twice and half as long
 DURATION = 30.0  #: of the column's motion, 1/omega
 
@@ -96,7 +93,7 @@ def free_column(integrator: str, material: Material) -> Outcome:
 def first_detachment(integrator: str, material: Material, n: int = 8) -> Outcome:
     """On a flat surface the weakest block lets go first, at its own threshold."""
     pull, surface = Pull.at(0.2, integrator, material), flat(n, SEED, material)
-    run, weakest = pull.simulate(surface), np.maximum(*surface[1:]).min()
+    run, weakest = pull.simulate(surface), np.maximum(surface.mu_static, surface.mu_dynamic).min()
     return pull.judge(run, run.t_first / release(material), weakest, ROUNDING)
 
 
@@ -211,7 +208,7 @@ def one_contact_block(integrator: str) -> Outcome:
     contact = np.zeros((n, n), bool)
     contact[2, 3] = True
     pull = Pull.at(0.1, integrator, pulled_at(speed, PAPER))
-    run = pull.simulate((contact, *uniform(n, mu_static, 0.1)[1:]))
+    run = pull.simulate(Surface(contact, mu_static, 0.1))
     return pull.judge(run, run.static_friction, mu_static, 2.0 * speed / mu_static)
 
 

@@ -1,0 +1,114 @@
+"""Surface of one realisation: the blocks in contact and their friction coefficients."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from springblock.model.asperities import draw_friction
+from springblock.model.material import Material
+from springblock.model.pattern import MAX_BLOCKS
+
+Array = NDArray[np.float64]
+
+#: Least number of blocks per side with periodic edges: with fewer, a block would be its own
+#: neighbour, or a neighbour of another one twice.
+_SHORTEST_PERIOD = 3
+
+
+class Surface:
+    """Blocks in contact with the substrate, and their friction coefficients.
+
+    Parameters
+    ----------
+    contact : (N_y, N_x) bool, or 0 and 1, [y, x]
+        Blocks in contact with the substrate, as `Pattern.contact`.
+    mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
+        Microscopic friction coefficients; values outside the contact are ignored.
+    periodic : bool
+        Whether springs join opposite edges, which are free otherwise. Each side must have at
+        least 3 blocks.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a shape, type or value is not valid, with the reason.
+    """
+
+    def __init__(
+        self,
+        contact: ArrayLike,
+        mu_static: ArrayLike,
+        mu_dynamic: ArrayLike,
+        periodic: bool = False,
+    ) -> None:
+        mask = as_mask(contact)
+        if not isinstance(periodic, bool):
+            raise TypeError(f"periodic must be True or False, not {periodic!r}")
+        if periodic and min(mask.shape) < _SHORTEST_PERIOD:
+            raise ValueError(
+                f"contact has the shape {mask.shape}; with periodic edges each side must have at "
+                f"least {_SHORTEST_PERIOD} blocks"
+            )
+        self.contact = mask
+        self.mu_static = _coefficients("mu_static", mu_static, mask)  #: (N_y, N_x), 0 elsewhere
+        self.mu_dynamic = _coefficients("mu_dynamic", mu_dynamic, mask)
+        self.periodic = periodic
+
+    @classmethod
+    def draw(
+        cls,
+        contact: ArrayLike,
+        seed: int,
+        material: Material | None = None,
+        periodic: bool = False,
+    ) -> "Surface":
+        """Return a surface with random coefficients, see `draw_friction`."""
+        mask = as_mask(contact)
+        return cls(mask, *draw_friction(mask.shape, seed, material, periodic), periodic)
+
+    @property
+    def strongest(self) -> float:
+        """Largest coefficient at which a block detaches."""
+        return float(np.maximum(self.mu_static, self.mu_dynamic).max())
+
+
+def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
+    """Return contact as an array of bool, (N_y, N_x), converted from 0 and 1 if necessary.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If it is not a mask of at most `MAX_BLOCKS` blocks a side with at least one in contact.
+    """
+    mask = np.asarray(contact)
+    if mask.dtype != np.bool_:
+        if mask.dtype.kind not in "iu":
+            raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")
+        other = mask[(mask != 0) & (mask != 1)]
+        if other.size:
+            raise ValueError(f"contact must hold bool, or 0 and 1, not {other[0]}")
+        mask = mask.astype(bool)
+    if mask.ndim != 2:
+        raise ValueError(f"contact must have the shape (N_y, N_x), not {mask.shape}")
+    if max(mask.shape) > MAX_BLOCKS:
+        raise ValueError(
+            f"contact has the shape {mask.shape}; a side may have at most {MAX_BLOCKS} blocks"
+        )
+    if not mask.any():
+        raise ValueError("contact is False everywhere; at least one block must be in contact")
+    return mask
+
+
+def _coefficients(name: str, values: Any, mask: NDArray[np.bool_]) -> Array:
+    mu = np.asarray(values)
+    if mu.dtype.kind not in "iuf":
+        raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
+    if mu.ndim == 0:
+        mu = np.broadcast_to(mu, mask.shape)
+    if mu.shape != mask.shape:
+        raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
+    in_contact = mu[mask]
+    if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
+        raise ValueError(f"{name} must be finite and not negative on all blocks in contact")
+    return np.where(mask, mu, 0.0).astype(float)
