@@ -44,7 +44,7 @@ from benchmarks.timing import (
     interleaved,
     printed,
 )
-from springblock import compute_prelude, draw_friction, simulate
+from springblock import Surface, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
 from springblock.model.defaults import SAMPLE_INTERVAL
@@ -110,7 +110,7 @@ class Solver:
             mu_static = np.where(still, NEVER, mu_static)
             velocity = np.where(still, 0.0, velocity)
         how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
-        self.state, self.constants = prepare(contact, mu_static, mu_dynamic, *how)
+        self.state, self.constants = prepare(Surface(contact, mu_static, mu_dynamic), *how)
         blocks, grid = self.state.blocks, self.constants.grid
         self.velocity = unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)  # views
         self.velocity[0][:], self.velocity[1][:] = velocity
@@ -154,8 +154,8 @@ def lammps_in_motion(n: int) -> Steps:
 
 def plain_in_motion(n: int) -> Steps:
     """Return Runge-Kutta as one would first write it, from rest in every call."""
-    surface = in_motion(n)[:3]
-    return lambda k: plain_rk4.solve(*surface, k * PAPER_STEP, PAPER_STEP, k * PAPER_STEP)
+    surface = Surface(*in_motion(n)[:3])
+    return lambda k: plain_rk4.solve(surface, k * PAPER_STEP, PAPER_STEP, k * PAPER_STEP)
 
 
 class Contender(NamedTuple):
@@ -209,16 +209,17 @@ def realisation() -> Iterator[Row]:
     The ratio is to the C loop from zero, as long, at the paper's step.
     """
     for name, scene in [*SCENES.items(), ("flat", Scene(PLAIN_N))]:
-        contact, mu = scene.pattern.contact, draw_friction(scene.n_blocks, seed=0)
-        run = partial(simulate, contact, *mu, prelude=compute_prelude(contact))
+        contact = scene.pattern.contact
+        surface = Surface.draw(contact, seed=0)
+        run = partial(simulate, surface, prelude=compute_prelude(contact))
         duration = float(run().time[-1])
         runs: Runs = {
-            "from zero": partial(simulate, contact, *mu),
+            "from zero": partial(simulate, surface),
             WITH_PRELUDE: run,
             "prelude, once for all seeds": partial(compute_prelude, contact),
         }
         if scene.n_blocks == PLAIN_N:
-            plain = partial(plain_rk4.solve, contact, *mu, duration, PAPER_STEP, SAMPLE_INTERVAL)
+            plain = partial(plain_rk4.solve, surface, duration, PAPER_STEP, SAMPLE_INTERVAL)
             plain()  # compiled first
             runs["plain rk4, from zero"] = plain
         with suppress(Missing):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from springblock import draw_friction, simulate
+from springblock import Setup, Surface, simulate
 from springblock.io.records import read_records
 from springblock.model.blockmap import BlockMap
 from studies import FEWER, Study
@@ -64,9 +64,9 @@ def name(study):
     return f"mask-{BlockMap.mask(study / MASK)}"
 
 
-def assert_same(run, contact, *coefficients, **how):
+def assert_same(run, surface, direction="x"):
     """Detachment times of a stored run are those of Python's, to the bit."""
-    alone = simulate(contact, *coefficients, run.material, **how)
+    alone = simulate(surface, Setup(run.material), direction)
     assert alone.t_det.tobytes() == run.t_det.tobytes()
 
 
@@ -96,14 +96,14 @@ def test_a_study_simulates_what_python_does(study):
         np.testing.assert_array_equal(run.scene.contact, ISLANDS)
         assert np.isnan(run.t_det[~ISLANDS]).all()
         assert run.material.distribution == "weibull"
-        assert_same(run, ISLANDS, *draw_friction(12, run.seed, run.material))
+        assert_same(run, Surface.draw(ISLANDS, run.seed, run.material))
 
 
 def test_coefficients_from_files_are_not_drawn(study):
     mu, weak = (BlockMap.coefficients(study / file) for file in ("mu.npy", WEAK))
     parts = (f"mu_static_field-{mu}", f"mu_dynamic_field-{weak}", "direction-y")
     (run,) = records(study, *parts)
-    assert_same(run, ISLANDS, mu.values, weak.values, direction="y")
+    assert_same(run, Surface(ISLANDS, mu.values, weak.values), direction="y")
 
 
 def test_a_changed_image_is_another_surface(study, tmp_path):
@@ -121,5 +121,5 @@ def test_rectangles_and_periodic_edges_are_simulated_as_in_python(study):
     assert [run.seed for run in runs] == [0, 1]
     for run in runs:
         assert run.scene.edges == "periodic"
-        coefficients = draw_friction((6, 12), run.seed, run.material, periodic=True)
-        assert_same(run, np.ones((6, 12), bool), *coefficients, periodic=True)
+        contact = np.ones((6, 12), bool)
+        assert_same(run, Surface.draw(contact, run.seed, run.material, periodic=True))

@@ -27,10 +27,10 @@ sys.meta_path.insert(0, Withhold())
 
 import click
 
-from springblock import Pattern, draw_friction, plot, simulate
+from springblock import Pattern, Surface, plot, simulate
 from springblock.cli import COMMANDS, main
 
-run = simulate(Pattern.pillars(6, 2, 1).contact, *draw_friction(6, seed=0), duration=4e-6)
+run = simulate(Surface.draw(Pattern.pillars(6, 2, 1).contact, seed=0), duration=4e-6)
 plot(run).savefig({folder!r} + "/run.png")
 for command in (
     *(f"{{command}} --help" for command in COMMANDS),

@@ -17,7 +17,7 @@ from benchmarks.verification.problems import (
     read_surface,
     read_table,
 )
-from springblock import draw_friction
+from springblock import Surface
 
 ENTRIES = (PROBLEMS["flat"].folder.parent / "ENTRIES.md").read_text(encoding="utf-8")
 
@@ -29,11 +29,10 @@ def problem(request):
 
 def test_surfaces_are_those_of_their_seeds(problem):
     """17 digits hold every bit."""
-    contact, mu_static, mu_dynamic = read_surface(problem)
-    drawn = draw_friction(problem.pattern.n_blocks, problem.seed)
-    np.testing.assert_array_equal(contact, problem.pattern.contact)
-    np.testing.assert_array_equal([mu_static, mu_dynamic], drawn)
-    assert (mu_dynamic < mu_static)[contact].all()
+    read, drawn = read_surface(problem), Surface.draw(problem.pattern.contact, problem.seed)
+    for name in ("contact", "mu_static", "mu_dynamic"):
+        np.testing.assert_array_equal(getattr(read, name), getattr(drawn, name))
+    assert (read.mu_dynamic < read.mu_static)[read.contact].all()
 
 
 def test_references_are_whole(problem):

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.timing import Missing
-from springblock import Material, Pattern, draw_friction
+from springblock import Material, Pattern, Surface, draw_friction
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.springs import Springs
@@ -91,7 +91,7 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         loop = CLoop(*surface, step)
         loop.velocity[:] = velocity
         force = loop.advance(CHECK_STEPS)
-        state, constants = prepare(*surface, material, (1.0, 0.0), LEAPFROG, step)
+        state, constants = prepare(Surface(*surface), material, (1.0, 0.0), LEAPFROG, step)
         blocks, samples = state.blocks, Samples.empty(CHECK_STEPS)
         ours = [unpadded(field, constants.grid) for field in blocks]
         ours[2][:], ours[3][:] = velocity

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from benchmarks.verification.metrics import cells, errors, uncertainties
 from benchmarks.verification.problems import PROBLEMS, Answer, Problem, read_reference, read_surface
 from springblock.accuracy.conventions import PLAIN
-from springblock.accuracy.specimens import Surface
 from springblock.accuracy.work_precision import FORCE_EVALUATIONS, solve_with
 from springblock.io.rows import markdown_table
 from springblock.model.defaults import SAMPLE_INTERVAL
+from springblock.model.surface import Surface
 
 #: Of each integrator, s.
 STEPS = {

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock.accuracy.specimens import Array, Surface
+from springblock.accuracy.specimens import Array
 from springblock.files import write_text
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
+from springblock.model.surface import Surface
 
 SURFACE = ("y", "x", "contact", "mu_static", "mu_dynamic")
 T_DET = ("y", "x", "t_det")
@@ -116,10 +117,10 @@ def _number(path: Path, row: dict[str, str], name: str) -> float:
 
 
 def read_surface(problem: Problem) -> Surface:
-    """Return contact, mu_static and mu_dynamic, (N, N) each."""
+    """Return the surface of a problem."""
     path = problem.folder / "surface.csv"
     contact, mu_static, mu_dynamic = _on_blocks(problem, path, read_table(path, SURFACE))
-    return contact == 1.0, mu_static, mu_dynamic
+    return Surface(contact == 1.0, mu_static, mu_dynamic)
 
 
 def read_reference(problem: Problem) -> Reference:

@@ -15,12 +15,10 @@ from benchmarks.verification.problems import (
     read_surface,
     write_table,
 )
-from springblock import simulate
+from springblock import Setup, Surface, draw_friction, simulate
 from springblock.accuracy import reference
 from springblock.accuracy.conventions import HORIZON_NUDGE
-from springblock.accuracy.specimens import Surface, drawn
 from springblock.accuracy.work_precision import horizon
-from springblock.model.defaults import SAMPLE_INTERVAL
 
 PUBLISHED, COARSE = 1e-11, 1e-10  #: relative tolerances of the event-located solution
 STEPS = (1e-9, 5e-10)  #: of the leapfrog that checks it, s
@@ -29,10 +27,10 @@ TWINS = 5  #: runs with nudged thresholds
 
 def write_surface(problem: Problem) -> None:
     """Write contact and coefficients with all their digits."""
-    contact, *coefficients = drawn(problem.pattern, problem.seed)
+    coefficients = draw_friction(problem.pattern.n_blocks, problem.seed)
     rows = (
         (f"{y}", f"{x}", f"{touches:d}", *(f"{mu[y, x]:.17g}" for mu in coefficients))
-        for (y, x), touches in np.ndenumerate(contact)
+        for (y, x), touches in np.ndenumerate(problem.pattern.contact)
     )
     write_table(problem.folder / "surface.csv", SURFACE, rows)
 
@@ -50,9 +48,7 @@ def write_reference(problem: Problem) -> None:
 
 
 def _located(problem: Problem, surface: Surface, accuracy: float) -> Answer:
-    run = reference.solve(
-        *surface, duration=problem.duration, sample_interval=SAMPLE_INTERVAL, accuracy=accuracy
-    )
+    run = reference.solve(surface, duration=problem.duration, accuracy=accuracy)
     return Answer(problem, run.t_det, run.force)
 
 
@@ -63,7 +59,7 @@ def _write_answer(surface: Surface, published: Answer, checks: list[Answer]) -> 
     force_by = np.max([np.abs(check.force - force) for check in checks], axis=0)
     blocks = [
         (f"{y}", f"{x}", f"{t_det[y, x]:.12g}", f"{t_det_by[y, x]:.2e}")
-        for y, x in np.argwhere(surface[0])
+        for y, x in np.argwhere(surface.contact)
     ]
     curve = [
         (f"{time:.10g}", f"{value:.12g}", f"{by:.2e}")
@@ -81,10 +77,9 @@ def _write_answer(surface: Surface, published: Answer, checks: list[Answer]) -> 
 
 def _horizon(problem: Problem, surface: Surface) -> float:
     """Time in s at which runs with thresholds nudged by a little part; the end where none does."""
-    contact, mu_static, mu_dynamic = surface
+    contact, setup = surface.contact, Setup(step=STEPS[0])
     rng = np.random.default_rng(problem.seed)
-    one, *others = (
-        simulate(contact, mu_static * change, mu_dynamic, step=STEPS[0], duration=problem.duration)
-        for change in (1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape))))
-    )
+    changes = 1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape)))
+    nudged = (Surface(contact, surface.mu_static * each, surface.mu_dynamic) for each in changes)
+    one, *others = (simulate(each, setup, duration=problem.duration) for each in nudged)
     return min(horizon(one, other) for other in others)

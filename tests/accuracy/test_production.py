@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis.test_correlation import times
-from springblock import Pattern, draw_friction, simulate
+from springblock import Pattern, Setup, Surface, simulate
 from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import DELAY, LENGTH, SCENES
 from springblock.accuracy.production import SCHEMA, STEPS, of_length, of_mean, production_rows
@@ -56,9 +56,8 @@ def test_rows_are_those_of_the_table_without_a_bias_at_the_finest_step(rows):
 
 def test_rows_hold_what_simulate_yields(rows):
     pattern = Pattern.pillars(12, 9, 3)
-    runs = [
-        simulate(pattern.contact, *draw_friction(12, s), sample_interval=1.6e-7) for s in range(4)
-    ]
+    setup = Setup(sample_interval=1.6e-7)
+    runs = [simulate(Surface.draw(pattern.contact, seed), setup) for seed in range(4)]
     found = {row["quantity"]: row for row in rows if row["step"] == STEP}
     assert found["t_max"]["value"] == pytest.approx(np.mean([run.t_max for run in runs]))
     delays = [run.t_max - run.t_avg for run in runs]

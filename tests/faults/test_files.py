@@ -17,6 +17,7 @@ from faults.damages import (
     with_constant,
 )
 from springblock import simulate, write_fields
+from springblock.accuracy.specimens import uniform
 from springblock.files import read_sealed
 from springblock.model.blockmap import BlockMap
 from springblock.provenance import code_version
@@ -72,7 +73,7 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
 
 
 def test_fields_of_other_code_and_files_cut_short_are_set_aside(tmp_path):
-    fields = simulate(np.ones((2, 2), bool), 1.0, 0.6, duration=1e-6, snapshot_times=[1e-6]).fields
+    fields = simulate(uniform(2, 1.0, 0.6), duration=1e-6, snapshot_times=[1e-6]).fields
     names = ("current", "older", "short")
     files = {name: tmp_path / f"fields/{name}.nc" for name in names}
     for name, file in files.items():

@@ -7,7 +7,7 @@ import pytest
 import xarray
 from scipy.io import netcdf_file
 
-from springblock import Material, Pattern, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, simulate
 from springblock.io.fields import read_fields, write_fields
 
 SURFACE = Pattern.flat(8, 4).pillared(2, 2)
@@ -21,8 +21,8 @@ UNITS |= {"time": "s", "x": "m", "y": "m", "slip": "m", "state": "1"}
 def fields():
     """Fields of a surface of 4 rows and 8 columns, some of whose blocks slide at the end."""
     fast = Material(slider_velocity=3e-1)
-    pulled = SURFACE.contact, *draw_friction(SURFACE.contact.shape, seed=1)
-    return simulate(*pulled, fast, snapshot_times=TIMES, duration=3e-6).fields
+    pulled = Surface.draw(SURFACE.contact, seed=1)
+    return simulate(pulled, Setup(fast), snapshot_times=TIMES, duration=3e-6).fields
 
 
 @pytest.fixture
@@ -90,7 +90,7 @@ def test_so_is_one_of_other_variables(tmp_path):
 
 
 def test_nothing_is_left_where_there_is_nothing_to_write_or_no_room(fields, tmp_path, monkeypatch):
-    without = simulate(SURFACE.contact, 1.0, 0.6, duration=1e-6).fields
+    without = simulate(Surface(SURFACE.contact, 1.0, 0.6), duration=1e-6).fields
     with pytest.raises(ValueError, match="no fields to write: the run was given no snapshot_times"):
         write_fields(without, tmp_path / "run.nc")
     with pytest.raises(ValueError, match=r"to a file of type .nc, not to .*run.h5"):

@@ -7,7 +7,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock import draw_friction, read, simulate
+from springblock import Surface, read, simulate
 from springblock.io.parquet import write
 from springblock.model.scene import Scene
 
@@ -23,8 +23,8 @@ def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_pa
     read_back = read(str(path))
     assert [run.seed for run in read_back] == [3, 4]
     for run in read_back:
-        drawn = draw_friction(6, run.seed)
-        told = simulate(SCENE.contact, *drawn, duration=duration, snapshot_times=TIMES)
+        surface = Surface.draw(SCENE.contact, run.seed)
+        told = simulate(surface, duration=duration, snapshot_times=TIMES)
         assert run.scene == SCENE
         for name in ("force", "detachments", "switches", "t_det", "contact"):
             np.testing.assert_array_equal(getattr(run, name), getattr(told, name))

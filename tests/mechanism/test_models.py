@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, simulate
 from springblock.mechanism.elasticity import Layer, lattice_stiffness
 from springblock.mechanism.models import (
     independent,
@@ -91,9 +91,10 @@ def test_without_inertia_the_simulation_redistributes_quasi_statically():
     """Strong damping and a slow slider leave the simulation no inertia."""
     slow = Material(gamma=2e8, slider_velocity=5e-5)
     contact = Pattern.pillars(16, 4, 4).contact
-    coefficients = draw_friction(16, seed=1, material=slow)
+    surface = Surface.draw(contact, seed=1, material=slow)
     load = slow.block_load * contact.size / contact.sum()
+    coefficients = surface.mu_static, surface.mu_dynamic
     curve = quasi_static(Layer(contact, slow), *(load * mu[contact] for mu in coefficients))
-    run = simulate(contact, *coefficients, material=slow, step=2e-8)
+    run = simulate(surface, Setup(slow))
     expected = curve.force.max() / (slow.block_load * contact.size)
     assert run.static_friction == pytest.approx(expected, rel=3e-3)

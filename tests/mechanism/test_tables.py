@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, simulate
 from springblock.io.rows import select
 from springblock.mechanism import tables
 from springblock.mechanism.surfaces import TABLES
@@ -38,7 +38,8 @@ def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):
     monkeypatch.setattr(tables, "SEEDS_OF_GROOVES", 1)
     rows = list(tables.budget_rows(pulled))
     found = {model: select(rows, model=model) for model in ("simulation", "overshooting")}
-    run = simulate(pulled.contact, *draw_friction(24, 0, MATERIAL), MATERIAL, "y", duration=600e-6)
+    surface = Surface.draw(pulled.contact, 0, MATERIAL)
+    run = simulate(surface, Setup(MATERIAL), "y", duration=600e-6)
     for row in found["simulation"]:
         whole = row["edge"] + row["core"] + row["free"]
         at_time = np.interp(row["time"], run.time, run.force) / run.normal_force

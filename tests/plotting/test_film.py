@@ -8,7 +8,8 @@ from imageio_ffmpeg import count_frames_and_secs
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from springblock import Pattern, Realisation, animate, draw_friction, simulate
+from springblock import Pattern, Realisation, Surface, animate, simulate
+from springblock.accuracy.specimens import drawn
 from springblock.plotting import film
 from springblock.plotting.maps import painted
 from springblock.plotting.style import VERMILION
@@ -19,7 +20,7 @@ KEPT = 1.5e-4  #: s, of the snapshot
 
 @pytest.fixture(scope="module")
 def run() -> Realisation:
-    return simulate(PILLARS.contact, *draw_friction(12, 1), duration=2e-4, snapshot_times=[KEPT])
+    return simulate(drawn(PILLARS, 1), duration=2e-4, snapshot_times=[KEPT])
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def test_a_film_begins_before_the_first_detachment_and_ends_after_the_last(run):
 
 
 def test_where_nothing_detaches_the_whole_run_is_shown():
-    times = film.moments(simulate(PILLARS.contact, 1.0, 0.6, duration=1e-5))
+    times = film.moments(simulate(Surface(PILLARS.contact, 1.0, 0.6), duration=1e-5))
     assert (times[0], times[-1]) == (0.0, pytest.approx(1e-5))
 
 

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.patches import FancyArrowPatch
 
-from springblock import Pattern, Realisation, draw_friction, plot, simulate
+from springblock import Pattern, Realisation, Surface, plot, simulate
 from springblock.plotting.maps import painted, scale
 from springblock.plotting.still import plot_fields, show
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT
@@ -27,8 +27,8 @@ SURFACES = {
 @cache
 def made() -> Realisation:
     """A run that ends when some blocks have detached and some have not, with two snapshots."""
-    scene = PILLARS.contact, *draw_friction(12, 1)
-    return simulate(*scene, duration=1.6e-4, snapshot_times=(1e-4, 1.5e-4))
+    surface = Surface.draw(PILLARS.contact, 1)
+    return simulate(surface, duration=1.6e-4, snapshot_times=(1e-4, 1.5e-4))
 
 
 @cache
@@ -44,9 +44,8 @@ run = pytest.fixture(made, scope="module")
 @cache
 def kept(count: int) -> Fields:
     """Fields of the first so many of five times."""
-    scene = PILLARS.contact, *draw_friction(12, 1)
-    times = 1e-5 * np.arange(11, 16)
-    return simulate(*scene, duration=1.6e-4, snapshot_times=times[:count]).fields
+    surface, times = Surface.draw(PILLARS.contact, 1), 1e-5 * np.arange(11, 16)
+    return simulate(surface, duration=1.6e-4, snapshot_times=times[:count]).fields
 
 
 #: Drawn for `test_every_figure.py`.
@@ -95,7 +94,7 @@ def test_a_run_is_drawn_with_all_that_it_holds(made):
 
 
 def test_a_run_in_which_nothing_detaches_has_no_times_to_be_drawn():
-    run = simulate(PILLARS.contact, 1.0, 0.6, duration=1e-5)
+    run = simulate(Surface(PILLARS.contact, 1.0, 0.6), duration=1e-5)
     force, times = plot(run).axes
     assert len(force.get_lines()) == 1  # no t_max, which is merely the end
     words = [text.get_text() for text in times.get_legend().get_texts()]

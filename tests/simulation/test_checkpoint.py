@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Realisation, compute_prelude, simulate
+from springblock import Material, Pattern, Realisation, Setup, compute_prelude, simulate
 from springblock.accuracy.specimens import drawn
 from springblock.simulation.checkpoint import Checkpoint
 
@@ -45,9 +45,9 @@ def stopped(saved, tmp_path):
     return left_behind
 
 
-def pull(seed=1, pattern=PILLARS, **options) -> Realisation:
+def pull(seed=1, pattern=PILLARS, setup=Setup(), **options) -> Realisation:  # noqa: B008
     how = {"duration": LONG, "checkpoint_interval": EACH_PAUSE} | options
-    return simulate(*drawn(pattern, seed), **how)
+    return simulate(drawn(pattern, seed), setup, **how)
 
 
 def answer(run):
@@ -67,8 +67,8 @@ def answer(run):
     ids=["leapfrog", "rk4", "law from a file"],
 )
 def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator, material):
-    how = {"integrator": integrator, "snapshot_times": (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)}
-    how["material"] = material
+    setup, times = Setup(material, integrator), (4e-6, 1.2e-4, 1.41e-4, 1.5e-4)
+    how = {"setup": setup, "snapshot_times": times}
     whole = pull(**how)
     assert whole.t_first < 1.4e-4  # there are detachments before it is stopped and after
     assert np.nanmax(whole.t_det) > 1.4e-4
@@ -94,7 +94,7 @@ def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):
         ({"seed": 2}, "friction coefficients"),
         ({"pattern": Pattern.pillars(12, 2, 1)}, "scene or setup, friction coefficients"),
         ({"direction": "y"}, "scene or setup"),
-        ({"step": 1e-8}, "scene or setup"),
+        ({"setup": Setup(step=1e-8)}, "scene or setup"),
         ({"duration": 2e-4}, "duration"),
         ({"snapshot_times": (2e-6,)}, "snapshot_times"),
     ],

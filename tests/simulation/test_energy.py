@@ -1,10 +1,12 @@
 """The energy ledger: conservation of energy, term by term."""
 
+from dataclasses import replace
+
 import mpmath
 import numpy as np
 import pytest
 
-from springblock import Material, simulate
+from springblock import Material, Setup, Surface, simulate
 from springblock.accuracy.specimens import uniform
 from springblock.simulation.energy import elastic_energy
 
@@ -16,7 +18,7 @@ def nailed(n):
     """One contact block in a corner, which never detaches, so that all motion is smooth."""
     contact = np.zeros((n, n), bool)
     contact[0, 0] = True
-    return contact, np.full((n, n), 1e9), np.zeros((n, n))
+    return Surface(contact, mu_static=1e9, mu_dynamic=0.0)
 
 
 def exact_energy(u, slider):
@@ -54,9 +56,9 @@ def test_elastic_energy_keeps_its_digits_at_any_strain(strain, rng):
 @pytest.mark.parametrize("gamma", [0.0, 5e5])
 def test_without_friction_the_ledger_closes_to_second_order(integrator, gamma):
     """The slider's work is summed by the trapezoidal rule: halving h quarters the residual."""
-    material = Material(gamma=gamma)
-    how = {"integrator": integrator, "duration": 8e-6, "sample_interval": 4e-8}
-    runs = [simulate(*nailed(6), material, step=step, **how) for step in (2e-8, 1e-8, 5e-9)]
+    setup = Setup(Material(gamma=gamma), integrator, sample_interval=4e-8)
+    setups = [replace(setup, step=step) for step in (2e-8, 1e-8, 5e-9)]
+    runs = [simulate(nailed(6), each, duration=8e-6) for each in setups]
     residuals = [run.energy.relative_residual for run in runs]
     assert abs(residuals[0]) < (PAPER.omega_max * 2e-8) ** 2
     ratios = np.divide(residuals[:-1], residuals[1:])
@@ -70,7 +72,7 @@ def test_during_sliding_the_ledger_closes_to_second_order(integrator):
     The frictional heat includes the last half step, without which the order would be one.
     """
     coarse, fine = (
-        simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.336e-4)
+        simulate(uniform(1, 1.0, 0.6), Setup(PAPER, integrator, step), duration=1.336e-4)
         for step in (2e-8, 5e-9)
     )
     assert np.hypot(*fine.velocity[:, 0, 0]) > 0.1
@@ -82,7 +84,7 @@ def test_during_sliding_the_ledger_closes_to_second_order(integrator):
 def test_friction_turns_force_times_path_into_heat(integrator):
     """One block that slides and stops: mu_d F_n times its path, to second order in omega h."""
     step = 5e-9
-    run = simulate(*uniform(1, 1.0, 0.6), integrator=integrator, step=step, duration=1.35e-4)
+    run = simulate(uniform(1, 1.0, 0.6), Setup(PAPER, integrator, step), duration=1.35e-4)
     path = run.displacement[0, 0, 0]
     assert run.velocity[0, 0, 0] == 0.0
     assert path > 0.0
@@ -97,7 +99,7 @@ def test_damping_turns_a_slow_drift_into_heat():
     tau = gamma/omega², and gamma m ∫v² dt = gamma m v² (t - 3/2 tau), to order (omega/gamma)².
     """
     syrup, time = Material(gamma=1e8), 1e-4
-    run = simulate(*uniform(1, 0.0, 0.0), material=syrup, duration=time)
+    run = simulate(uniform(1, 0.0, 0.0), Setup(syrup), duration=time)
     tau = syrup.gamma / syrup.omega_min**2
     heat = syrup.gamma * syrup.mass * syrup.slider_velocity**2 * (time - 1.5 * tau)
     assert run.energy.viscous == pytest.approx(
@@ -108,7 +110,7 @@ def test_damping_turns_a_slow_drift_into_heat():
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_surface_at_rest_stores_all_work_in_its_springs(integrator):
     """W = K_s (v t)²/2 per block."""
-    run = simulate(*uniform(4, 1.0, 0.6), integrator=integrator, duration=1e-4)
+    run = simulate(uniform(4, 1.0, 0.6), Setup(PAPER, integrator), duration=1e-4)
     work = 16 * 0.5 * PAPER.k_s * (PAPER.slider_velocity * 1e-4) ** 2
     assert run.energy.work_in == pytest.approx(work, rel=1e-12, abs=0)
     assert run.energy.elastic == pytest.approx(work, rel=1e-12, abs=0)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, draw_friction, simulate
 from springblock.simulation.fields import BlockState
 
 PAPER = Material()
-ONE = Pattern.flat(1).contact
+ONE = Surface([[True]], mu_static=1.0, mu_dynamic=0.6)
 LOADING = 400e-6 / 3  #: s, mu_s F_n/(K_s v) with mu_s = 1
 STEP = 2e-8
 #: s, three times while the block slides, which it does for half of 2π/√(K_s/m) = 0.8 µs.
@@ -24,7 +24,7 @@ def threshold(material=PAPER, mu=1.0):
 def test_a_block_bears_what_the_slider_pulls_until_it_slides(integrator):
     """To rounding: at rest τ l² = K_s v t, which is what F_mot is without neighbours."""
     times = np.array([2e-5, 1e-4, LOADING // 2e-7 * 2e-7])
-    run = simulate(ONE, 1.0, 0.6, integrator=integrator, duration=2e-4, snapshot_times=times)
+    run = simulate(ONE, Setup(PAPER, integrator), duration=2e-4, snapshot_times=times)
     pull = PAPER.k_s * PAPER.slider_velocity * times / PAPER.spacing**2
     np.testing.assert_allclose(run.fields.stress[:, 0, 0, 0], pull, rtol=1e-12)
     assert not run.fields.stress[:, 1].any()
@@ -59,10 +59,8 @@ def test_a_block_bears_what_the_slider_pulls_until_it_slides(integrator):
 )
 def test_a_block_that_slides_bears_the_friction_of_its_law(integrator, law, mu, distance):
     """To rounding; where friction weakens over a distance of slip, to the slip of half a step."""
-    material = Material(**law)
-    how = {"integrator": integrator, "duration": 1.4e-4, "sample_interval": SAMPLE}
-    how |= {"snapshot_times": SLIDING, "direction": "y"}
-    fields = simulate(ONE, 1.0, 0.6, material, **how).fields
+    setup = Setup(Material(**law), integrator, sample_interval=SAMPLE)
+    fields = simulate(ONE, setup, "y", duration=1.4e-4, snapshot_times=SLIDING).fields
     assert (fields.state == BlockState.SLIDING).all()
     slip, speed = fields.displacement[:, 1, 0, 0], fields.velocity[:, 1, 0, 0]
     assert (np.diff(slip) > 0.0).all()
@@ -79,13 +77,15 @@ def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodi
 
     Runge-Kutta finds a block to have let go one step later, when neighbours have added to F_mot.
     """
-    surface = Pattern.pillars(24, 4, 4).contact
+    contact = Pattern.pillars(24, 4, 4).contact
     mu_static, mu_dynamic = draw_friction(24, seed=1)
-    how = {"integrator": integrator, "periodic": periodic, "direction": 30}
-    fast = Material(slider_velocity=5e-2)
-    how |= {"duration": 1e-5, "snapshot_times": 2e-7 * np.arange(12, 16)}
-    fields = simulate(surface, mu_static, mu_dynamic, fast, **how).fields
-    load = threshold(fast) * surface.size / np.count_nonzero(surface)
+    surface, fast = (
+        Surface(contact, mu_static, mu_dynamic, periodic),
+        Material(slider_velocity=5e-2),
+    )
+    how = {"duration": 1e-5, "snapshot_times": 2e-7 * np.arange(12, 16)}
+    fields = simulate(surface, Setup(fast, integrator), direction=30, **how).fields
+    load = threshold(fast) * contact.size / np.count_nonzero(contact)
     stuck, sliding = (fields.state == each for each in (BlockState.STUCK, BlockState.SLIDING))
     assert min(np.count_nonzero(stuck), np.count_nonzero(sliding)) > 50
     strength = load * np.maximum(mu_static, mu_dynamic)
@@ -97,17 +97,16 @@ def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodi
     way = velocity[sliding] / np.linalg.norm(velocity[sliding], axis=-1, keepdims=True)
     friction = (load * np.broadcast_to(mu_dynamic, sliding.shape))[sliding]
     np.testing.assert_allclose(stress[sliding], friction[:, None] * way, rtol=1e-12)
-    assert not fields.stress[..., ~surface].any()
-    assert np.isnan(fields.slip[:, ~surface]).all()
-    assert (fields.state[:, ~surface] == BlockState.FREE).all()
+    assert not fields.stress[..., ~contact].any()
+    assert np.isnan(fields.slip[:, ~contact]).all()
+    assert (fields.state[:, ~contact] == BlockState.FREE).all()
 
 
 def test_what_the_slider_pulls_with_goes_into_stress_damping_and_inertia():
     """ΣF_s = Σ τ l² + m Σ (dv/dt + γ v); central differences are off by (ω h)²/6 of dv/dt."""
-    surface = Pattern.pillars(12, 4, 2).contact
-    how = {"sample_interval": STEP, "duration": 3e-5}
+    surface = Surface.draw(Pattern.pillars(12, 4, 2).contact, seed=0)
     times = 2e-5 + STEP * np.arange(-1, 2)
-    run = simulate(surface, *draw_friction(12, seed=0), snapshot_times=times, **how)
+    run = simulate(surface, Setup(sample_interval=STEP), duration=3e-5, snapshot_times=times)
     pull = run.force[round(2e-5 / STEP)]
     before, now, after = run.fields.velocity[:, 0].sum(axis=(1, 2))
     acceleration = (after - before) / (2.0 * STEP)

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Prelude, compute_prelude, draw_friction, simulate
+from springblock import (
+    Material,
+    Pattern,
+    Prelude,
+    Setup,
+    Surface,
+    compute_prelude,
+    simulate,
+)
 from springblock.accuracy.specimens import drawn
 from springblock.simulation.prelude import HOLDING
 from springblock.simulation.setup import STEP
@@ -24,9 +32,9 @@ def answer(run):
     return [field.tobytes() for field in fields], run.energy, run.steps
 
 
-def skipped(prelude, *scene):
+def skipped(prelude, surface):
     """Sample intervals that a run skips."""
-    state, constants = prepare(*scene, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
+    state, constants = prepare(surface, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
     return prelude.start(state, constants, latest=np.inf)[0]
 
 
@@ -47,39 +55,37 @@ def test_a_run_from_the_prelude_is_the_run_from_zero(surface, direction, integra
         "grooves": Pattern.pillars(14, 8, 6).grooved(2, 1).contact,
         "random": np.random.default_rng(5).random((9, 9)) < 0.7,
     }[surface]
-    how = {"direction": direction, "integrator": integrator}
-    scene = contact, *draw_friction(len(contact), seed=1)
-    prelude = compute_prelude(contact, **how)
+    how, scene = (Setup(integrator=integrator), direction), Surface.draw(contact, seed=1)
+    prelude = compute_prelude(contact, *how)
     assert prelude.samples.max() > 0
-    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+    assert answer(simulate(scene, *how, prelude=prelude)) == answer(simulate(scene, *how))
 
 
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 def test_it_is_for_a_surface_of_several_bands(integrator):
     surface = Pattern.pillars(48, 10, 14)
     assert Grid.of(surface.contact.shape).band_rows < surface.n_blocks
-    how = {"integrator": integrator, "material": Material(slider_velocity=5e-3)}  # soon over
-    scene, prelude = drawn(surface, seed=1), compute_prelude(surface.contact, **how)
+    setup = Setup(Material(slider_velocity=5e-3), integrator)  # soon over
+    scene, prelude = drawn(surface, seed=1), compute_prelude(surface.contact, setup)
     assert prelude.samples.max() > 0
-    assert answer(simulate(*scene, **how, prelude=prelude)) == answer(simulate(*scene, **how))
+    assert answer(simulate(scene, setup, prelude=prelude)) == answer(simulate(scene, setup))
 
 
 def test_a_weak_block_makes_a_run_start_from_an_earlier_state(prelude):
-    contact, mu_static, mu_dynamic = drawn(PILLARS, seed=1)
-    mu_static[2, 2], mu_dynamic[2, 2] = 0.1, 0.05
-    scene = contact, mu_static, mu_dynamic
-    assert answer(simulate(*scene, prelude=prelude)) == answer(simulate(*scene))
+    scene = drawn(PILLARS, seed=1)
+    scene.mu_static[2, 2], scene.mu_dynamic[2, 2] = 0.1, 0.05
+    assert answer(simulate(scene, prelude=prelude)) == answer(simulate(scene))
 
 
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 @pytest.mark.parametrize("times", [[4e-6, 1e-4], [1.3e-4, 1.5e-4]])
 def test_fields_are_those_of_the_run_from_zero(integrator, times):
     """A run starts before its first snapshot."""
-    prelude = compute_prelude(PILLARS.contact, integrator=integrator)
-    scene = drawn(PILLARS, seed=1)
-    how = {"integrator": integrator, "duration": 1.6e-4, "snapshot_times": times}
-    assert skipped(prelude, *scene) * 2e-7 > 6e-5
-    skipping, plain = simulate(*scene, **how, prelude=prelude), simulate(*scene, **how)
+    setup, scene = Setup(integrator=integrator), drawn(PILLARS, seed=1)
+    prelude = compute_prelude(PILLARS.contact, setup)
+    how = {"setup": setup, "duration": 1.6e-4, "snapshot_times": times}
+    assert skipped(prelude, scene) * 2e-7 > 6e-5
+    skipping, plain = simulate(scene, **how, prelude=prelude), simulate(scene, **how)
     assert plain.fields.slip[1, PILLARS.contact].any() == (times[1] > 1e-4)
     for name in ("displacement", "velocity", "stress"):
         assert getattr(skipping.fields, name).tobytes() == getattr(plain.fields, name).tobytes()
@@ -88,7 +94,7 @@ def test_fields_are_those_of_the_run_from_zero(integrator, times):
 def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
     contact = Pattern.pillars(24, 4, 2).contact
     fast = Material(slider_velocity=5e-3)  # soon over
-    prelude = compute_prelude(contact, fast, sample_interval=2e-8)
+    prelude = compute_prelude(contact, Setup(fast, sample_interval=2e-8))
     assert len(prelude.samples) == len(HOLDING) == 6
     assert (np.diff(prelude.samples) > 0).all()
     bound = np.count_nonzero(contact)
@@ -108,17 +114,17 @@ def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
     [
         {"pattern": Pattern.flat(12)},
         {"direction": "y"},
-        {"integrator": "rk4"},
-        {"step": 1e-8},
-        {"sample_interval": 4e-7},
-        {"material": Material(gamma=0.0)},
+        {"setup": Setup(integrator="rk4")},
+        {"setup": Setup(step=1e-8)},
+        {"setup": Setup(sample_interval=4e-7)},
+        {"setup": Setup(Material(gamma=0.0))},
     ],
 )
 def test_a_prelude_of_another_scene_is_refused(prelude, change):
     scene = {"pattern": PILLARS, **change}
     surface = drawn(scene.pop("pattern"), seed=1)
     with pytest.raises(ValueError, match="prelude belongs to another scene"):
-        simulate(*surface, prelude=prelude, **scene)
+        simulate(surface, prelude=prelude, **scene)
 
 
 @pytest.mark.parametrize(
@@ -129,7 +135,7 @@ def test_a_prelude_of_another_scene_is_refused(prelude, change):
     ],
 )
 def test_a_prelude_ends_with_few_blocks_or_a_broken_spring(pattern, material):
-    prelude = compute_prelude(pattern.contact, material)
+    prelude = compute_prelude(pattern.contact, Setup(material))
     assert len(prelude.samples) == len(prelude.fields) == len(prelude.peak) >= 1
 
 
@@ -137,18 +143,18 @@ def test_a_prelude_ends_with_few_blocks_or_a_broken_spring(pattern, material):
 def test_each_state_is_valid_for_its_share_of_seeds(kind, length):
     """With correlated thresholds a state is valid for more seeds than its share."""
     material = Material(mu_static_std=0.25, distribution=kind, correlation_length=length)
-    how = {"material": material, "sample_interval": 4e-8}  # often looked at
-    seeds, prelude = 200, compute_prelude(PILLARS.contact, **how)
-    surfaces = [(PILLARS.contact, *draw_friction(12, seed, material)) for seed in range(seeds)]
-    start = np.array([skipped(prelude, *surface) for surface in surfaces])
+    setup, seeds = Setup(material, sample_interval=4e-8), 200  # often looked at
+    prelude = compute_prelude(PILLARS.contact, setup)
+    surfaces = [drawn(PILLARS, seed, material) for seed in range(seeds)]
+    start = np.array([skipped(prelude, surface) for surface in surfaces])
     for samples, share in zip(prelude.samples, HOLDING, strict=True):
         assert np.mean(start >= samples) > share - 4.0 * np.sqrt(share * (1.0 - share) / seeds)
 
 
 def test_known_thresholds_leave_only_the_last_valid_state():
     known = drawn(PILLARS, seed=3)
-    prelude = compute_prelude(PILLARS.contact, mu_static=known[1])
+    prelude = compute_prelude(PILLARS.contact, mu_static=known.mu_static)
     assert len(prelude.samples) == 1
-    plain = simulate(*known)
+    plain = simulate(known)
     assert 0.8 * plain.t_first < prelude.samples[0] * 2e-7 < plain.t_first
-    assert answer(simulate(*known, prelude=prelude)) == answer(plain)
+    assert answer(simulate(known, prelude=prelude)) == answer(plain)

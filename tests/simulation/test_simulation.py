@@ -1,12 +1,12 @@
 """`simulate`: its arguments, its errors and its results."""
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Realisation, SimulationError, simulate
+from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
 from springblock.simulation.checks import snapshot_samples
@@ -22,7 +22,7 @@ STABLE = {"leapfrog": 2.0 / PAPER.omega_max, "rk4": math.sqrt(8.0) / PAPER.omega
 @pytest.fixture(scope="module")
 def run():
     """A run without duration on a patterned surface."""
-    return simulate(*drawn(PILLARS, seed=1))
+    return simulate(drawn(PILLARS, seed=1))
 
 
 def same(a: Realisation, b: Realisation, samples=None):
@@ -72,7 +72,7 @@ def test_means_and_extremes_follow_from_the_fields(run):
 
 
 def test_a_run_in_which_nothing_detaches_has_no_detachment_times():
-    run = simulate(*uniform(2, 1.0, 0.6), duration=1e-5)
+    run = simulate(uniform(2, 1.0, 0.6), duration=1e-5)
     assert np.isnan([*run.t_det.flat, run.t_avg, run.t_first]).all()
     assert not run.detachments.any()
     assert run.t_max == run.time[-1] == pytest.approx(1e-5, rel=1e-14, abs=0)
@@ -81,11 +81,11 @@ def test_a_run_in_which_nothing_detaches_has_no_detachment_times():
 def test_a_snapshot_is_the_end_of_a_shorter_run():
     scene = drawn(PILLARS, seed=1)
     times = (4e-6, 1.5e-4, 1.8e-4)
-    long = simulate(*scene, duration=2e-4, snapshot_times=times)
+    long = simulate(scene, duration=2e-4, snapshot_times=times)
     assert long.snapshots.shape == (3, 2, N, N)
-    assert same(long, simulate(*scene, duration=2e-4))
+    assert same(long, simulate(scene, duration=2e-4))
     for time, u, v in zip(times, long.snapshots, long.fields.velocity, strict=True):
-        short = simulate(*scene, duration=time)
+        short = simulate(scene, duration=time)
         assert short.displacement.tobytes() == u.tobytes()
         assert short.velocity.tobytes() == v.tobytes()
         assert same(long, short, samples=len(short.time))
@@ -93,16 +93,16 @@ def test_a_snapshot_is_the_end_of_a_shorter_run():
 
 def test_coefficients_and_masks_may_have_any_numeric_type():
     """Outside the contact coefficients are ignored."""
-    contact, mu_static, _ = drawn(PILLARS, seed=1)
+    contact, mu_static = PILLARS.contact, drawn(PILLARS, seed=1).mu_static
     mu_dynamic = np.full((N, N), 0.6)
-    fields = simulate(contact, mu_static, mu_dynamic, duration=1.5e-4)
+    plain = simulate(Surface(contact, mu_static, mu_dynamic), duration=1.5e-4)
     for mask, static, dynamic in (
         (contact.tolist(), mu_static.tolist(), np.where(contact, 0.6, np.nan)),
         (contact.astype(np.uint8), mu_static, 0.6),
         (contact, mu_static.astype(np.longdouble), mu_dynamic.astype(np.longdouble)),
     ):
-        numbers = simulate(mask, static, dynamic, duration=1.5e-4)
-        assert same(fields, numbers)
+        numbers = simulate(Surface(mask, static, dynamic), duration=1.5e-4)
+        assert same(plain, numbers)
         assert (numbers.contact == contact).all()
 
 
@@ -112,14 +112,14 @@ def test_coefficients_and_masks_may_have_any_numeric_type():
 def test_a_run_ends_after_the_last_detachment_and_the_first_minimum(run):
     assert first_minimum(run.force) is not None
     assert run.time[-1] > np.nanmax(run.t_det)
-    before = simulate(*drawn(PILLARS, seed=1), duration=run.time[-1 - PAUSE])
+    before = simulate(drawn(PILLARS, seed=1), duration=run.time[-1 - PAUSE])
     assert np.isnan(before.t_det[PILLARS.contact]).any() or first_minimum(before.force) is None
     assert same(run, before, samples=len(before.time))
 
 
 def test_a_run_with_small_oscillations_ends_after_the_first():
     """mu_d = mu_s: without a stress drop, blocks oscillate by K_s v/omega about mu_d F_n."""
-    run = simulate(*uniform(2, 0.6, 0.6))
+    run = simulate(uniform(2, 0.6, 0.6))
     ripple = PAPER.k_s * PAPER.slider_velocity / PAPER.omega_min / PAPER.block_load
     assert run.static_friction == pytest.approx(0.6 + ripple, abs=ripple)
     assert run.dynamic_friction == pytest.approx(0.6, abs=ripple)
@@ -130,7 +130,7 @@ def test_a_run_with_small_oscillations_ends_after_the_first():
 def test_a_run_whose_force_never_drops_lasts_half_as_long_again():
     """Overdamped, gamma > 2 omega: the force tends to mu_d F_n + gamma m v from below."""
     thick = Material(gamma=1e8)
-    run = simulate(*uniform(2, 0.6, 0.6), material=thick)
+    run = simulate(uniform(2, 0.6, 0.6), Setup(thick))
     assert first_minimum(run.force) is None
     rounding = 1e-12 * run.t_first  # the last time is a multiple of the step, too
     assert 1.5 * run.t_first - rounding < run.time[-1] <= 1.5 * run.t_first + (PAUSE + 1) * 2e-7
@@ -175,6 +175,8 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"mu_static": math.nan}, "mu_static must be finite and not negative"),
         ({"mu_dynamic": array(1j, complex)}, "mu_dynamic must be an array of real numbers"),
         ({"mu_dynamic": array(-0.1)}, "mu_dynamic must be finite and not negative"),
+        ({"surface": array(True, bool)}, "surface must be a Surface, not array"),
+        ({"setup": PAPER}, "setup must be a Setup, not Material"),
         ({"material": {"pressure": 5e4}}, "material must be a Material"),
         ({"integrator": "euler"}, "integrator must be one of leapfrog, rk4, not 'euler'"),
         ({"direction": "z"}, "direction must be 'x', 'y' or an angle"),
@@ -213,9 +215,11 @@ def test_so_are_more_snapshots_than_memory_holds():
 
 def pull(**changes):
     """Two by two blocks, pulled for ten intervals."""
-    contact, mu_static, mu_dynamic = uniform(2, 1.0, 0.6)
-    scene = {"contact": contact, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
-    return simulate(**{**scene, "duration": 2e-6, **changes})
+    blocks = {"contact": array(True, bool), "mu_static": 1.0, "mu_dynamic": 0.6, "periodic": False}
+    surface = Surface(**{name: changes.pop(name, value) for name, value in blocks.items()})
+    names = [field.name for field in fields(Setup) if field.name in changes]
+    setup = Setup(**{name: changes.pop(name) for name in names})
+    return simulate(**{"surface": surface, "setup": setup, "duration": 2e-6, **changes})
 
 
 @pytest.mark.parametrize("integrator", STABLE)
@@ -235,9 +239,9 @@ def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
     heavy = Material(pressure=5e7, slider_velocity=0.5)
     scene = flat(4, seed=1)
     with pytest.raises(SimulationError, match=r"at t = .* block \(y, x\) = \(\d, \d\)") as failure:
-        simulate(*scene, material=heavy, integrator=integrator)
+        simulate(scene, Setup(heavy, integrator))
     time = float(str(failure.value).split("t = ")[1].split()[0])
-    first = np.min(scene[1]) * heavy.block_load / (heavy.k_s * heavy.slider_velocity)
+    first = scene.mu_static.min() * heavy.block_load / (heavy.k_s * heavy.slider_velocity)
     assert first < time < 1.1 * first
 
 
@@ -245,12 +249,12 @@ def test_a_spring_that_collapses_ends_the_run_with_time_and_place(integrator):
 def test_a_run_lasts_until_its_last_snapshot_but_does_not_end_before_its_time(run, beyond):
     """The last snapshot is so many sample intervals beyond the end of the run without any."""
     scene, number = drawn(PILLARS, seed=1), len(run.time) - 1 + beyond
-    watched = simulate(*scene, snapshot_times=[1e-4, number * 2e-7])
+    watched = simulate(scene, snapshot_times=[1e-4, number * 2e-7])
     assert watched.snapshot_times == pytest.approx([1e-4, number * 2e-7], rel=1e-14)
     assert same(watched, run, samples=len(run.time))
     intervals = len(watched.time) - 1
     assert intervals == len(run.time) - 1 if beyond < 0 else number <= intervals <= number + PAUSE
-    shorter = simulate(*scene, duration=number * 2e-7)
+    shorter = simulate(scene, duration=number * 2e-7)
     assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
 
 

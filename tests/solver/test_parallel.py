@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, compute_prelude, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, compute_prelude, draw_friction, simulate
 from springblock.solver import leapfrog, parallel
 from springblock.solver.lattice import Samples, prepare
 
@@ -20,11 +20,14 @@ FAST = Material(slider_velocity=0.05)  # lets go, stops and lets go again within
 STEPS, EVERY = 400, 10
 
 
-def start(name, band_rows, **options):
+def start(name, band_rows, periodic=False):
     contact, step = SURFACES[name], 2e-8
     coefficients = (mu[:, : contact.shape[1]] for mu in draw_friction(len(contact), seed=0))
-    heading = np.cos(0.3), np.sin(0.3)
-    state, constants = prepare(contact, *coefficients, FAST, heading, leapfrog, step, **options)
+    surface, heading = (
+        Surface(contact, *coefficients, periodic=periodic),
+        (np.cos(0.3), np.sin(0.3)),
+    )
+    state, constants = prepare(surface, FAST, heading, leapfrog, step)
     return state, constants._replace(band_rows=np.uint64(band_rows))
 
 
@@ -50,8 +53,8 @@ def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
 def test_every_bit_is_as_on_one_core_under_weakening_friction():
     """Each core updates the slip of its own blocks."""
     weakening = replace(FAST, law="slip_weakening", slip_distance=2e-8)
-    surface = SURFACES["pillared"], *draw_friction(30, seed=0)
-    one, other = (simulate(*surface, weakening, duration=6e-6, cores=k) for k in (1, 2))
+    surface = Surface.draw(SURFACES["pillared"], seed=0)
+    one, other = (simulate(surface, Setup(weakening), duration=6e-6, cores=k) for k in (1, 2))
     assert one.switches.sum() > 100
     for name in ("force", "t_det", "switches", "displacement", "velocity"):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
@@ -69,11 +72,11 @@ def test_a_broken_spring_is_found_wherever_it_is(row, cores):
 
 def test_so_are_a_prelude_and_a_realisation_from_it():
     pattern = Pattern.pillars(60, 20, 10)
-    surface = pattern.contact, *draw_friction(60, seed=1)
+    surface = Surface.draw(pattern.contact, seed=1)
     preludes = [compute_prelude(pattern.contact, cores=cores) for cores in (1, 2)]
     np.testing.assert_array_equal(*(prelude.peak for prelude in preludes))
     alone, together = (
-        simulate(*surface, cores=cores, prelude=preludes[0], duration=1.5e-4) for cores in (1, 2)
+        simulate(surface, cores=cores, prelude=preludes[0], duration=1.5e-4) for cores in (1, 2)
     )
     np.testing.assert_array_equal(alone.t_det, together.t_det)
     np.testing.assert_array_equal(alone.force, together.force)
@@ -90,6 +93,6 @@ def test_so_are_a_prelude_and_a_realisation_from_it():
     ],
 )
 def test_cores_that_cannot_be_used_are_refused(cores, integrator, sentence):
-    surface = np.ones((4, 4), bool), np.ones((4, 4)), np.ones((4, 4))
+    surface = Surface(np.ones((4, 4), bool), 1.0, 1.0)
     with pytest.raises((TypeError, ValueError), match=sentence):
-        simulate(*surface, integrator=integrator, cores=cores)
+        simulate(surface, Setup(integrator=integrator), cores=cores)

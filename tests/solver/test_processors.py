@@ -20,7 +20,7 @@ import sys
 import numpy as np
 from springblock import Pattern, simulate
 from springblock.accuracy.specimens import drawn
-run = simulate(*drawn(Pattern.pillars(24, 8, 4), 1))
+run = simulate(drawn(Pattern.pillars(24, 8, 4), 1))
 np.savez(sys.argv[1], force=run.force, t_det=run.t_det, t_max=run.t_max)
 """
 
@@ -31,7 +31,7 @@ def test_any_processor_finds_the_same_run_up_to_its_peak(tmp_path):
     environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
     subprocess.run([sys.executable, "-c", ELSEWHERE, str(file)], env=environment, check=True)
     generic = np.load(file)
-    here = simulate(*drawn(Pattern.pillars(24, 8, 4), 1))
+    here = simulate(drawn(Pattern.pillars(24, 8, 4), 1))
     assert generic["t_max"] == here.t_max
     peak = int(np.argmax(here.force)) + 1
     np.testing.assert_allclose(generic["force"][:peak], here.force[:peak], rtol=TOLERANCE)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from springblock import Material, draw_friction, simulate
+from springblock import Material, Surface, simulate
 from springblock.model.scene import Scene
 from springblock.simulation.setup import Setup
 from springblock.study.cost import cpu_seconds, expected, in_words, memory, minutes
@@ -22,7 +22,7 @@ def test_a_run_takes_until_the_slider_springs_carry_the_whole_threshold():
 
 @pytest.mark.parametrize("scene", [Scene(12), Scene(12, 3, 3), Scene(24, 10, 14, 2, 2)])
 def test_a_run_ends_about_when_its_surface_is_loaded(scene):
-    run = simulate(scene.contact, *draw_friction(scene.shape, seed=0))
+    run = simulate(Surface.draw(scene.contact, seed=0))
     assert 0.2 < run.time[-1] / Setup().loading_time(scene.contact, Material().mu_static) < 1.4
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import simulate
+from springblock import Setup, simulate
 from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
 from springblock.accuracy.stability.one_block import slip
@@ -28,17 +28,17 @@ def release_time(mu):
     return mu * LOAD / RATE
 
 
-def pull(mu_static, mu_dynamic, *, after=0.0, step=1e-8, material=UNDAMPED, **options):
+def pull(mu_static, mu_dynamic, integrator, *, after=0.0, step=1e-8, material=UNDAMPED):
     """Pull one block until so long after its release, sampling every step."""
     duration = release_time(max(mu_static, mu_dynamic)) + after
-    scene = uniform(1, mu_static, mu_dynamic)
-    return simulate(*scene, material, step=step, sample_interval=step, duration=duration, **options)
+    setup = Setup(material, integrator, step, sample_interval=step)
+    return simulate(uniform(1, mu_static, mu_dynamic), setup, duration=duration)
 
 
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("mu_static", [0.31, 1.0, 1.21])
 def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, step, integrator):
-    run = pull(mu_static, 0.2, after=1e-7, step=step, integrator=integrator)
+    run = pull(mu_static, 0.2, integrator, after=1e-7, step=step)
     assert run.t_first == pytest.approx(release_time(mu_static), rel=1e-14)
     stuck = run.time <= release_time(mu_static)
     np.testing.assert_allclose(run.force[stuck], RATE * run.time[stuck], rtol=1e-14)
@@ -48,8 +48,8 @@ def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, ste
 @pytest.mark.parametrize("direction", [60.0, "y", 251.5])
 def test_a_stuck_block_is_found_to_slide_in_time_in_any_direction(direction, integrator):
     """A row at rest is skipped for many steps, but no further than its weakest block allows."""
-    how = {"direction": direction, "integrator": integrator, "sample_interval": 1e-6}
-    run = simulate(*uniform(4, 1.0, 0.6), duration=release_time(1.0) + 1e-6, **how)
+    setup, duration = Setup(integrator=integrator, sample_interval=1e-6), release_time(1.0) + 1e-6
+    run = simulate(uniform(4, 1.0, 0.6), setup, direction, duration)
     assert run.t_det == pytest.approx(np.full((4, 4), release_time(1.0)), rel=1e-12)
 
 
@@ -60,8 +60,8 @@ def test_the_slip_follows_an_accurate_integration(mu_static, mu_dynamic, gamma, 
     """Throughout, and to second order in the step."""
     material = replace(UNDAMPED, gamma=gamma)
     path, lasts = slip(material, mu_static, mu_dynamic)
-    how = {"step": step, "integrator": integrator, "material": material}
-    run = pull(mu_static, mu_dynamic, after=lasts / OMEGA, **how)
+    how = {"after": lasts / OMEGA, "step": step, "material": material}
+    run = pull(mu_static, mu_dynamic, integrator, **how)
     tau = run.time - release_time(mu_static)
     sliding = (tau > 0.0) & (tau < lasts / OMEGA - step)
     missed = 0.5 * (OMEGA * step) ** 2 * (mu_static - mu_dynamic) * LOAD
@@ -79,7 +79,7 @@ def test_slips_follow_each_other_at_equal_drops(integrator):
     drop = (mu_static - mu_dynamic) * LOAD
     lasts = 2.0 * (math.pi - math.atan(drop * OMEGA / RATE)) / OMEGA
     period = 2.0 * drop / RATE + lasts
-    run = pull(mu_static, mu_dynamic, after=3.5 * period, step=step, integrator=integrator)
+    run = pull(mu_static, mu_dynamic, integrator, after=3.5 * period, step=step)
     slips, missed = np.flatnonzero(run.switches), drop * (OMEGA * step) ** 2
     assert len(slips) == 4
     np.testing.assert_allclose(
@@ -101,9 +101,9 @@ def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
     Then damping keeps it away; a block that flickers lets go in every step, of which there are
     1500 before the others follow.
     """
-    contact, mu_static, mu_dynamic = flat(6, seed=3)
-    mu_static[2, 3], mu_dynamic[2, 3] = 0.3, 0.6
-    run = simulate(contact, mu_static, mu_dynamic, integrator=integrator)
+    surface = flat(6, seed=3)
+    surface.mu_static[2, 3], surface.mu_dynamic[2, 3] = 0.3, 0.6
+    run = simulate(surface, Setup(integrator=integrator))
     assert abs(run.t_first - release_time(0.6)) <= STEP
     assert run.t_first == run.t_det[2, 3]
     others = np.delete(run.t_det, 2 * 6 + 3)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, simulate
+from springblock import Material, Setup, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.reference import solve
 from springblock.accuracy.specimens import flat
@@ -18,19 +18,20 @@ STEPS = [2e-8, 1e-8, 5e-9, 2.5e-9]  #: s
 #: as the paper's, which shortens the wait before and changes little else: it still moves a
 #: hundred times slower than a block that slips.
 FAST = Material(slider_velocity=5e-3)
-SCENE = {"material": FAST, "duration": 1.194e-5, "sample_interval": 2e-8}
+DURATION, INTERVAL = 1.194e-5, 2e-8
 SURFACE = flat(6, seed=6)
 
 
 @pytest.fixture(scope="module")
 def reference():
-    return solve(*SURFACE, **SCENE)
+    return solve(SURFACE, FAST, DURATION, INTERVAL)
 
 
 @pytest.fixture(scope="module", params=INTEGRATORS)
 def runs(request):
     """One run for each of the steps."""
-    return [simulate(*SURFACE, **SCENE, integrator=request.param, step=h) for h in STEPS]
+    setups = [Setup(FAST, request.param, h, INTERVAL) for h in STEPS]
+    return [simulate(SURFACE, setup, duration=DURATION) for setup in setups]
 
 
 def test_the_reference_lets_every_block_go_and_keeps_its_energy(reference):
@@ -71,19 +72,18 @@ def test_force_curves_converge(reference, runs):
 @pytest.mark.parametrize(("shape", "periodic"), [((3, 7), False), ((1, 9), False), ((3, 5), True)])
 def test_detachment_times_of_oblong_surfaces_are_those_of_the_reference(shape, periodic):
     """Releases lie within their steps of 5e-9 s."""
-    how = {**SCENE, "duration": 1.188e-5, "periodic": periodic}
-    surface = oblong(shape, seed=6)
-    exact = solve(*surface, **how)
+    surface, duration = oblong(shape, seed=6, periodic=periodic), 1.188e-5
+    exact = solve(surface, FAST, duration, INTERVAL)
     assert np.isfinite(exact.t_det).sum() >= 4
     for integrator in INTEGRATORS:
-        run = simulate(*surface, **how, integrator=integrator, step=5e-9)
+        run = simulate(surface, Setup(FAST, integrator, 5e-9, INTERVAL), duration=duration)
         np.testing.assert_allclose(run.t_det, exact.t_det, rtol=0, atol=5e-9 / 2)
         np.testing.assert_allclose(run.force, exact.force, rtol=0, atol=1e-3 * exact.force.max())
 
 
 def test_the_reference_solution_refuses_other_laws():
     with pytest.raises(ValueError, match="law must be coulomb for the reference solution, not sl"):
-        solve(*SURFACE, replace(FAST, law="slip_weakening", slip_distance=4e-7))
+        solve(SURFACE, replace(FAST, law="slip_weakening", slip_distance=4e-7))
 
 
 def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
@@ -92,8 +92,8 @@ def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
     The leapfrog is wrong by (omega h)²/24 of what oscillates, the other finds it a step too late.
     """
     surface, step = oblong((4, 9), share=0.6), 1e-8
-    how = {"duration": 1.33e-4, "sample_interval": 2e-7, "step": step}
-    plain, run = plain_rk4.solve(*surface, **how), simulate(*surface, **how)
+    plain = plain_rk4.solve(surface, 1.33e-4, step, sample_interval=2e-7)
+    run = simulate(surface, Setup(step=step), duration=1.33e-4)
     assert np.nanargmin(run.t_det) == np.nanargmin(plain.t_det)
     assert abs(run.t_first - np.nanmin(plain.t_det)) < step
     before, off = run.time < run.t_first, (PAPER.omega_max * step) ** 2 / 24
@@ -105,8 +105,8 @@ def test_both_integrators_converge_to_one_answer_as_friction_weakens(law):
     """Every block has let go: t_det agrees to a share of a step that falls with the step."""
     material, apart = replace(FAST, law=law, **LAWS[law]), []
     for step in (5e-9, 1.25e-9):
-        how = {"step": step, "sample_interval": 2e-8, "duration": 1.5e-5}
-        runs = [simulate(*SURFACE, material, integrator=name, **how) for name in INTEGRATORS]
+        setups = [Setup(material, name, step, INTERVAL) for name in INTEGRATORS]
+        runs = [simulate(SURFACE, setup, duration=1.5e-5) for setup in setups]
         assert np.isfinite(runs[0].t_det).all()
         apart.append(np.sqrt(np.mean((runs[0].t_det - runs[1].t_det) ** 2)))
         for run in runs:

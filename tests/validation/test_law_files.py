@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from springblock import Material, Pattern, compute_prelude, draw_friction, read, simulate
-from springblock.accuracy.specimens import uniform
+from springblock import Material, Pattern, Surface, compute_prelude, read, simulate
+from springblock.accuracy.specimens import flat, uniform
 from springblock.model.law import LawFile
 from springblock.simulation.setup import Setup
 from studies import PAPER as STUDY
@@ -30,8 +30,8 @@ def ageing(**constants):
 
 
 def one_block(material, duration, step=2e-8, **options):
-    how = {"step": step, "duration": duration, **options}
-    return simulate(*uniform(1, material.mu_static, material.mu_dynamic), material, **how)
+    surface = uniform(1, material.mu_static, material.mu_dynamic)
+    return simulate(surface, Setup(material, step=step, **options), duration=duration)
 
 
 def test_slip_weakening_from_a_file_is_the_built_in_law(tmp_path):
@@ -43,9 +43,9 @@ def test_slip_weakening_from_a_file_is_the_built_in_law(tmp_path):
         "    return mu_dynamic + max(mu_static - mu_dynamic, 0.0) * max(1.0 - slip / d_c, 0.0)\n"
         "def update(slip, speed, step):\n    return slip + speed * step\n"
     )
-    surface = Pattern.flat(4).contact, *draw_friction(4, seed=2)
+    surface = flat(4, seed=2)
     own, built_in = (
-        simulate(*surface, Material(**law), duration=2e-4)
+        simulate(surface, Setup(Material(**law)), duration=2e-4)
         for law in ({"law": file}, {"law": "slip_weakening", "slip_distance": 2e-8})
     )
     assert built_in.switches.sum() > 1.5 * 16
@@ -127,12 +127,12 @@ def test_energy_closes_and_nothing_depends_on_prelude_or_cores(law):
     stuck = {"mu_static": 0.0, "mu_static_std": 0.0} if law == AGEING else {}
     material = Material(law=law, slider_velocity=5e-3, **stuck)
     pattern = Pattern.pillars(24, 4, 4).contact
-    surface = pattern, *draw_friction(24, seed=3, material=material)
-    how = {"material": material, "duration": 3e-5}
-    run = simulate(*surface, **how)
+    surface = Surface.draw(pattern, seed=3, material=material)
+    how = {"setup": Setup(material), "duration": 3e-5}
+    run = simulate(surface, **how)
     assert abs(run.energy.relative_residual) < 1e-3
-    for other in ({"cores": 2}, {"prelude": compute_prelude(pattern, material)}):
-        again = simulate(*surface, **how, **other)
+    for other in ({"cores": 2}, {"prelude": compute_prelude(pattern, Setup(material))}):
+        again = simulate(surface, **how, **other)
         np.testing.assert_array_equal(again.displacement, run.displacement)
         np.testing.assert_array_equal(again.switches, run.switches)
         # preludes sum the blocks of a row in another order
@@ -181,12 +181,12 @@ def test_what_numba_cannot_compile_and_what_turns_negative_is_refused(tmp_path):
     (tmp_path / "set.py").write_text("def friction(speed):\n    return len({1: speed, 'a': 2})\n")
     surface = uniform(1, 1.0, 0.6)
     with pytest.raises(ValueError, match=r"set\.py cannot be compiled by numba"):
-        simulate(*surface, Material(law=tmp_path / "set.py"))
+        simulate(surface, Setup(Material(law=tmp_path / "set.py")))
     falling = "STATE = {'s': 0.5}\ndef friction(s):\n    return s\n"
     falling += "def update(s, speed):\n    return s - speed\n"
     (tmp_path / "falling.py").write_text(falling.replace("- speed", "- 0.1 * (speed < 1.0)"))
     with pytest.raises(RuntimeError, match=r"falling-.* returned a friction coefficient"):
-        simulate(*surface, Material(law=tmp_path / "falling.py"))
+        simulate(surface, Setup(Material(law=tmp_path / "falling.py")))
     with pytest.raises(ValueError, match="integrator must be leapfrog with the law exponential"):
         Setup(Material(law=EXPONENTIAL), integrator="rk4")
     with pytest.raises(ValueError, match=r"unknown constant 'd_1'; choose from d_0, floor"):
@@ -229,7 +229,7 @@ def test_a_study_may_vary_a_constant_of_its_law(tmp_path):
         assert f"(d_0 = {d_0!r} m, floor = 0.3)" in record.constants["law"]
         law = LawFile.read(EXPONENTIAL, d_0=d_0)
         material = replace(record.material, law=law)
-        mu = draw_friction(record.scene.shape, record.seed, material)
-        again = simulate(record.contact, *mu, material, duration=3e-5, step=STUDY["step"])
+        surface = Surface.draw(record.contact, record.seed, material)
+        again = simulate(surface, Setup(material, step=STUDY["step"]), duration=3e-5)
         np.testing.assert_array_equal(record.t_det, again.t_det)
         np.testing.assert_allclose(record.force, again.force, rtol=1e-14)

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, simulate
+from springblock import Material, Setup, simulate
 from springblock.accuracy.specimens import flat, uniform
 from springblock.accuracy.stability.one_block import slip
 
@@ -36,9 +36,9 @@ SURFACE = flat(6, seed=6)  #: its blocks let go one after another
 
 def pull(material, integrator, step, after, **options):
     """Pull one block until so long after its release, sampling every step."""
-    how = {"material": material, "integrator": integrator, "step": step, "sample_interval": step}
+    setup = Setup(material, integrator, step, sample_interval=step)
     duration = math.ceil((RELEASE + after) / step) * step
-    return simulate(*uniform(1, 1.0, 0.6), **how, duration=duration, **options)
+    return simulate(uniform(1, 1.0, 0.6), setup, duration=duration, **options)
 
 
 @pytest.mark.parametrize(

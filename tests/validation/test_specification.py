@@ -7,7 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, compute_prelude, draw_friction, simulate, specification
+from springblock import (
+    Material,
+    Pattern,
+    Setup,
+    Surface,
+    compute_prelude,
+    simulate,
+    specification,
+)
 from springblock.model.direction import heading
 from springblock.model.law import LawFile
 from springblock.solver.integrators import INTEGRATORS
@@ -51,29 +59,22 @@ SURFACES = {
 }
 
 
-def coefficients(contact, material):
+def scattered(contact, material, periodic):
     """Wide scatter: some blocks have mu_s < mu_d, and some nearly no friction."""
     wide = {
         "mu_static_std": 0.3 * material.mu_static,
         "mu_dynamic_std": min(0.2, 0.5 * material.mu_dynamic),
     }
-    return draw_friction(len(contact), 1, replace(material, **wide))
+    return Surface.draw(contact, 1, replace(material, **wide), periodic)
 
 
 class Kernel:
     """The compiled integrator, a step at a time, seen in SI units."""
 
-    def __init__(self, contact, material, integrator, periodic):
+    def __init__(self, surface, material, integrator):
         self.material, self.integrator, self.k = material, INTEGRATORS[integrator], 0
-        self.state, self.constants = prepare(
-            contact,
-            *coefficients(contact, material),
-            material,
-            heading(ANGLE),
-            self.integrator,
-            STEP,
-            periodic=periodic,
-        )
+        how = heading(ANGLE), self.integrator, STEP
+        self.state, self.constants = prepare(surface, material, *how)
 
     def advance(self):
         """Take a step; what the ledger holds is of this step alone."""
@@ -124,13 +125,12 @@ STEPPED = [
 ]
 
 
-@pytest.mark.parametrize(("integrator", "law", "surface", "periodic"), STEPPED)
-def test_each_step_is_that_of_the_specification(integrator, law, surface, periodic):
-    contact, material = SURFACES[surface], {**LAWS, **FILES}[law]
-    kernel = Kernel(contact, material, integrator, periodic)
-    model = specification.Surface(
-        contact, *coefficients(contact, material), material, ANGLE, STEP, periodic
-    )
+@pytest.mark.parametrize(("integrator", "law", "name", "periodic"), STEPPED)
+def test_each_step_is_that_of_the_specification(integrator, law, name, periodic):
+    contact, material = SURFACES[name], {**LAWS, **FILES}[law]
+    surface = scattered(contact, material, periodic)
+    kernel = Kernel(surface, material, integrator)
+    model = specification.Problem(surface, Setup(material, integrator, STEP), ANGLE)
     advance = specification.INTEGRATORS[integrator]
     here, switches = kernel.seen(), 0
     for _ in range(150 * contact.size // contact.sum()):
@@ -165,9 +165,8 @@ def test_each_step_is_that_of_the_specification(integrator, law, surface, period
 def test_so_are_whole_runs(integrator, periodic, surface):
     """What the solver skips, stores and samples changes nothing, with a prelude or without."""
     contact = SURFACES[surface]
-    mu = draw_friction(len(contact), 1, periodic=periodic)
-    how = {"direction": ANGLE, "integrator": integrator, "step": STEP, "periodic": periodic}
-    *states, ahead = specification.follow(contact, *mu, FAST, steps=151, **how)
+    drawn, setup = Surface.draw(contact, 1, periodic=periodic), Setup(FAST, integrator, STEP)
+    *states, ahead = specification.follow(drawn, setup, ANGLE, steps=151)
     last = states[-1]
     known = np.isfinite(last.t_det) & contact
     assert known.sum() > 3
@@ -175,9 +174,9 @@ def test_so_are_whole_runs(integrator, periodic, surface):
     pull = FAST.k_s * (slider * contact.size - [each.u.sum(axis=(1, 2)) for each in states])
     then = ahead if integrator == "leapfrog" else last  # whose velocities are at half steps
     velocity, heat = (last.v + then.v) / 2, (last.heat + then.heat) / 2
-    how["sample_interval"] = STEP
-    for prelude in (None, compute_prelude(contact, FAST, **how)):
-        run = simulate(contact, *mu, FAST, prelude=prelude, duration=150 * STEP, **how)
+    setup = replace(setup, sample_interval=STEP)
+    for prelude in (None, compute_prelude(contact, setup, ANGLE, periodic)):
+        run = simulate(drawn, setup, ANGLE, duration=150 * STEP, prelude=prelude)
         np.testing.assert_array_equal(np.isfinite(run.t_det), known)
         np.testing.assert_allclose(run.t_det[known], last.t_det[known], rtol=0.0, atol=1e-6 * STEP)
         switches = [each.switches for each in states]

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, compute_prelude, draw_friction, simulate
+from springblock import Material, Pattern, Setup, Surface, compute_prelude, draw_friction, simulate
 from springblock.accuracy.specimens import drawn, uniform
 
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: a run of 1500 steps shows all blocks let go.
 FAST = Material(slider_velocity=5e-2)
-RUN = {"material": FAST, "step": 2e-8, "sample_interval": 2e-7, "duration": 3e-5}
+DURATION = 3e-5
 SQUARE = Pattern.pillars(12, 4, 2)
 LAWS = {
     "slip_weakening": {"slip_distance": 4e-7},
@@ -23,11 +23,17 @@ MATERIALS = {"coulomb": FAST, "soft": SOFT}
 MATERIALS |= {law: replace(FAST, law=law, **constant) for law, constant in LAWS.items()}
 
 
-def oblong(shape, share=1.0, seed=0):
+def oblong(shape, share=1.0, seed=0, periodic=False):
     """Contact on a share of all blocks, and drawn coefficients."""
     n_y, n_x = shape
-    mu_static, mu_dynamic = (mu[:n_y, :n_x] for mu in draw_friction(max(shape), seed))
-    return np.random.default_rng(seed).random(shape) < share, mu_static, mu_dynamic
+    mu = (field[:n_y, :n_x] for field in draw_friction(max(shape), seed))
+    return Surface(np.random.default_rng(seed).random(shape) < share, *mu, periodic=periodic)
+
+
+def moved(surface, move):
+    """The surface with each of its fields moved."""
+    fields = (surface.contact, surface.mu_static, surface.mu_dynamic)
+    return Surface(*map(move, fields), periodic=surface.periodic)
 
 
 def assert_moved(run, other, move, signs=(1, 1)):
@@ -47,14 +53,17 @@ def assert_moved(run, other, move, signs=(1, 1)):
     ids=["across the slide", "along it"],
 )
 @pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("surface", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
+@pytest.mark.parametrize("fields", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
 def test_a_mirrored_surface_moves_as_the_mirror_image(
-    surface, periodic, mirror, direction, signs, integrator
+    fields, periodic, mirror, direction, signs, integrator
 ):
-    how = {**RUN, "integrator": integrator, "periodic": periodic}
-    mirrored = [field[mirror] for field in surface]
-    runs = simulate(*surface, **how), simulate(*mirrored, **how, direction=direction)
-    assert_moved(*runs, lambda field: field[mirror], signs)
+    def image(field):
+        return field[mirror]
+
+    surface = Surface(fields.contact, fields.mu_static, fields.mu_dynamic, periodic)
+    how = {"setup": Setup(FAST, integrator), "duration": DURATION}
+    runs = simulate(surface, **how), simulate(moved(surface, image), direction=direction, **how)
+    assert_moved(*runs, image, signs)
 
 
 @pytest.mark.parametrize(
@@ -69,43 +78,42 @@ def test_no_bit_of_a_periodic_surface_depends_on_where_its_edges_are(
     integrator, material, share, shape, shift
 ):
     """Through all avalanches, releases within steps among them."""
-    surface = oblong(shape, share)
-    how = {**RUN, "integrator": integrator, "direction": 20.0, "periodic": True}
-    how |= {"material": MATERIALS[material], "duration": 1e-4 if material == "soft" else 3e-5}
+    surface = oblong(shape, share, periodic=True)
+    how = {"setup": Setup(MATERIALS[material], integrator), "direction": 20.0}
+    how["duration"] = 1e-4 if material == "soft" else DURATION
 
     def roll(field):
         return np.roll(field, shift, axis=(0, 1))
 
-    run = simulate(*surface, **how)
+    run = simulate(surface, **how)
     detached = np.isfinite(run.t_det).sum()
-    assert detached > 0.9 * surface[0].sum()
+    assert detached > 0.9 * surface.contact.sum()
     if material == "soft":  # (r/L)² - 1 beyond 0.06
         assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
     else:
         assert run.switches.sum() > detached
-    assert_moved(run, simulate(*map(roll, surface), **how), roll)
+    assert_moved(run, simulate(moved(surface, roll), **how), roll)
 
 
 @pytest.mark.parametrize("periodic", [False, True])
 def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator, periodic):
     """Sums are taken in another order, and rounding grows from one avalanche to the next."""
-    surface = oblong((4, 11), seed=1)
-    how = {**RUN, "integrator": integrator, "periodic": periodic, "duration": 6e-6}
-    run = simulate(*surface, **how, direction="x")
-    turned = simulate(*(field.T for field in surface), **how, direction="y")
+    surface = oblong((4, 11), seed=1, periodic=periodic)
+    how = {"setup": Setup(FAST, integrator), "duration": 6e-6}
+    run = simulate(surface, **how, direction="x")
+    turned = simulate(moved(surface, np.transpose), **how, direction="y")
     assert np.isfinite(run.t_det).sum() > 20
     np.testing.assert_allclose(turned.t_det.T, run.t_det, rtol=1e-9)
     np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
-    moved, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
-    np.testing.assert_allclose(turned.displacement[::-1], moved, rtol=0, atol=1e-9 * scale)
+    image, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
+    np.testing.assert_allclose(turned.displacement[::-1], image, rtol=0, atol=1e-9 * scale)
 
 
 def test_the_unit_of_mass_is_a_convention(integrator):
     """E, rho and P four times as large: every force is, and no motion changes, to the last bit."""
     heavy = replace(PAPER, youngs_modulus=4e7, density=4800.0, pressure=2e5)
     run, scaled = (
-        simulate(*drawn(SQUARE, 3), material=m, integrator=integrator, duration=1.8e-4)
-        for m in (PAPER, heavy)
+        simulate(drawn(SQUARE, 3), Setup(m, integrator), duration=1.8e-4) for m in (PAPER, heavy)
     )
     np.testing.assert_array_equal(scaled.t_det, run.t_det)
     np.testing.assert_array_equal(scaled.displacement, run.displacement)
@@ -116,18 +124,19 @@ def test_the_unit_of_mass_is_a_convention(integrator):
 @pytest.mark.parametrize("law", ["coulomb", *LAWS])
 def test_a_block_that_is_held_does_not_move_by_one_bit(law, integrator):
     """While the others slip."""
-    contact, mu_static, mu_dynamic = uniform(3, 1.0, 0.6)
-    mu_static[1, 1] = 1e9
+    surface = uniform(3, 1.0, 0.6)
+    surface.mu_static[1, 1] = 1e9
     material = replace(MATERIALS[law], gamma=0.0, slider_velocity=5e-3)
-    run = simulate(contact, mu_static, mu_dynamic, material, integrator=integrator, duration=5e-5)
+    run = simulate(surface, Setup(material, integrator), duration=5e-5)
     assert np.count_nonzero(np.isfinite(run.t_det)) == 8
     assert not run.displacement[:, 1, 1].any()
 
 
 def test_preludes_tell_shapes_and_edges_apart():
     surface = oblong((6, 8), share=0.7, seed=5)
-    prelude = compute_prelude(surface[0], FAST)
-    turned = [field.reshape(8, 6) for field in surface]  # the same blocks in another order
-    for other, periodic in ((turned, False), (surface, True)):
+    prelude = compute_prelude(surface.contact, Setup(FAST))
+    turned = moved(surface, lambda field: field.reshape(8, 6))  # the same blocks, another order
+    joined = Surface(surface.contact, surface.mu_static, surface.mu_dynamic, periodic=True)
+    for other in (turned, joined):
         with pytest.raises(ValueError, match="prelude belongs to another scene"):
-            simulate(*other, FAST, periodic=periodic, prelude=prelude)
+            simulate(other, Setup(FAST), prelude=prelude)

@@ -94,8 +94,8 @@ def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
     drawn = draw_friction(scene.shape, seed, material, scene.is_periodic)
     files = scene.mu_static_field, scene.mu_dynamic_field
     pairs = zip(drawn, files, strict=True)
-    mu: Any = (random if file is None else file.values for random, file in pairs)
-    return Surface(scene.contact, *mu, periodic=scene.is_periodic)
+    mu: Any = [random if file is None else file.values for random, file in pairs]
+    return Surface(scene.contact, mu[0], mu[1], scene.is_periodic)
 
 
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
