@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from springblock.model.surface import Surface as Surface
     from springblock.plotting.film import animate as animate
     from springblock.plotting.still import plot as plot
+    from springblock.simulation.motion import SimulationError as SimulationError
     from springblock.simulation.prelude import (
         Prelude as Prelude,
     )
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     )
     from springblock.simulation.run import Realisation as Realisation
     from springblock.simulation.setup import Setup as Setup
-    from springblock.simulation.simulate import (
-        SimulationError as SimulationError,
-    )
     from springblock.simulation.simulate import (
         simulate as simulate,
     )
@@ -37,7 +35,7 @@ else:  # mypy would accept any name if it saw `__getattr__`
         "Prelude": "simulation.prelude",
         "Realisation": "simulation.run",
         "Setup": "simulation.setup",
-        "SimulationError": "simulation.simulate",
+        "SimulationError": "simulation.motion",
         "Surface": "model.surface",
         "animate": "plotting.film",
         "compute_prelude": "simulation.prelude",

@@ -75,16 +75,21 @@ class Problem:
     setup: Setup
     direction: str | float
 
+    @property
+    def material(self) -> Material:
+        """Material of the setup."""
+        return self.setup.material
+
     @cached_property
     def law(self) -> Law:
         """Law of the material."""
-        return Law.of(self.setup.material)
+        return Law.of(self.material)
 
     @cached_property
     def load(self) -> Array:
         """F_n of each block, N: blocks in contact share the whole load, (4)."""
         contact = self.surface.contact
-        load = self.setup.material.block_load * contact.size / contact.sum()
+        load = self.material.block_load * contact.size / contact.sum()
         return np.where(contact, load, 0.0)
 
     @cached_property
@@ -99,7 +104,7 @@ class Problem:
 
     def slider(self, steps: float) -> Array:
         """Displacement v t of the slider at t = `steps` h, (2, 1, 1) m."""
-        velocity = self.setup.material.slider_velocity * np.array(heading(self.direction))
+        velocity = self.material.slider_velocity * np.array(heading(self.direction))
         return velocity.reshape(2, 1, 1) * self.setup.step * steps
 
 
@@ -174,13 +179,13 @@ def follow(
 
 def spring_force(problem: Problem, u: Array) -> Array:
     """Sum of F_int over the springs of each block, (2); (2, N_y, N_x) N."""
-    (n_y, n_x), k_int = problem.surface.contact.shape, problem.setup.material.k_int
+    (n_y, n_x), k_int = problem.surface.contact.shape, problem.material.k_int
     y, x = np.mgrid[:n_y, :n_x]
     force = np.zeros_like(u)
     for j, i in _NEIGHBOURS:
         there = (y + j) % n_y, (x + i) % n_x
         joined = problem.surface.periodic | ((y + j == there[0]) & (x + i == there[1]))
-        rest = np.array([i, j], float).reshape(2, 1, 1) * problem.setup.material.spacing
+        rest = np.array([i, j], float).reshape(2, 1, 1) * problem.material.spacing
         apart = u[:, *there] - u  # r_j - r_i less the rest vector
         length = np.hypot(*(rest + apart))
         # r - L without cancellation: (r² - L²)/(r + L)
@@ -192,7 +197,7 @@ def spring_force(problem: Problem, u: Array) -> Array:
 
 def motive_force(problem: Problem, u: Array, steps: float) -> Array:
     """F_mot = F_int + K_s (v t - u) at t = `steps` h, (1) and (3); (2, N_y, N_x) N."""
-    return spring_force(problem, u) + problem.setup.material.k_s * (problem.slider(steps) - u)
+    return spring_force(problem, u) + problem.material.k_s * (problem.slider(steps) - u)
 
 
 def resistance(
@@ -208,7 +213,7 @@ def resistance(
 
     def friction_at(mean: Array) -> Array:
         mu = law.call(law.friction, memory, **own, speed=mean, step=problem.setup.step) + 0.0 * mean
-        return tau / problem.setup.material.mass * problem.load * mu
+        return tau / problem.material.mass * problem.load * mu
 
     share = np.asarray(share)
     if not share.any():
@@ -229,7 +234,7 @@ def resistance(
 
 def leapfrog(problem: Problem, state: State) -> State:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
-    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
+    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
     a = np.exp(-gamma * h)
     tau = (1.0 - a) / gamma if gamma else h
     k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
@@ -260,7 +265,7 @@ def leapfrog(problem: Problem, state: State) -> State:
     theta = np.where(released, np.hypot(*force) - threshold, 0.0)
     theta = np.maximum(theta, 0.0) / np.where(released, np.hypot(*force) - before, 1.0)
     t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
-    k_int, k_s = problem.setup.material.k_int, problem.setup.material.k_s
+    k_int, k_s = problem.material.k_int, problem.material.k_s
     epsilon = h * tau / m * (k_s + 6.0 * k_int) / 4.0
     theta = theta + epsilon * (0.5 - theta)
     slip, speed, size = theta**2 / 2.0 - epsilon / 8.0, 0.5 + theta, np.hypot(*new)
@@ -279,7 +284,7 @@ def _with_ledger(
     problem: Problem, now: State, before: State, switched: Mask, loss: Array, path: float
 ) -> State:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
-    pull = problem.setup.material.k_s * (problem.slider(now.k) - now.u)
+    pull = problem.material.k_s * (problem.slider(now.k) - now.u)
     return replace(
         now,
         switches=before.switches + int(switched.sum()),
@@ -309,7 +314,7 @@ def _velocity_before(
     problem: Problem, tau: float, memory: Memory, force: Array, new: Array
 ) -> Array:
     """Solve (7) for v, given the velocity after the step; zero for blocks that stop in it."""
-    m, a = problem.setup.material.mass, np.exp(-problem.setup.material.gamma * problem.setup.step)
+    m, a = problem.material.mass, np.exp(-problem.material.gamma * problem.setup.step)
     mean = (1.0 + a) * new - tau / m * force
     ahead = np.sign(np.sum(mean * new, axis=0))
     speed = ahead * np.hypot(*mean) / (2.0 * a)
@@ -321,7 +326,7 @@ def _velocity_before(
 
 def runge_kutta(problem: Problem, state: State) -> State:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
-    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
+    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
     k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
     force = motive_force(problem, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
@@ -357,7 +362,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
     theta = np.maximum(now - threshold, 0.0) / np.where(released, now - before, 1.0)
     theta = np.where(before <= threshold, theta, 0.5)
     t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
-    epsilon = h**2 / m * (problem.setup.material.k_s + 6.0 * problem.setup.material.k_int) / 8.0
+    epsilon = h**2 / m * (problem.material.k_s + 6.0 * problem.material.k_int) / 8.0
     theta = theta + epsilon * (0.5 - theta)
     extra = np.where(released, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
     du = du + extra * h * a
@@ -379,7 +384,7 @@ def _direction(problem: Problem, force: Array, v: Array, friction: Array, releas
 
     Under weakening laws the velocity in the middle of the step is the implicit one.
     """
-    m, h, gamma = problem.setup.material.mass, problem.setup.step, problem.setup.material.gamma
+    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
         back = friction if problem.law.friction is coulomb else 0.0

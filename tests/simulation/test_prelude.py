@@ -13,10 +13,8 @@ from springblock import (
     simulate,
 )
 from springblock.accuracy.specimens import drawn
+from springblock.simulation.motion import Motion
 from springblock.simulation.prelude import HOLDING
-from springblock.simulation.setup import STEP
-from springblock.solver.integrators import INTEGRATORS
-from springblock.solver.lattice import prepare
 from springblock.solver.springs import Grid
 
 PILLARS = Pattern.pillars(12, 4, 2)
@@ -34,8 +32,9 @@ def answer(run):
 
 def skipped(prelude, surface):
     """Sample intervals that a run skips."""
-    state, constants = prepare(surface, Material(), (1.0, 0.0), INTEGRATORS["leapfrog"], STEP)
-    return prelude.start(state, constants, latest=np.inf)[0]
+    motion = Motion.at_rest(surface, Setup(), "x")
+    prelude.start(motion, latest=np.inf)
+    return motion.samples
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 from springblock.accuracy.specimens import Array
 from springblock.model.material import Material
 from springblock.model.surface import Surface
-from springblock.simulation.simulate import SimulationError
+from springblock.simulation.motion import SimulationError
 from springblock.solver.integrators import INTEGRATORS
 from springblock.solver.lattice import Samples, close_edges, close_rows, prepare, unpadded
 from springblock.solver.springs import (

@@ -37,10 +37,11 @@ from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.provenance import configuration_digest, same_code
 from springblock.simulation.checkpoint import check_belonging
+from springblock.simulation.motion import SimulationError
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
-from springblock.simulation.simulate import SimulationError, simulate
+from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
 
 SETUP = [

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from springblock.files import read_arrays, whole_file
 from springblock.provenance import digest
 from springblock.simulation.checks import check_positive
+from springblock.simulation.motion import Motion
 from springblock.solver.lattice import Samples, State
 
 Array = NDArray[np.float64]
@@ -64,26 +65,28 @@ class Checkpoint:
         """Whether the interval since the last checkpoint has passed."""
         return monotonic() - self.written >= self.interval
 
-    def save(self, state: State, taken: Samples, snapshots: Sequence[Array]) -> None:
+    def save(self, motion: Motion, snapshots: Sequence[Array]) -> None:
         """Write the state of a run between two samples, whole or not at all."""
         arrays: dict[str, Any] = {
             "belongs": json.dumps(self.belongs),
             "snapshots": np.array(snapshots),
-            **taken._asdict(),
-            **{f"field_{i}": values for i, values in enumerate(_fields(state))},
+            **motion.recorded()._asdict(),
+            **{f"field_{i}": values for i, values in enumerate(_fields(motion.state))},
         }
         with whole_file(self.path) as partial, partial.open("wb") as file:
             np.savez(file, **arrays)
         self.written = monotonic()
 
-    def restore(self, state: State) -> tuple[Samples, list[Array]]:
-        """Set `state` to the saved one; return the samples and snapshots up to then.
+    def resume(self, motion: Motion) -> list[Array]:
+        """Continue from the file, if there is one; return the snapshots up to then.
 
         Raises
         ------
         ValueError
             If the file is not a checkpoint, or belongs to another run, naming what differs.
         """
+        if not self.path.exists():
+            return []
         try:
             kept = read_arrays(self.path)
             belongs = json.loads(str(kept["belongs"]))
@@ -94,9 +97,11 @@ class Checkpoint:
         except ValueError as error:
             raise ValueError(f"{self.path} is not a checkpoint: {error}") from error
         check_belonging(self.path, belongs, self.belongs)
-        for i, values in enumerate(_fields(state)):
+        for i, values in enumerate(_fields(motion.state)):
             values[:] = kept[f"field_{i}"]
-        return Samples(*(kept[name] for name in Samples._fields)), list(kept["snapshots"])
+        taken = Samples(*(kept[name] for name in Samples._fields))
+        motion.samples, motion.record = len(taken.force_x) - 1, [taken]
+        return list(kept["snapshots"])
 
 
 def _fields(state: State) -> list[NDArray[Any]]:

@@ -22,9 +22,9 @@ from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.surface import Surface, as_mask
 from springblock.simulation.checks import check_type
+from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup
-from springblock.solver.integrators import INTEGRATORS, on_cores
-from springblock.solver.lattice import Constants, Samples, State, close_edges, prepare, unpadded
+from springblock.solver.lattice import Samples, close_edges, unpadded
 from springblock.solver.laws import strengths
 
 Array = NDArray[np.float64]
@@ -81,20 +81,19 @@ class Prelude:
         except (TypeError, ValueError):
             raise ValueError(f"{path} is not a prelude, or damaged; {MENDING}") from None
 
-    def start(self, state: State, constants: Constants, latest: float) -> tuple[int, Samples]:
-        """Set `state`, at rest, to the latest stored state that is valid for its thresholds.
+    def start(self, motion: Motion, latest: float) -> None:
+        """Set a surface at rest to the latest stored state that is valid for its thresholds.
 
-        At most to sample interval `latest`. Returns the number of sample intervals skipped, zero
-        if no stored state is valid, and their samples.
+        At most to sample interval `latest`; it stays at rest if no stored state is valid.
         """
-        blocks, grid = state.blocks, constants.grid
+        state, blocks, grid = motion.state, motion.state.blocks, motion.constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
         coefficients = (unpadded(field, grid)[bound] for field in (blocks.static, blocks.dynamic))
         threshold = strengths(state.law, *coefficients) ** 2
         holds = (self.peak * (1.0 + _SLACK) <= threshold).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:
-            return 0, Samples.empty(0)
+            return
         last = int(fit[-1])
         for field, stored in zip(blocks[:4], self.fields[last], strict=True):
             unpadded(field, grid)[~bound] = stored
@@ -102,7 +101,7 @@ class Prelude:
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
-        return skipped, Samples(force_x, force_y, np.zeros(skipped, np.int64))
+        motion.skip(Samples(force_x, force_y, np.zeros(skipped, np.int64)))
 
 
 def _apart(part: Any) -> NDArray[Any]:
@@ -150,28 +149,25 @@ def compute_prelude(
     """
     check_type("setup", setup, Setup)
     mask, material = as_mask(contact), setup.material
-    surface, towards = Surface(mask, 1.0, 0.0, periodic), heading(direction)
     strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
     setup.check_length(mask, float(strongest))
-    method = INTEGRATORS[setup.integrator]
-    state, constants = prepare(surface, material, towards, method, setup.step, keep_peak=True)
-    advance, every = on_cores(setup.integrator, cores), setup.every
-    blocks, peak = state.blocks, state.peak
+    surface = Surface(mask, 1.0, 0.0, periodic)
+    motion = Motion.at_rest(surface, setup, direction, cores, keep_peak=True)
+    state, blocks, peak = motion.state, motion.state.blocks, motion.state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())
     blocks.static[bound] = _NEVER
     kept: dict[int, tuple[int, Array, Array, Array]] = {}
-    record, holding = [Samples.empty(0)], 1.0
+    holding = 1.0
     while holding >= HOLDING[-1]:
-        done, taken = (len(record) - 1) * _BETWEEN, Samples.empty(_BETWEEN)
-        fields = np.array([unpadded(field, constants.grid)[~mask] for field in blocks[:4]])
+        fields = np.array([unpadded(field, motion.constants.grid)[~mask] for field in blocks[:4]])
         # replaces an earlier state between the same two shares
         passed = sum(holding < share for share in HOLDING)
-        kept[passed] = done, fields, peak[bound], state.ledger.copy()
-        _, broken, _ = advance(state, constants, done * every, _BETWEEN * every, every, taken)
-        if broken >= 0:  # a spring breaks before any block detaches: `simulate` raises the error
+        kept[passed] = motion.samples, fields, peak[bound], state.ledger.copy()
+        try:
+            motion.proceed(motion.samples + _BETWEEN)
+        except SimulationError:  # before any block detaches: `simulate` raises it again
             break
-        record.append(taken)
         needed = np.sqrt(peak[bound]) / load
         if mu_static is None:
             # as if blocks were independent; with correlated coefficients the share is larger
@@ -179,12 +175,12 @@ def compute_prelude(
         else:
             holding = float((needed < np.asarray(mu_static)[mask]).all())
     samples, moving, peaks, ledgers = map(np.array, zip(*kept.values(), strict=True))
-    force = np.concatenate([(taken.force_x, taken.force_y) for taken in record], axis=1)
+    force_x, force_y, _ = motion.recorded()
     return Prelude(
-        conditions=conditions(mask, setup, towards, periodic),
+        conditions=conditions(mask, setup, heading(direction), periodic),
         samples=samples,
         fields=moving,
         peak=peaks,
         ledger=ledgers,
-        force=force[:, : samples[-1]],
+        force=np.stack([force_x, force_y])[:, 1 : samples[-1] + 1],
     )

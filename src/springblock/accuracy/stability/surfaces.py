@@ -27,8 +27,8 @@ from springblock.accuracy.stability.cases import (
 )
 from springblock.model.material import Material
 from springblock.model.surface import Surface
+from springblock.simulation.motion import SimulationError
 from springblock.simulation.run import Realisation
-from springblock.simulation.simulate import SimulationError
 from springblock.solver.stability import limit
 
 #: Two columns of two blocks, the left one held fast. The free ones move by (a, b) and (a, -b): the

@@ -1,0 +1,122 @@
+"""Motion of a surface: the state of a run between two calls of the compiled time loop."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from springblock.model.direction import heading
+from springblock.model.surface import Surface
+from springblock.simulation.setup import Setup
+from springblock.solver.integrators import INTEGRATORS, on_cores
+from springblock.solver.lattice import (
+    Advance,
+    Constants,
+    Integrator,
+    Samples,
+    State,
+    prepare,
+    unpadded,
+)
+from springblock.solver.law_file import FromFile
+
+Array = NDArray[np.float64]
+
+
+class SimulationError(RuntimeError):
+    """A run cannot be continued."""
+
+
+@dataclass
+class Motion:
+    """State of a run between two calls of the compiled time loop, and its samples so far."""
+
+    setup: Setup
+    advance: Advance
+    state: State
+    constants: Constants
+    samples: int = 0  #: recorded so far, without the initial one
+    record: list[Samples] = field(default_factory=lambda: [Samples.empty(1)])
+
+    @classmethod
+    def at_rest(
+        cls,
+        surface: Surface,
+        setup: Setup,
+        direction: str | float,
+        cores: int = 1,
+        keep_peak: bool = False,
+    ) -> "Motion":
+        """Start from rest; arguments are those of `simulate` and `prepare`."""
+        advance, method = on_cores(setup.integrator, cores), INTEGRATORS[setup.integrator]
+        how = setup.material, heading(direction), method, setup.step, keep_peak
+        return cls(setup, advance, *prepare(surface, *how))
+
+    @property
+    def method(self) -> Integrator:
+        """Integration scheme."""
+        return INTEGRATORS[self.setup.integrator]
+
+    @property
+    def steps(self) -> int:
+        """Number of steps so far."""
+        return self.samples * self.setup.every
+
+    @property
+    def time(self) -> float:
+        """Time so far, s."""
+        return self.steps * self.setup.step
+
+    @property
+    def newton(self) -> float:
+        """Force in N that adds a velocity of one l per step in one step."""
+        material, step = self.setup.material, self.setup.step
+        force_time = self.method.force_time(step, material.gamma)
+        return material.mass * material.spacing / (step * force_time)
+
+    def proceed(self, until: int) -> None:
+        """Advance to sample `until`.
+
+        Raises
+        ------
+        SimulationError
+            If a spring breaks, or the law of friction returns an invalid coefficient.
+        """
+        if until == self.samples:
+            return
+        every, more, first = self.setup.every, until - self.samples, self.steps
+        taken = Samples.empty(more)
+        done, row, column = self.advance(
+            self.state, self.constants, first, more * every, every, taken
+        )
+        now, law = (first + done) * self.setup.step, self.state.law
+        if isinstance(law, FromFile) and law.failed[0] >= 0:
+            raise SimulationError(
+                f"before t = {now:.4g} s the law {self.setup.material.law} returned a friction "
+                "coefficient that is negative or not finite"
+            )
+        if row >= 0:
+            raise SimulationError(
+                f"at t = {now:.4g} s a spring at block "
+                f"(y, x) = ({row}, {column}) has collapsed to less than half its length, grown "
+                "to more than twice, or become NaN"
+            )
+        self.skip(taken)
+
+    def skip(self, taken: Samples) -> None:
+        """Append samples that lead to the current state."""
+        self.samples += len(taken.force_x)
+        self.record.append(taken)
+
+    def recorded(self) -> Samples:
+        """Samples so far, in the kernels' units."""
+        return Samples(*map(np.concatenate, zip(*self.record, strict=True)))
+
+    def displacement(self) -> Array:
+        """(2, N_y, N_x) m."""
+        blocks = self.state.blocks
+        return self.setup.material.spacing * self.vectors(blocks.ux, blocks.uy)
+
+    def vectors(self, x: Array, y: Array) -> Array:
+        """Two components without their border, (2, N_y, N_x)."""
+        return np.stack([unpadded(field, self.constants.grid) for field in (x, y)])
