@@ -1,4 +1,4 @@
-"""Simulation of one realisation from contact mask and friction coefficients."""
+"""Simulation of one realisation: `simulate`, and its results from the final state."""
 
 import math
 from collections.abc import Sequence
