@@ -13,14 +13,25 @@ FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 
 
 @click.command("verify")
-@click.argument("results", type=click.Path(exists=True, path_type=Path))
+@click.argument("results", type=click.Path(exists=True, path_type=Path), required=False)
 @click.argument("other", type=click.Path(exists=True, path_type=Path), required=False)
-def verify(results: Path, other: Path | None) -> None:
+@click.option(
+    "--physics",
+    is_flag=True,
+    help="Compare small ensembles, computed here in seconds, with recorded ones instead: whether "
+    "this processor and these packages change more than rounding.",
+)
+def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     """Check a folder of RESULTS against its checksums and the current code.
 
     With OTHER, compare the tables of two studies within their intervals, or two files to the bit.
     The exit status is 0 without a fault or significant difference, and 1 otherwise.
     """
+    if physics == (results is not None):
+        raise click.UsageError("give either a folder or file of results, or --physics")
+    if results is None:
+        _verify_physics()
+        return
     if results.is_file():
         _verify_bits(results, other)
         return
@@ -30,6 +41,22 @@ def verify(results: Path, other: Path | None) -> None:
     if other is not None:
         found += _differences(results, other)
     if found:
+        raise SystemExit(1)
+
+
+def _verify_physics() -> None:
+    """Compare ensembles computed here with the recorded ones."""
+    from springblock.accuracy import consistency  # loads pandas and scipy
+
+    found = list(consistency.differences(consistency.ensembles()))
+    for each in found:
+        click.echo(each)
+    apart = [each for each in found if each.is_significant]
+    click.echo(
+        f"{len(apart)} of {len(found)} means differ significantly (together, at "
+        f"{100 * consistency.LEVEL:g} %)" + ("" if apart else ": the same physics")
+    )
+    if apart:
         raise SystemExit(1)
 
 
