@@ -7,9 +7,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from hypothesis import settings
 
 from springblock.cli import main
 from studies import Study
+
+# The same draws in every run.
+settings.register_profile("springblock", max_examples=40, deadline=None, derandomize=True)
+settings.load_profile("springblock")
 
 
 @pytest.fixture

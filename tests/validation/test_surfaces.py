@@ -5,21 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Setup, Surface, compute_prelude, draw_friction, simulate
-from springblock.accuracy.specimens import drawn, uniform
+from springblock import Material, Setup, Surface, compute_prelude, draw_friction, simulate
+from springblock.accuracy.specimens import uniform
 
 PAPER = Material()
 #: Loads a hundred times faster than the paper's: a run of 1500 steps shows all blocks let go.
 FAST = Material(slider_velocity=5e-2)
-DURATION = 3e-5
-SQUARE = Pattern.pillars(12, 4, 2)
 LAWS = {
     "slip_weakening": {"slip_distance": 4e-7},
     "velocity_weakening": {"speed_scale": 0.1},
 }
 #: Strained far beyond the range of the series.
 SOFT = replace(FAST, youngs_modulus=2e5)
-MATERIALS = {"coulomb": FAST, "soft": SOFT}
+MATERIALS = {"coulomb": FAST}
 MATERIALS |= {law: replace(FAST, law=law, **constant) for law, constant in LAWS.items()}
 
 
@@ -38,7 +36,6 @@ def moved(surface, move):
 
 def assert_moved(run, other, move, signs=(1, 1)):
     """The other run is the first one moved, to the last bit; sums of force to rounding."""
-    assert np.isfinite(run.t_det).any()
     np.testing.assert_array_equal(other.t_det, move(run.t_det))
     for name in ("displacement", "velocity"):
         for sign, one, found in zip(signs, getattr(run, name), getattr(other, name), strict=True):
@@ -47,51 +44,17 @@ def assert_moved(run, other, move, signs=(1, 1)):
     np.testing.assert_allclose(other.force, run.force, rtol=0, atol=1e-12 * run.force.max())
 
 
-@pytest.mark.parametrize(
-    ("mirror", "direction", "signs"),
-    [(np.s_[::-1], 0, (1, -1)), (np.s_[:, ::-1], 180, (-1, 1))],
-    ids=["across the slide", "along it"],
-)
-@pytest.mark.parametrize("periodic", [False, True])
-@pytest.mark.parametrize("fields", [oblong((6, 11), 0.8, seed=2), drawn(SQUARE, 3)])
-def test_a_mirrored_surface_moves_as_the_mirror_image(
-    fields, periodic, mirror, direction, signs, integrator
-):
-    def image(field):
-        return field[mirror]
-
-    surface = Surface(fields.contact, fields.mu_static, fields.mu_dynamic, periodic)
-    how = {"setup": Setup(FAST, integrator), "duration": DURATION}
-    runs = simulate(surface, **how), simulate(moved(surface, image), direction=direction, **how)
-    assert_moved(*runs, image, signs)
-
-
-@pytest.mark.parametrize(
-    ("material", "share", "shape", "shift"),
-    [
-        ("coulomb", 0.6, (7, 13), (3, 6)),
-        ("coulomb", 1.0, (16, 3), (9, 1)),
-        *((material, 1.0, (5, 8), (1, 0)) for material in MATERIALS),
-    ],
-)
-def test_no_bit_of_a_periodic_surface_depends_on_where_its_edges_are(
-    integrator, material, share, shape, shift
-):
-    """Through all avalanches, releases within steps among them."""
-    surface = oblong(shape, share, periodic=True)
-    how = {"setup": Setup(MATERIALS[material], integrator), "direction": 20.0}
-    how["duration"] = 1e-4 if material == "soft" else DURATION
+def test_no_bit_depends_on_the_edges_where_springs_leave_their_series(integrator):
+    """On a periodic surface whose springs are strained by more than 3 %."""
+    surface = oblong((5, 8), periodic=True)
+    how = {"setup": Setup(SOFT, integrator), "direction": 20.0, "duration": 1e-4}
 
     def roll(field):
-        return np.roll(field, shift, axis=(0, 1))
+        return np.roll(field, (1, 0), axis=(0, 1))
 
     run = simulate(surface, **how)
-    detached = np.isfinite(run.t_det).sum()
-    assert detached > 0.9 * surface.contact.sum()
-    if material == "soft":  # (r/L)² - 1 beyond 0.06
-        assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
-    else:
-        assert run.switches.sum() > detached
+    assert np.isfinite(run.t_det).sum() > 0.9 * surface.contact.sum()
+    assert np.abs(np.diff(run.displacement)).max() > 0.03 * PAPER.spacing
     assert_moved(run, simulate(moved(surface, roll), **how), roll)
 
 
@@ -107,18 +70,6 @@ def test_an_oblong_surface_turned_over_is_pulled_along_the_other_axis(integrator
     np.testing.assert_allclose(turned.force, run.force, rtol=1e-9)
     image, scale = run.displacement.transpose(0, 2, 1), np.abs(run.displacement).max()
     np.testing.assert_allclose(turned.displacement[::-1], image, rtol=0, atol=1e-9 * scale)
-
-
-def test_the_unit_of_mass_is_a_convention(integrator):
-    """E, rho and P four times as large: every force is, and no motion changes, to the last bit."""
-    heavy = replace(PAPER, youngs_modulus=4e7, density=4800.0, pressure=2e5)
-    run, scaled = (
-        simulate(drawn(SQUARE, 3), Setup(m, integrator), duration=1.8e-4) for m in (PAPER, heavy)
-    )
-    np.testing.assert_array_equal(scaled.t_det, run.t_det)
-    np.testing.assert_array_equal(scaled.displacement, run.displacement)
-    np.testing.assert_array_equal(scaled.force, 4.0 * run.force)
-    assert scaled.energy.friction == 4.0 * run.energy.friction
 
 
 @pytest.mark.parametrize("law", ["coulomb", *LAWS])

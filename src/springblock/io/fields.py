@@ -20,7 +20,15 @@ _ABOUT = {
     "references": "https://doi.org/10.1016/j.ijsolstr.2022.111525",
 }
 #: Exceptions that scipy raises on a truncated file or one of another format.
-_UNREADABLE = AttributeError, IndexError, KeyError, OSError, TypeError, ValueError
+_UNREADABLE = (
+    AttributeError,
+    IndexError,
+    KeyError,
+    MemoryError,  # of impossible sizes
+    OSError,
+    TypeError,
+    ValueError,
+)
 
 #: Units, meaning and dimensions of each variable. Coordinates have no attribute `axis`: ParaView
 #: would take X and Y for longitude and latitude.

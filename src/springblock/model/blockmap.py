@@ -8,6 +8,7 @@ import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
+from tokenize import TokenError  # NumPy parses headers
 from typing import Any
 
 import numpy as np
@@ -182,7 +183,7 @@ def _array(file: Path) -> Array:
     try:
         with np.errstate(over="ignore"):  # a damaged header may give an impossible size
             values = np.load(file, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, OverflowError, EOFError):
+    except (ValueError, OSError, OverflowError, EOFError, TokenError):
         values = None
     if not isinstance(values, np.ndarray):
         raise ValueError(f"{file} must be an array of numbers saved by NumPy as .npy")

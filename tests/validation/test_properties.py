@@ -1,0 +1,129 @@
+"""What holds of any surface, material, law, edge, direction and step, on random draws."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from springblock import (
+    Material,
+    Realisation,
+    Setup,
+    Surface,
+    compute_prelude,
+    draw_friction,
+    simulate,
+)
+from springblock.accuracy.stability.cases import Pull
+from springblock.solver.integrators import INTEGRATORS
+from springblock.solver.stability import limit
+from validation.test_surfaces import assert_moved, moved
+
+LOADING = 200  #: steps until a block without neighbours would detach
+STEPS = 500
+LAWS = ["coulomb", "slip_weakening", "velocity_weakening"]
+
+
+class Case(NamedTuple):
+    """A surface, a setup and a direction."""
+
+    surface: Surface
+    setup: Setup
+    direction: float
+
+    def run(self, **options) -> Realisation:
+        """Simulate some hundred steps, in which most blocks slip."""
+        duration = STEPS * self.setup.step
+        return simulate(self.surface, self.setup, self.direction, duration, **options)
+
+
+def decades(least, most):
+    """Numbers spread evenly over decades."""
+    return st.floats(least, most).map(lambda exponent: 10.0**exponent)
+
+
+@st.composite
+def cases(draw, periodic=None) -> Case:
+    """Draw a case whose springs stay within their range, and whose step is stable."""
+    periodic = draw(st.booleans()) if periodic is None else periodic
+    shape = draw(st.tuples(*2 * [st.integers(3 if periodic else 1, 9)]))
+    seed = draw(st.integers(0, 10**6))
+    contact = np.random.default_rng(seed).random(shape) < draw(st.floats(0.2, 1.0))
+    assume(contact.any())
+    law, spacing = draw(st.sampled_from(LAWS)), draw(decades(-6, -3))
+    stiff = draw(decades(5, 12))  # Pa
+    material = Material(
+        youngs_modulus=stiff,
+        pressure=stiff * draw(decades(-5, -2.5)),
+        density=draw(decades(2, 4)),
+        spacing=spacing,
+        thickness=spacing * draw(decades(-0.5, 1)),
+        mu_dynamic=draw(st.floats(0.2, 0.9)),
+    )
+    slip, rate = material.block_load / material.k_s, material.omega_min
+    material = replace(
+        material,
+        law=law,
+        gamma=rate * draw(st.sampled_from([0.0, 1e-3, 0.1, 1.0])),
+        slip_distance=0.3 * slip if law == "slip_weakening" else 0.0,
+        speed_scale=0.3 * slip * rate if law == "velocity_weakening" else 0.0,
+    )
+    integrator = draw(st.sampled_from(list(INTEGRATORS)))
+    step = draw(st.floats(0.02, 0.2)) * limit(integrator, material)
+    material = replace(material, slider_velocity=slip / (LOADING * step))
+    surface = Surface(contact, *draw_friction(shape, seed, material), periodic=periodic)
+    setup = Setup(material, integrator, step, sample_interval=10 * step)
+    return Case(surface, setup, draw(st.floats(0.0, 360.0)))
+
+
+@given(cases())
+def test_energy_closes(case):
+    run, setup = case.run(), case.setup
+    assert Pull(setup.integrator, setup.material, setup.step).keeps_energy(run)
+
+
+@given(cases(), st.booleans())
+def test_a_mirrored_surface_moves_as_the_mirror_image(case, across):
+    """Along x or y, where the direction stays its own mirror image to the last bit."""
+    towards, back = (0.0, 180.0) if across else (0.0, 0.0)
+    flip = (lambda field: field[:, ::-1]) if across else (lambda field: field[::-1])
+    run = case._replace(direction=towards).run()
+    mirrored = Case(moved(case.surface, flip), case.setup, back)
+    assert_moved(run, mirrored.run(), flip, (-1.0, 1.0) if across else (1.0, -1.0))
+
+
+@given(cases(periodic=True), st.tuples(st.integers(0, 8), st.integers(0, 8)))
+def test_a_periodic_surface_has_no_edges(case, shift):
+    def roll(field):
+        return np.roll(field, shift, axis=(0, 1))
+
+    assert_moved(case.run(), case._replace(surface=moved(case.surface, roll)).run(), roll)
+
+
+@given(cases(), st.integers(-20, 20))
+def test_the_unit_of_mass_is_a_convention(case, power):
+    """With E, rho and P multiplied, every force is, and no motion changes by one bit."""
+    factor, of_paper = 2.0**power, case.setup.material
+    scaled = {name: factor * getattr(of_paper, name) for name in ("youngs_modulus", "density")}
+    material = replace(of_paper, **scaled, pressure=factor * of_paper.pressure)
+    run, other = case.run(), case._replace(setup=replace(case.setup, material=material)).run()
+    assert_moved(run, replace(other, force=other.force / factor), lambda field: field)
+    assert other.energy.friction == factor * run.energy.friction
+
+
+@given(cases(), st.integers(1, STEPS // 10 - 1))
+def test_no_bit_depends_on_prelude_cores_or_snapshots(case, sample):
+    surface, setup = case.surface, case.setup
+    how = setup, case.direction, surface.periodic
+    prelude = compute_prelude(surface.contact, *how, mu_static=surface.mu_static)
+    watched = {"snapshot_times": [sample * setup.sample_interval]}
+    runs = [case.run(**options) for options in ({}, watched, watched | {"prelude": prelude})]
+    if setup.integrator == "leapfrog":
+        runs.append(case.run(cores=2))
+    for run in runs[1:]:
+        for name in ("force", "t_det", "switches", "displacement", "velocity"):
+            np.testing.assert_array_equal(getattr(run, name), getattr(runs[0], name))
+        assert run.energy == runs[0].energy
+    np.testing.assert_array_equal(runs[2].snapshots, runs[1].snapshots)
