@@ -14,8 +14,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
+from pyarrow import csv
 from scipy.stats import wilcoxon
 from tqdm import tqdm
 
@@ -60,23 +62,24 @@ class Difference(NamedTuple):
         return f"{self.scene}, {self.observable}: {change}"
 
 
-def ensembles(setup: Setup = DEFAULT) -> pd.DataFrame:
-    """Simulate all ensembles; one row per realisation."""
+def ensembles(setup: Setup = DEFAULT) -> pa.Table:
+    """Simulate all ensembles; one row per realisation, seeds in ascending order."""
     rows = []
     for scene, pattern in SCENES.items():
         prelude = compute_prelude(pattern.contact, setup)
         for seed in tqdm(range(SEEDS), desc=scene, unit="realisation", leave=False):
             surface = Surface.draw(pattern.contact, seed, setup.material)
             run = simulate(surface, setup, prelude=prelude)
-            rows.append((scene, seed, *(getattr(run, name) for name in OBSERVABLES)))
-    return pd.DataFrame(rows, columns=["scene", "seed", *OBSERVABLES])
+            values = {name: getattr(run, name) for name in OBSERVABLES}
+            rows.append({"scene": scene, "seed": seed, **values})
+    return pa.Table.from_pylist(rows)
 
 
-def differences(found: pd.DataFrame) -> Iterator[Difference]:
+def differences(found: pa.Table) -> Iterator[Difference]:
     """Compare ensembles with the recorded ones, seed by seed."""
-    recorded = pd.read_csv(RECORD)
+    tables = found, csv.read_csv(RECORD)
     for scene in SCENES:
-        here, there = (table[table.scene == scene].set_index("seed") for table in (found, recorded))
+        here, there = (table.filter(pc.field("scene") == scene) for table in tables)
         for name in OBSERVABLES:
             yield compare(scene, name, here[name].to_numpy(), there[name].to_numpy())
 
@@ -93,4 +96,4 @@ def compare(
 
 
 if __name__ == "__main__":
-    ensembles().to_csv(RECORD, index=False)
+    csv.write_csv(ensembles(), RECORD, csv.WriteOptions(quoting_style="none"))

@@ -46,7 +46,7 @@ def verify(results: Path | None, other: Path | None, physics: bool) -> None:
 
 def _verify_physics() -> None:
     """Compare ensembles computed here with the recorded ones."""
-    from springblock.accuracy import consistency  # loads pandas and scipy
+    from springblock.accuracy import consistency  # loads numba
 
     found = list(consistency.differences(consistency.ensembles()))
     for each in found:
