@@ -15,6 +15,8 @@
 # make docs     bring the pages in docs up to date with the study
 # make archive  pack the study, code and results, into one file to deposit
 # make redraw   draw all figures and pages again from results at hand, as those of an archive
+# make test-versions  run the tests with the lowest versions that pyproject.toml allows, with the newest
+#               and with pre-releases: half an hour
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml, and
 #               name the known vulnerabilities of what they pin
 # make clean    remove .venv and caches; results/ stays
@@ -29,7 +31,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full test browser test-slurm verify soak mutants bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick full test browser test-slurm test-versions verify soak mutants bench bench-release docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -67,6 +69,18 @@ mutants: setup
 
 test-slurm: setup
 	$(BIN)/python -m tests.slurm
+
+# Without the extras `slurm` and `topography`, which need newer packages than the others do.
+test-versions:
+	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
+	$(PYTHON) -m venv "$$dir/uv" && "$$dir/uv/bin/python" -m pip install --quiet --no-user uv && \
+	for versions in "lowest-direct --prerelease=disallow" highest "highest --prerelease=allow"; do \
+	    echo "Tests with --resolution=$$versions" && $(PYTHON) -m venv --clear "$$dir/venv" && \
+	    "$$dir/uv/bin/uv" pip install --quiet --no-config --python "$$dir/venv" --group dev \
+	        --resolution=$$versions --editable ".[study,mp4]" && \
+	    PATH="$$dir/venv/bin:$$PATH" "$$dir/venv/bin/python" -m pytest --quiet --numprocesses auto \
+	        --dist loadfile --no-loadscope-reorder || exit; \
+	done
 
 # Peers that cannot be installed are rows of the table that say so.
 bench bench-release: setup

@@ -1,6 +1,5 @@
 """The figures of errors against cost show their tables, all of them, without a warning."""
 
-import inspect
 from functools import cache
 from itertools import product
 
@@ -9,7 +8,7 @@ import pandas as pd
 import pytest
 
 from precision import production_rows
-from springblock import simulate
+from springblock import Setup
 from springblock.accuracy import production
 from springblock.accuracy.budget import Bias, choices, study_budget
 from springblock.accuracy.conventions import (
@@ -126,10 +125,10 @@ def test_every_single_run_is_shown(letter, scene):
 
 
 def test_rings_mark_the_default_and_the_paper():
-    default = inspect.signature(simulate).parameters
+    default = Setup()
     rings = [line for line in panel("a").lines if line.get_linestyle() == "None"]
     runs = chosen(table(), comparison="reference", scene="flat", quantity="t_det before horizon")
-    marked = ((default["integrator"].default, default["step"].default), (PLAIN, PAPER_STEP))
+    marked = ((default.integrator, default.step), (PLAIN, PAPER_STEP))
     for ring, (integrator, step) in zip(rings, marked, strict=True):
         row = chosen(runs, integrator=integrator, step=step)
         assert ring.get_xydata().tolist() == row[["force_evaluations", "error"]].values.tolist()
@@ -156,8 +155,8 @@ def test_biases_at_full_size_are_shown_where_a_study_has_them(letter, scene):
     ax = panel(letter, "work_precision at full size")
     shown = chosen(production_table(), scene=scene, quantity="static_friction").sort_values("step")
     (full,) = (bars for bars in ax.containers if bars.lines[0].get_marker() == "D")
-    assert full.lines[0].get_xdata() == pytest.approx(1e9 * shown.step[1:])  # the finest has none
-    assert full.lines[0].get_ydata() == pytest.approx(100.0 * shown.bias[1:] / 50.0)
+    assert np.array(full.lines[0].get_xdata()) == pytest.approx(1e9 * shown.step[1:])  # the finest has none
+    assert np.array(full.lines[0].get_ydata()) == pytest.approx(100.0 * shown.bias[1:] / 50.0)
     half = 100.0 * half_width(10.0 / 50.0, ENSEMBLE)
     assert ax.patches[1].get_height() == pytest.approx(2.0 * half)
 

@@ -50,7 +50,7 @@ def rows_to_table(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Ta
 
 
 def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
-    """Return `pa.array(values, kind)`, without the import of pandas that it entails."""
+    """Return `pa.array(values, kind)`, without importing pandas as that does."""
     if pa.types.is_list(kind):
         offsets = _array(np.cumsum([0, *map(len, values)]), pa.int32())
         return pa.ListArray.from_arrays(
@@ -62,7 +62,7 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
         return pa.Array.from_buffers(
             kind, len(text), [None, *map(pa.py_buffer, (offsets, b"".join(text)))]
         )
-    numbers = np.asarray(values, dtype=kind.to_pandas_dtype())
+    numbers = np.asarray(values, dtype=str(kind))  # "double", "int64", "int32" or "bool"
     packed = np.packbits(numbers, bitorder="little") if pa.types.is_boolean(kind) else numbers
     return pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(packed)])
 

@@ -237,6 +237,8 @@ def _measured(
     """
     if not file.is_file():
         raise ValueError(f"{file} does not exist")
+    if file.stat().st_size > _BYTES:
+        raise ValueError(f"{file} is too large; a topography may have at most {_BYTES} bytes")
     try:
         from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import ReadFileError
@@ -244,8 +246,6 @@ def _measured(
         raise ValueError(
             f"to read {file} install SurfaceTopography: pip install 'springblock[topography]'"
         ) from None
-    if file.stat().st_size > _BYTES:
-        raise ValueError(f"{file} is too large; a topography may have at most {_BYTES} bytes")
     no_units = f"{file} must contain the size of the surface and its unit of length"
     try:
         with open_topography(file) as reader:
