@@ -196,4 +196,4 @@ def test_preludes_and_checkpoints_are_read_that_way(tmp_path):
     with pytest.raises(ValueError, match=r"trap.npz is not a prelude"):
         Prelude.read(trap)
     with pytest.raises(ValueError, match=r"trap.npz is not a checkpoint: Object arrays cannot be"):
-        Checkpoint(trap, 1.0, {}).restore(None)
+        Checkpoint(trap, 1.0, {}).resume(None)

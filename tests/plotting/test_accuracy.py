@@ -155,7 +155,7 @@ def test_biases_at_full_size_are_shown_where_a_study_has_them(letter, scene):
     ax = panel(letter, "work_precision at full size")
     shown = chosen(production_table(), scene=scene, quantity="static_friction").sort_values("step")
     (full,) = (bars for bars in ax.containers if bars.lines[0].get_marker() == "D")
-    assert np.array(full.lines[0].get_xdata()) == pytest.approx(1e9 * shown.step[1:])  # the finest has none
+    assert np.array(full.lines[0].get_xdata()) == pytest.approx(1e9 * shown.step[1:])
     assert np.array(full.lines[0].get_ydata()) == pytest.approx(100.0 * shown.bias[1:] / 50.0)
     half = 100.0 * half_width(10.0 / 50.0, ENSEMBLE)
     assert ax.patches[1].get_height() == pytest.approx(2.0 * half)
