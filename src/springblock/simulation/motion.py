@@ -101,9 +101,9 @@ class Motion:
                 f"(y, x) = ({row}, {column}) has collapsed to less than half its length, grown "
                 "to more than twice, or become NaN"
             )
-        self.skip(taken)
+        self.append(taken)
 
-    def skip(self, taken: Samples) -> None:
+    def append(self, taken: Samples) -> None:
         """Append samples that lead to the current state."""
         self.samples += len(taken.force_x)
         self.record.append(taken)

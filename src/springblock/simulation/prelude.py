@@ -101,7 +101,7 @@ class Prelude:
         state.ledger[:] = self.ledger[last]
         skipped = int(self.samples[last])
         force_x, force_y = self.force[:, :skipped].copy()
-        motion.skip(Samples(force_x, force_y, np.zeros(skipped, np.int64)))
+        motion.append(Samples(force_x, force_y, np.zeros(skipped, np.int64)))
 
 
 def _apart(part: Any) -> NDArray[Any]:
