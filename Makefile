@@ -7,7 +7,7 @@
 #               on Debian, a quarter of an hour
 # make bench    measure how fast it is, against C and LAMMPS: one table in some two and a half minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
-# make full     the whole study, on which the pages in docs rest: some four CPU hours
+# make full     the whole study, on which the pages in docs rest: two hours on two cores
 # make verify   hold results/ against its checksums and the code of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same
 # make mutants  put 300 errors into copies of the code, one into each, and count those that the tests
