@@ -16,7 +16,7 @@
 # make archive  pack the study, code and results, into one file to deposit
 # make redraw   draw all figures and pages again from results at hand, as those of an archive
 # make test-versions  run the tests with the lowest versions that pyproject.toml allows, with the newest
-#               and with pre-releases: half an hour
+#               and with pre-releases: some 40 minutes
 # make lock     renew both lock files, for instance after changing a dependency in pyproject.toml, and
 #               name the known vulnerabilities of what they pin
 # make clean    remove .venv and caches; results/ stays

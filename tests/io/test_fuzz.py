@@ -23,7 +23,7 @@ READERS: dict[str, Callable[[Path], object]] = {
     "mask.bmp": BlockMap.mask,
     "coefficients.npy": BlockMap.coefficients,
 }
-#: A place in the file, more often in its header; then a byte, or the number of bytes that go.
+#: A place in the file, often in its header; a new byte, or minus the number of bytes to remove.
 DAMAGE = st.tuples(
     st.one_of(st.integers(0, 127), st.integers(0, 10**5)),
     st.one_of(st.integers(0, 255), st.integers(-8, -1)),

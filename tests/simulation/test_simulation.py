@@ -106,6 +106,15 @@ def test_coefficients_and_masks_may_have_any_numeric_type():
         assert (numbers.contact == contact).all()
 
 
+def test_a_surface_keeps_what_was_checked():
+    """The arrays that it was made of may change afterwards."""
+    contact, mu_static = np.ones((2, 2), bool), np.ones((2, 2))
+    surface = Surface(contact, mu_static, 0.6)
+    contact[:], mu_static[:] = False, np.nan
+    assert surface.contact.all()
+    assert (surface.mu_static == 1.0).all()
+
+
 # --- when a run ends
 
 

@@ -52,7 +52,7 @@ class Difference(NamedTuple):
 
     @property
     def is_significant(self) -> bool:
-        """Whether rounding is no explanation, at a joint level of 1 % (Bonferroni)."""
+        """Whether rounding cannot explain the difference, at a joint level of 1 % (Bonferroni)."""
         return self.p_value < LEVEL / (len(SCENES) * len(OBSERVABLES))
 
     def __str__(self) -> str:

@@ -18,8 +18,8 @@ FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 @click.option(
     "--physics",
     is_flag=True,
-    help="Compare small ensembles, computed here in seconds, with recorded ones instead: whether "
-    "this processor and these packages change more than rounding.",
+    help="Simulate small ensembles, in seconds, and compare them with recorded ones, to find out "
+    "whether this processor and these packages change more than rounding.",
 )
 def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     """Check a folder of RESULTS against its checksums and the current code.

@@ -74,14 +74,14 @@ class Surface:
 
 
 def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
-    """Return contact as an array of bool, (N_y, N_x), converted from 0 and 1 if necessary.
+    """Return a copy of contact as bool, (N_y, N_x), converted from 0 and 1 if necessary.
 
     Raises
     ------
     TypeError, ValueError
         If it is not a mask of at most `MAX_BLOCKS` blocks a side with at least one in contact.
     """
-    mask = np.asarray(contact)
+    mask = np.array(contact)
     if mask.dtype != np.bool_:
         if mask.dtype.kind not in "iu":
             raise TypeError(f"contact must be an array of bool, or of 0 and 1, not of {mask.dtype}")
