@@ -99,12 +99,19 @@ def lattices(
     return found
 
 
-def grooves(angles: dict[str, float], n_p: int = 0, runs: int = 6) -> dict[Scene, list[Record]]:
-    """Grooves whose force has a lesser peak as high as given, by sliding direction."""
+def grooves(
+    angles: dict[str, float], n_p: int = 0, runs: int = 6, scatter: float = 0.0
+) -> dict[Scene, list[Record]]:
+    """Grooves whose force has a lesser peak as high as given, by sliding direction.
+
+    The height scatters from seed to seed, by the same in all directions.
+    """
     lengths = {"n_p": n_p, "n_s": 36 - n_p if n_p else 0, "n_p2": 4, "n_s2": 2}
     return {
         (scene := Scene(36, **lengths, direction=direction)): ensemble(
-            scene, runs=runs, hills=lambda rng, height=height: [(60.0, height)]
+            scene,
+            runs=runs,
+            hills=lambda rng, height=height: [(60.0, height + scatter * rng.uniform(-1.0, 1.0))],
         )
         for direction, height in angles.items()
     }

@@ -6,7 +6,7 @@ import pytest
 from beyond.made_up import ensemble
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import UNCHANGED, direction, number
-from springblock.beyond.resampling import difference, interval, side_length
+from springblock.beyond.resampling import interval, side_length
 from springblock.model.scene import Scene
 
 
@@ -16,7 +16,7 @@ def test_intervals_cover_as_often_as_they_say():
     hits, trials, true = 0, 200, 0.5
     for _ in range(trials):
         samples = rng.normal(1.5, 1.0, 20), rng.normal(1.0, 0.5, 30)
-        found = difference(*samples)
+        found = interval(samples, np.mean, lambda means: means[..., 0] - means[..., 1])
         hits += bool(found.low <= true <= found.high)
     assert 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / trials) - 0.02 < hits / trials < 0.995
 

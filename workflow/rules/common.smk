@@ -1,6 +1,6 @@
 # The configuration, checked and expanded, and what several steps ask of it.
 
-import atexit
+import logging
 import os
 import re
 import shutil
@@ -10,9 +10,11 @@ import time
 from itertools import chain
 from pathlib import Path
 from shlex import quote
+from types import SimpleNamespace
 
 import yaml
 from snakemake.exceptions import WorkflowError
+from snakemake_interface_logger_plugins.common import LogEvent
 
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
@@ -92,7 +94,7 @@ def duration(wildcards):
 
 def runs_of(wildcards):
     """Number of runs of a job; a prelude counts as one."""
-    return len(seeds(wildcards)) if "batch" in wildcards.keys() else 1
+    return len(seeds(wildcards)) if hasattr(wildcards, "batch") else 1
 
 
 def work(wildcards):
@@ -117,25 +119,32 @@ def minutes(wildcards, attempt):
     return attempt * cost.minutes(*work(wildcards))
 
 
-def expected(job):
+class Announced(logging.Handler):
+    """Times of the jobs that Snakemake announces to its loggers; a dry run ends with their sum."""
+
+    def __init__(self):
+        super().__init__()
+        self.times = []
+
+    def emit(self, record):
+        if getattr(record, "event", None) == LogEvent.JOB_INFO:
+            self.times.append(expected(record.rule_name, SimpleNamespace(**record.wildcards)))
+
+    def close(self):
+        super().close()
+        if self.times and workflow.dryrun:
+            print(f"These jobs take {cost.in_words(self.times, workflow.cores)}.", file=sys.stderr)
+
+
+def expected(rule, wildcards):
     """CPU time in s that a job is expected to take."""
-    if job.rule.name in ("prelude", "simulate_batch"):
-        return cost.expected(*work(job.wildcards))
-    return cost.expected_of(job.rule.name)
-
-
-def tell_time():
-    """Print after a dry run, which calls none of Snakemake's hooks, how long its jobs will take."""
-    if not workflow.dryrun:
-        return
-    # a dry run counts the jobs that it has listed as finished
-    jobs = workflow.dag.needrun_jobs(exclude_finished=False)
-    if times := [expected(job) for job in jobs]:
-        print(f"These jobs take {cost.in_words(times, workflow.cores)}.", file=sys.stderr)
+    if rule in ("prelude", "simulate_batch"):
+        return cost.expected(*work(wildcards))
+    return cost.expected_of(rule)
 
 
 if workflow.is_main_process:
-    atexit.register(tell_time)
+    logging.getLogger("snakemake.logging").addHandler(Announced())
 
 
 def begin():

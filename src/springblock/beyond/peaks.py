@@ -7,10 +7,11 @@ import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval, prominence
 from springblock.beyond.question import Ensembles, grouped, number
-from springblock.beyond.resampling import difference
+from springblock.beyond.resampling import interval
+from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.direction import degrees
-from springblock.simulation.run import Array, Run, friction
+from springblock.simulation.run import friction
 
 NEEDS = "groups peaks and grooves"
 
@@ -23,19 +24,29 @@ class Grooves(NamedTuple):
     n_p2: int
 
 
-def prominences(runs: Sequence[Run]) -> Array:
-    """Prominence of the lesser load peak of each realisation, % of its largest force, (k,)."""
-    return np.array([100.0 * prominence(friction(run)) for run in runs])
+#: Prominence of the lesser load peak of each realisation, % of its largest force, by seed.
+Prominences = dict[int, float]
 
 
-def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Array]]:
-    """Prominences in %, by widths and by the angle between sliding and grooves.
+def prominences(runs: Sequence[Record]) -> Prominences:
+    """Return the prominence of the lesser load peak of each realisation."""
+    return {run.seed: 100.0 * prominence(friction(run)) for run in runs}
 
-    Of grooves alone and grooves on pillars, of the study's material.
+
+def mean(found: Prominences) -> Interval:
+    """Return the mean prominence, %."""
+    return mean_interval(list(found.values()))
+
+
+def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Prominences]]:
+    """Prominences by widths and by the angle between sliding and grooves.
+
+    Of grooves alone and grooves on pillars, of the study's material; on surfaces of several sizes,
+    those with the most realisations.
     """
     found = grouped(
         (Grooves(scene.n_p, scene.n_s2, scene.n_p2), degrees(scene.direction), prominences(runs))
-        for scene, runs in ensembles.items()
+        for scene, runs in sorted(ensembles.items(), key=lambda item: len(item[1]))
         if scene.n_p2 and not scene.n_p3 and not scene.varied
     )
     return dict(sorted(found.items()))
@@ -47,17 +58,17 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if not found:
         return
     shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
-    contrasts = {key: difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
+    contrasts = {key: _difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
     more, less = _significant(list(contrasts.values()))
-    most = max(found, key=lambda key: float(found[key][0.0].mean()))
+    most = max(found, key=lambda key: float(mean(found[key][0.0]).mean))
     yield (
         f"**The lesser load peak is more prominent when sliding along the grooves than across "
         f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. It is most "
         f"prominent with pawls of {most.n_p2} and grooves of {most.n_s2} blocks: "
-        f"{number(mean_interval(found[most][0.0]), ' %')} of the largest force."
+        f"{number(mean(found[most][0.0]), ' %')} of the largest force."
     )
     pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
-    on_pillars = [difference(on[0.0], off[0.0]) for on, off in pairs if off]
+    on_pillars = [_difference(on[0.0], off[0.0]) for on, off in pairs if off]
     if on_pillars:
         more, less = _significant(on_pillars)
         yield (
@@ -68,9 +79,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
     for key, angles in found.items():
-        values = [number(mean_interval(angles[angle])) for angle in shown]
+        values = [number(mean(angles[angle])) for angle in shown]
         lines.append([*map(str, key), *values, number(contrasts[key])])
     yield markdown_table(header, lines)
+
+
+def _difference(first: Prominences, second: Prominences) -> Interval:
+    """Return the mean difference over seeds that both have, with the same friction coefficients."""
+    apart = [first[seed] - second[seed] for seed in first if seed in second]
+    return interval([np.array(apart)], np.mean)
 
 
 def _significant(differences: Sequence[Interval]) -> tuple[int, int]:

@@ -47,11 +47,6 @@ def interval(
     return samples_interval(samples, of_all, _RESAMPLES, batch=100)
 
 
-def difference(first: Array, second: Array) -> Interval:
-    """Mean of one sample minus that of another, with its 95 % interval."""
-    return interval((first, second), np.mean, lambda means: means[..., 0] - means[..., 1])
-
-
 def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
     """Decay length along the sides of pillars, blocks: from r = 1 to a third of a side.
 

@@ -22,7 +22,6 @@ from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
 from springblock.plotting import curves, style
 from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
-from springblock.simulation.run import Array
 
 Folders = Mapping[str, Sequence[Record]]  #: realisations by the folder of their scene
 
@@ -212,7 +211,8 @@ def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
 def beyond_peaks(ensembles: Folders) -> Figure:
     """Draw a map of the lesser peak for each width of grooves, with pillars and without."""
     found = peaks.by_grooves(_by_scene(ensembles))
-    largest = max(float(v.mean()) for angles in found.values() for v in angles.values())
+    every = [each for angles in found.values() for each in angles.values()]
+    largest = max(float(peaks.mean(each).mean) for each in every)
     widths = sorted({key.n_s2 for key in found})
     letters = ";".join(_LETTERS[: len(widths)])
     picture, panels = style.panels(style.ONE_AND_A_HALF, 6.0 + 55.0 * len(widths), letters)
@@ -229,10 +229,13 @@ def beyond_peaks(ensembles: Folders) -> Figure:
 
 
 def _draw_peaks(
-    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Array]], largest: float
+    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, peaks.Prominences]], largest: float
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
-    means = {key.n_p2: {at: v.mean() for at, v in each.items()} for key, each in part.items()}
+    means = {
+        key.n_p2: {angle: float(peaks.mean(each).mean) for angle, each in angles.items()}
+        for key, angles in part.items()
+    }
     cells = DataFrame(means).sort_index().T.sort_index(ascending=False)  # by pawl and angle
     cells.columns = [f"{angle:g}" for angle in cells]
     look: Look = {"cmap": _COLORS, "vmin": 0.0, "vmax": largest, "cbar": False}
