@@ -176,19 +176,18 @@ CHANGES = [
     ("anisotropy_needed", [SQUARE], two_peaks, REFUTED),
     ("quiet_between_peaks", [ALONG], steady, REFUTED),
     ("edges_make_first_peak", [ALONG], mirrored, REFUTED),
-    ("stick_slip", [ALONG], calm, REFUTED),
+    ("slips_again", [ALONG], calm, REFUTED),
     ("second_peak_decides", [ALONG], peaks((220.0, 0.65), (300.0, 0.60)), REFUTED),
     ("rest_between_peaks", [ALONG], mirrored, REFUTED),
     ("stressed_between_peaks", [ALONG], constant("mu_dynamic", 0.66), REFUTED),
     ("small_force_suffices", [ALONG], two_peaks, REFUTED),
-    ("small_force_suffices", [ALONG], constant("mu_dynamic", 0.60), PARTLY),
-    ("rapid_but_smooth", [ALONG], peaks((300.0, 0.60), width=1.0), PARTLY),
+    ("rapid_but_smooth", [ALONG], peaks((300.0, 0.60), width=1.0), REFUTED),
     ("edges_before_core", [ALONG, ACROSS], mirrored, REFUTED),
     ("grooved_order", [ALONG], mirrored, REFUTED),
     ("across_sticks_better", [BARE_ALONG], sticking(0.80), REFUTED),
     ("faster_along", [BARE_ACROSS], at_once, REFUTED),
     ("number_of_fronts", [FEW[0], MANY[0]], without_fronts, REFUTED),
-    ("onset_in_any_case", MANY[1:2], delayed, REFUTED),
+    ("onset_in_any_case", MANY[1:2], shifted(9), REFUTED),
     ("damping", [FLAT], constant("gamma", 5e3), REFUTED),
     ("same_ratio", [STIFF], sticking(0.70), REFUTED),
     ("same_ratio", [STIFF], shifted(9), REFUTED),
@@ -220,7 +219,6 @@ FACTORS = [
     ("same_length", 0.4, {"n_p": 58}, REFUTED),
     ("same_shape", 0.2, {"n_p": 58, "r": 4}, REFUTED),
     ("uncorrelated_across", 30.0, {"r": 1, "direction": "y"}, REFUTED),
-    ("uncorrelated_across", 5.0, {"r": 1, "direction": "y"}, PARTLY),
 ]
 
 #: Claim, and what makes another stress of that before the first detachment on each scene.
@@ -273,9 +271,9 @@ def test_few_blocks_of_very_large_pillars_detach_early(name, share, expected):
 
 
 def test_the_springs_of_the_slider_are_those_of_half_the_layer():
-    found = list(BY_NAME["shear_springs"].test(paper.evidence(records()[:1])))
-    assert [each.estimate.value for each in found] == pytest.approx([2.0, 1.0])
-    assert [each.outcome() for each in found] == ["fails", "holds"]
+    (found,) = BY_NAME["shear_springs"].test(paper.evidence(records()[:1]))
+    assert found.estimate.value == pytest.approx(2.0)
+    assert found.outcome() == "fails"
 
 
 @pytest.mark.parametrize("inside", [1, 36])
@@ -291,10 +289,10 @@ def test_blocks_under_equal_stress_do_not_weaken_the_order(inside, rng):
 def test_where_two_sizes_may_have_the_lowest_friction_neither_speaks_against_the_other(monkeypatch):
     """What holds wherever it is lowest stays; what one of the two alone would refute is open."""
     evidence = paper.evidence(records())
-    known = {f.case["n_p"]: f.outcome() for f in BY_NAME["roundest_peak"].test(evidence)}
+    known = {f.case["n_p"]: f.outcome() for f in BY_NAME["most_precursors"].test(evidence)}
     assert set(known.values()) == {"holds"}
     monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, scenes: scenes[:2])
-    found = {f.case["n_p"]: f for f in BY_NAME["roundest_peak"].test(evidence)}
+    found = {f.case["n_p"]: f for f in BY_NAME["most_precursors"].test(evidence)}
     assert len(found) == len(known) + 1  # the lowest itself as well
     may_be_lowest = list(found.values())[:2]
     assert all(np.isinf(each.estimate.ci_high) for each in may_be_lowest)
@@ -311,11 +309,11 @@ def test_a_slope_is_as_certain_as_its_surfaces_are_alike(rise, outcome, rng):
     assert Finding({}, "slope", found, (0.0, np.inf), "").outcome() == outcome
 
 
-@pytest.mark.parametrize(("pawls", "expected"), [(5, ["holds", "fails"]), (11, ["fails", "holds"])])
-def test_edges_are_half_of_narrow_pawls_or_where_they_are_broad_themselves(pawls, expected):
+@pytest.mark.parametrize(("pawls", "expected"), [(5, "holds"), (11, "fails")])
+def test_edges_are_half_of_narrow_pawls(pawls, expected):
     scenes = [Scene(paper.N, 23, 25, pawls, 1, direction=direction) for direction in "xy"]
-    found = BY_NAME["equal_parts"].test(Evidence(stress=dict.fromkeys(scenes, np.ones(0))))
-    assert [each.outcome() for each in found] == expected
+    (found,) = BY_NAME["equal_parts"].test(Evidence(stress=dict.fromkeys(scenes, np.ones(0))))
+    assert found.outcome() == expected
 
 
 @pytest.mark.parametrize(("lowest", "expected"), [(1, "reproduced"), (2, PARTLY)])

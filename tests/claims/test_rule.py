@@ -218,11 +218,12 @@ def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypat
 
 
 def test_every_statement_is_as_registered():
-    """Every statement is in the register, in its form; reasons are for statements that exist."""
+    """Each is in the register; one in another form has a reason, and reasons have a statement."""
     judged, names = register.verdicts(), {claim.name for claim in CLAIMS}
     assert names <= set(judged)
     assert set(register.reasons()) <= names
-    assert all(claim.form == judged[claim.name]["form"] for claim in CLAIMS)
+    others = {claim.name for claim in CLAIMS if claim.form != judged[claim.name]["form"]}
+    assert others <= set(register.reasons())
 
 
 @pytest.mark.parametrize("direction", ["x", "y"])

@@ -47,7 +47,7 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     earlier, parts = register.verdicts(), []
-    header = ["statement", "form", "verdict", "earlier seeds", "1.0.0"]
+    header = ["statement", "form", "verdict", "registered test", "earlier seeds", "1.0.0"]
     header += ["deciding finding", "claimed"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
@@ -55,7 +55,8 @@ def _contents(numbered: Sequence[Part]) -> list[str]:
             first, heading = part[0], f"{number}. {part[0]['claim']}"
             before = earlier.get(first["claim"], {})
             link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
-            old = [before.get(name, "") or "–" for name in ("verdict", "verdict_1_0_0")]
+            names = ("confirmed", "verdict", "verdict_1_0_0")
+            old = [before.get(name, "") or "–" for name in names]
             found = _deciding(part)
             said, claimed = _missing(first), "–"
             if found:

@@ -1,7 +1,8 @@
 """The register of statements, written before the run on fresh seeds that judges them.
 
 `register.csv` is the table `claims` of earlier seeds, in the words of its day, with the verdicts on
-these seeds and those of version 1.0.0, which had another rule. Statements are matched by name.
+these seeds and those of version 1.0.0, which had another rule; `confirmed.csv` has the verdicts of
+the registered tests on the fresh seeds. Statements are matched by name.
 """
 
 import csv
@@ -23,13 +24,21 @@ def reasons() -> dict[str, str]:
 
 def registered() -> list[Row]:
     """Return the rows of the register, all as text."""
-    with (_FOLDER / "register.csv").open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return _rows("register.csv")
 
 
 def verdicts() -> dict[str, Row]:
-    """Return a row of each registered statement, with its earlier verdicts."""
-    return {row["claim"]: row for row in registered()}
+    """Return a row of each registered statement, with its earlier verdicts.
+
+    That of the registered test on the fresh seeds is `confirmed`.
+    """
+    fresh = {row["claim"]: row["verdict"] for row in _rows("confirmed.csv")}
+    return {row["claim"]: row | {"confirmed": fresh[row["claim"]]} for row in registered()}
+
+
+def _rows(name: str) -> list[Row]:
+    with (_FOLDER / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def changes(table: Sequence[Row]) -> str:

@@ -170,18 +170,11 @@ _PHRASES = {
     "side": "on {}",
     "sides": "on sides {}",
     "sliding": "sliding {}",
-    "before": "before {}",
     "interval": "in {}",
-    "measure": "for the {} of the stress",
-    "small against": "against {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
     "fit": "for the fit of {}",
-    "sheared": "if {} is sheared",
-    "edge": "for an edge {}",
-    "transition": "for a {} transition",
-    "bound": "for a bound of {}",
     "third level": "with third-level {}",
 }
 

@@ -211,13 +211,13 @@ def lasting(run: Run) -> float:
     return float(late - early) / run.t_max
 
 
-def isolated(run: Run, until: float = 1.0) -> float:
-    """Return the share of blocks detached before `until` t_max while all neighbours were at rest.
+def isolated(run: Run) -> float:
+    """Return the share of blocks detached before t_max while all neighbours were at rest.
 
     Blocks that never detach, NaN, count as resting.
     """
     alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
-    return share_of(alone, run.t_det < until * run.t_max)
+    return share_of(alone, run.t_det < run.t_max)
 
 
 def share_of(blocks: Mask, among: Mask) -> float:

@@ -151,17 +151,16 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """The detachment times of two points on the same pillar side “have the same average value”.
 
-    Tested: position explains less than a fifth of the variance of t_det on a side, along the
-    sliding direction and across it. Corners detach early, and so do the blocks next to them on
-    sides along it: one block is left out at either end, or three.
+    Tested: position explains less than a fifth of the variance of t_det on a side without its
+    corners, along the sliding direction and across it. Without three blocks at either end the
+    statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
-    ends = ((1, "one block"), (3, "three blocks"))
     for scene, runs in pillars(evidence.records, _BROAD).items():
-        for side, (end, without) in product("xy", ends):
-            times = side_times(runs, scene.pattern, side)[:, 0, 0, end:-end]  # of the first pillar
+        for side in "xy":
+            times = side_times(runs, scene.pattern, side)[:, 0, 0, 1:-1]  # of the first pillar
             found = Estimate.of(repeatability(times), len(runs))
-            case = {"sides": f"along {side} without {without} at each end", **case_of(scene)}
+            case = {"sides": f"along {side}", **case_of(scene)}
             yield found_on(scene, statistic, found, ranges.ALIKE, case=case)
 
 
@@ -320,17 +319,16 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """“[...] if the sliding direction is along the y-axis, most of the precursors are uncorrelated
     [...].”
 
-    Tested: c(r = 1) on external sides and along the grooves is zero to within 0.05 (no
-    correlation), or below 1/e (over less than a block). Findings are the same for any bound from
-    0.23 to 0.5 in place of 1/e; sliding along the grooves exceeds all of these.
+    Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
+    the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
+    sliding along the grooves exceeds; c(r = 1) is not zero.
     """
-    scenes, bounds = slid_both_ways(evidence.correlation), {"0.05": within(_EXACT), "1/e": _DECAYED}
-    for bound, scene, side in product(bounds, scenes, _SIDES):
+    for scene, side in product(slid_both_ways(evidence.correlation), _SIDES):
         for row in select(evidence.correlation[across(scene)], side=side, r=1):
             yield Finding(
-                {"bound": bound, **case_of(scene)},
+                case_of(scene),
                 f"c(r = 1) on {_SIDES[side]} when sliding across the grooves",
                 interval(row, "correlation"),
-                bounds[bound],
+                _DECAYED,
                 in_rows("correlation", across(scene), side=side, r=1),
             )
