@@ -50,8 +50,8 @@ are pooled. Compare ensembles only: on patterned surfaces single runs diverge be
 at any step.
 """
 
-_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} one. The
-mean that is known best, static friction on pillars of {n_p} blocks, has a statistical error of
+_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} of the two.
+The most precise mean, static friction on pillars of {n_p} blocks, has a statistical error of
 {statistical:.5f} over {count} realisations. The numerical error, measured on pillars of 20 blocks
 only, is up to {numerical:.5f}.
 """
