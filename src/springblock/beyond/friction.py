@@ -134,9 +134,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         f"what contact fraction explains, and contact fraction {contact} beyond what size "
         f"explains (difference: {more})."
     )
-    add_up = "the effects add up to within the scatter"
+    add_up = "the effects are additive within the scatter"
     if (left**2).sum() / scatter**2 > chdtri(freedom, _LEVEL):
-        add_up = "the effects of size and contact fraction do not simply add up"
+        add_up = "the effects of size and contact fraction are not additive"
     yield (
         f"The sum of both factors explains {both}. Its residuals have a root mean square of "
         f"{rms:.4f} (over {freedom} degrees of freedom), and the standard error of the means is "

@@ -256,9 +256,9 @@ def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
         "in some cases": some,
         "in no case": none,
     }
-    of_lattice = "; ".join(f"{how}, {_grouped(names)}" for how, names in cases.items() if names)
+    of_lattice = "; ".join(f"{_grouped(names)} ({how})" for how, names in cases.items() if names)
     return (
-        f"**Refining the lattice changes**, {of_lattice}. **A thicker layer changes** "
+        f"**Refining the lattice changes** {of_lattice}. **A thicker layer changes** "
         f"{_grouped(layer) or 'none of these'}."
     )
 
