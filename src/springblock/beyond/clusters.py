@@ -30,7 +30,7 @@ def precursors(run: Record) -> Mask:
 
 
 def shuffled(detached: Mask, contact: Mask, rng: np.random.Generator) -> Mask:
-    """Return as many blocks, drawn at random from those in contact, (N, N)."""
+    """Return the same number of blocks, drawn at random from those in contact, (N, N)."""
     drawn = np.zeros_like(detached)
     drawn[contact] = rng.permutation(detached[contact])
     return drawn
@@ -46,8 +46,8 @@ class Clusters(NamedTuple):
 
     share: Interval  #: of the blocks in contact that detach before t_max
     observed: Interval  #: mean size, blocks
-    ratio: Interval  #: of that to the size if as many blocks were anywhere in contact
-    ratio_mixed: Interval  #: if they were in the same places, each from another realisation
+    ratio: Interval  #: of that to the size for as many blocks anywhere in contact
+    ratio_mixed: Interval  #: the same for blocks in the same places, each from another realisation
 
 
 def clusters(runs: Sequence[Record]) -> Clusters:
