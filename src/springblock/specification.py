@@ -27,7 +27,7 @@ from springblock.simulation.setup import DEFAULT, Setup
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-#: State variables of the blocks that slide, by name, (N_y, N_x) each.
+#: State variables of sliding blocks by name, (N_y, N_x) each.
 Memory = dict[str, Array]
 
 #: Neighbours of a block, as offsets along y and x.
@@ -136,7 +136,7 @@ def slip_weakening(
     step: float,
     slip_distance: float,
 ) -> Array:
-    """Linear weakening over d_c; at once if a step from rest slips beyond d_c."""
+    """Linear weakening over d_c; complete at once if a step from rest slips beyond d_c."""
     d_c, drop = slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
     at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= d_c)
     return mu_dynamic + drop * np.where(at_once, 0.0, np.maximum(1.0 - slip / d_c, 0.0))
@@ -205,8 +205,8 @@ def resistance(
 ) -> Array:
     """Velocity T that friction removes in one step, at the mean speed V = speed + share T.
 
-    Of several solutions V the largest, which a decelerating block reaches first. T is infinite if
-    there is no solution: the block stops. If friction increases with V, the solution is unique.
+    Of several solutions V the largest is taken, which a decelerating block reaches first. Without a
+    solution T is infinite: the block stops. If friction increases with V, the solution is unique.
     """
     law, surface = problem.law, problem.surface
     own = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
@@ -300,7 +300,7 @@ def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
 
 
 def _share_of_end(problem: Problem, tau: float, memory: Memory, speed: Array) -> Array:
-    """Weight of the velocity after a step in the one at which friction is evaluated.
+    """Weight of the velocity after a step in the velocity at which friction is evaluated.
 
     1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
     """
@@ -382,7 +382,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
 def _direction(problem: Problem, force: Array, v: Array, friction: Array, released: Mask) -> Array:
     """Unit vectors e: of the velocity in the middle of the step, or of the force at a release.
 
-    Under weakening laws the velocity in the middle of the step is the implicit one.
+    Under weakening laws, the velocity in the middle of the step solves the implicit equation.
     """
     m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -41,7 +41,7 @@ def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_c
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
     made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
     conclusion, table = clusters.answers(made)
-    assert "on 1 of 1 surfaces compared with blocks in the same places, and on 1 " in conclusion
+    assert "blocks in the same places on 1 of 1 surfaces, and larger than with " in conclusion
     assert conclusion.endswith("(surface: flat).")
     assert "| flat |" in table
 

@@ -28,7 +28,7 @@ def written() -> str:
         "µm**: friction is lowest at n_p = 20, the largest computed; none of the simpler",
         "changes friction by 16.7 [16.6, 16.7] %, overshoot by -7.1 [-",
         "overshoot raises friction for no case",
-        "lies 2.4 [2.4, 2.4] % below the last of them",  # mean of -0.3, -0.2 and 7.7 %
+        "lies 2.4 [2.4, 2.4] % below the model with overshoot",  # mean of -0.3, -0.2 and 7.7 %
         "Friction is 0.800 [0.798, 0.802] with stress alone",
         # predictions; surfaces that they were chosen on do not count
         "| the paper's, along | 1 | 1 | 0 | 0 |",
@@ -37,8 +37,8 @@ def written() -> str:
         "| the paper's | 4 | 2 | 3 | 2 | | other | 2 | 1 | 1 | 2 | | all | 6 | 3 | 4 | 4 |",
         "right less often than the rule.** With the paper's constants, 1 % lies within the "
         "measured interval in 2 of its 2 misses",
-        "Of the 1 cases with two peaks across the grooves it finds none",
-        "are measured for pawls of 7 blocks, one for pawls of 12",
+        "It predicts none of the 1 cases with two peaks across the grooves",
+        "are measured for pawls of 7 blocks, and one for pawls of 12",
         # edges are a quarter of the blocks: 0.2 of the normal force is 0.8 F_n on each
         "| along | full model | 0.80 [",
         "| 300 [300, 300] | 0.40 [",

@@ -1,4 +1,4 @@
-"""The page on numerical errors; every number in it comes from the tables."""
+"""The page on numerical errors, from its templates and the tables."""
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import product
@@ -30,7 +30,7 @@ from springblock.model.material import Material
 _PAGE = Path(__file__).with_name("page.md")
 _FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the study's own ensembles
 
-#: The opening and the same section for a study without errors at full size.
+#: Opening, and the section on full size, of a study without errors at full size.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
 by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standard error of a mean
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
@@ -50,8 +50,8 @@ are pooled. Compare ensembles only: on patterned surfaces single runs diverge be
 at any step.
 """
 
-_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} one. The
-mean that is known best, static friction on pillars of {n_p} blocks, has a statistical error of
+_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} of the two.
+The most precise mean, static friction on pillars of {n_p} blocks, has a statistical error of
 {statistical:.5f} over {count} realisations. The numerical error, measured on pillars of 20 blocks
 only, is up to {numerical:.5f}.
 """
@@ -69,10 +69,10 @@ _QUANTITIES = (*MEANS, DELAY, LENGTH)
 _PLAIN = ("force", *MEANS, "t_det before horizon")
 _SINGLE = (*_PLAIN, "order", "resolution")
 _LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
-_COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: what else the default might be
+_COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: alternatives to the default
 _SPANS = {PAPER_STEP: f"{PAPER_STEP:.0e} s and finer", STEP: f"{STEP:.0e} to {_FINE:.0e} s"}
 _FOLD = 20  #: largest number of pooled ensembles, over the study's seeds
-#: What all tables share.
+#: Fields of the templates that do not depend on the tables.
 _KNOWN = {"step": STEP, "coarse": _COARSE, "fine": _FINE, "paper": PAPER_STEP, "limit": _LIMIT}
 _KNOWN |= {"coarse_margin": _LIMIT / _COARSE, "margin": _LIMIT / STEP, "nudge": HORIZON_NUDGE}
 _KNOWN |= {"ensemble": ENSEMBLE, "length_ensemble": STUDY_SEEDS[LENGTH], "fold": _FOLD}
@@ -133,7 +133,7 @@ def page(
 
 
 def _opening(rows: Sequence[Row], small: Sequence[Row], realisations: Iterable[Row]) -> str:
-    """Sum up bias and scatter at the default: at full size, or else on small surfaces."""
+    """Summarise bias and scatter at the default: at full size, or else on small surfaces."""
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=most, **_KNOWN)
@@ -180,7 +180,7 @@ def _pooled(rows: list[Row], realisations: Iterable[Row]) -> str:
 
 
 def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
-    """Name the largest share of each quantity."""
+    """Write the largest share of each quantity with its name."""
     most: dict[str, float] = {}
     for (quantity, _), case in cases.items():
         name = _name(quantity)
@@ -274,7 +274,7 @@ def _paired_bias(bias: Row, scatter: Row) -> str:
 
 
 def _largest_bias(rows: Sequence[Row]) -> float:
-    """Far end of the interval of the default's bias, and of the finest step's, as a share."""
+    """Far end of the interval of the default's bias plus that of the finest step, as a share."""
     return Bias.of(_at(STEP, rows)).high + finest_bias(rows)
 
 
@@ -286,7 +286,7 @@ def _scatter(rows: Sequence[Row]) -> float:
 
 
 def _value(*rows: Row) -> str:
-    """Return the value ± statistical ± numerical error, to two digits of the first."""
+    """Return value ± statistical ± numerical error, to two digits of the statistical error."""
     row = _at(STEP, rows)
     unit, factor = _UNITS[row["unit"]]
     value, scale = factor * row["value"], factor * row["scale"]
@@ -297,7 +297,7 @@ def _value(*rows: Row) -> str:
 
 
 def _bias(*rows: Row) -> str:
-    """Return bias, interval, what the finest step adds, and the mean's error, in percent."""
+    """Return bias, interval, bias of the finest step and error of the mean, in percent."""
     row = _at(STEP, rows)
     percent = _PERCENT / row["scale"]
     bias, low, high = (percent * row[key] for key in ("bias", "ci_low", "ci_high"))
@@ -326,7 +326,7 @@ def _budget(rows: list[Row]) -> list[str]:
 
 
 def _worst(cases: Iterable[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
-    """Return the largest excess of each step, for so many times the study's seeds."""
+    """Return the largest excess of each step, for `fold` times the study's seeds."""
     found = [budget.excess(choices(rows, bias), budget.study_budget(rows, fold)) for rows in cases]
     return {step: max(each[step] for each in found) for step in found[0]}
 

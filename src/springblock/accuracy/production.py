@@ -39,11 +39,11 @@ SCHEMA = pa.schema(
         *numbers(
             "see unit",
             value="mean over the realisations; decay length: l of A exp(-r/l), fitted to all",
-            scale="what errors are shares of: the value at the finest step, t_max for "
+            scale="reference of relative errors: the value at the finest step, t_max for "
             "t_max - t_avg",
             deviation="standard deviation of one realisation; of the decay length: that of the "
             "bootstrap times the root of the number of realisations",
-            bias="value less that of the same seeds, finest step",
+            bias="value minus that at the finest step, same seeds",
             bias_error="standard error of the bias; paired",
             ci_low="lower end of the bias's 95 % interval: Student's; of the decay length, "
             "bootstrap percentiles",

@@ -30,7 +30,7 @@ def precursors(run: Record) -> Mask:
 
 
 def shuffled(detached: Mask, contact: Mask, rng: np.random.Generator) -> Mask:
-    """Return as many blocks, drawn at random from those in contact, (N, N)."""
+    """Return the same number of blocks, drawn at random from those in contact, (N, N)."""
     drawn = np.zeros_like(detached)
     drawn[contact] = rng.permutation(detached[contact])
     return drawn
@@ -46,8 +46,8 @@ class Clusters(NamedTuple):
 
     share: Interval  #: of the blocks in contact that detach before t_max
     observed: Interval  #: mean size, blocks
-    ratio: Interval  #: of that to the size if as many blocks were anywhere in contact
-    ratio_mixed: Interval  #: if they were in the same places, each from another realisation
+    ratio: Interval  #: of that to the size for as many blocks anywhere in contact
+    ratio_mixed: Interval  #: the same for blocks in the same places, each from another realisation
 
 
 def clusters(runs: Sequence[Record]) -> Clusters:
@@ -85,10 +85,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
-        "**Precursors form larger clusters than expected by chance**: on "
-        f"{in_place} of {len(found)} surfaces compared with blocks in the same places, and on "
-        f"{anywhere} compared with as many blocks anywhere. The largest ratio, with blocks in the "
-        f"same places, is {number(found[most].ratio_mixed)} (surface: {name(most)})."
+        "**Precursors form larger clusters than expected by chance**: larger than with blocks in "
+        f"the same places on {in_place} of {len(found)} surfaces, and larger than with as many "
+        f"blocks anywhere on {anywhere}. The largest ratio to blocks in the same places is "
+        f"{number(found[most].ratio_mixed)} (surface: {name(most)})."
     )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
     header += ["ratio to anywhere", "ratio to same places"]

@@ -24,7 +24,7 @@ _LEVEL = 0.05  #: of the test of additive effects
 
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
-    """Static friction by pillars, on the size of surface that has most of them.
+    """Static friction by pillars, on surfaces of the N with most kinds of pillars.
 
     Pillars whose period does not divide its N are taken from surfaces at most a tenth larger.
     """
@@ -54,13 +54,13 @@ def distance(pillars: Pillars) -> Fraction:
 
 
 def families(found: Map) -> dict[Fraction, dict[int, Array]]:
-    """Static friction by n_s/n_p and n_p, where three sizes or more are as far apart."""
+    """Static friction by n_s/n_p and n_p, where n_s/n_p has three sizes or more."""
     sizes = grouped((distance(at), at[0], values) for at, values in found.items())
     return {key: sizes[key] for key in sorted(sizes) if len(sizes[key]) >= _FEWEST}
 
 
 def crossed(found: Map) -> dict[Pillars, Array]:
-    """Pillars of sizes that several contact fractions have, and the other way round."""
+    """Pillars whose size and whose contact fraction both occur more than once."""
     kept = dict(found)
     while True:
         sizes = Counter(n_p for n_p, _ in kept)
@@ -134,9 +134,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         f"what contact fraction explains, and contact fraction {contact} beyond what size "
         f"explains (difference: {more})."
     )
-    add_up = "the effects add up to within the scatter"
+    add_up = "the effects are additive within the scatter"
     if (left**2).sum() / scatter**2 > chdtri(freedom, _LEVEL):
-        add_up = "the effects of size and contact fraction do not simply add up"
+        add_up = "the effects of size and contact fraction are not additive"
     yield (
         f"The sum of both factors explains {both}. Its residuals have a root mean square of "
         f"{rms:.4f} (over {freedom} degrees of freedom), and the standard error of the means is "

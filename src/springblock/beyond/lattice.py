@@ -69,7 +69,7 @@ class Comparison(NamedTuple):
 def by_lattice(ensembles: Ensembles) -> Surfaces:
     """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer.
 
-    Where nothing scatters, all realisations are the same one; it stands there twice, as exact.
+    Without scatter all realisations are equal; one is listed twice, as an exact value.
     """
     items = []
     for scene, runs in ensembles.items():
@@ -91,8 +91,8 @@ def usual(surfaces: Surfaces) -> Lattice:
 def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     """Lattices of one l_z, refined with each disorder, and layers of one l; three or more of each.
 
-    Refined are blocks that scatter alike ("block"), the same disorder per area, whose scatter goes
-    with 1/l ("area"), disorder of one correlation length ("length"), and none.
+    Disorder is one scatter of all blocks ("block"), one disorder per area, with a scatter that is
+    proportional to 1/l ("area"), disorder of one correlation length ("length"), or none.
     """
     common = usual(surfaces)
     product = common.spacing * common.scatter
@@ -235,7 +235,7 @@ def _moves(compared: Mapping[str, Comparison]) -> Changes:
 
 
 def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
-    """Say what changes with l, in all refinements of the lattice or in some, and with l_z."""
+    """Say what changes with l (in all refinements of the lattice, in some or in none) and l_z."""
     every, opposite, some, none, layer = (list[str]() for _ in range(5))
     for (name, unit), by_comparison in changed.items():
         verbs = {kind: verb for kind, (verb, _) in by_comparison.items()}
@@ -256,9 +256,9 @@ def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
         "in some cases": some,
         "in no case": none,
     }
-    of_lattice = "; ".join(f"{how}, {_grouped(names)}" for how, names in cases.items() if names)
+    of_lattice = "; ".join(f"{_grouped(names)} ({how})" for how, names in cases.items() if names)
     return (
-        f"**Refining the lattice changes**, {of_lattice}. **A thicker layer changes** "
+        f"**Refining the lattice changes** {of_lattice}. **A thicker layer changes** "
         f"{_grouped(layer) or 'none of these'}."
     )
 

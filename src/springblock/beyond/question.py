@@ -20,9 +20,9 @@ Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
 def by_scene(
     items: Iterable[T], scene_of: Callable[[T], Scene] = attrgetter("scene")
 ) -> dict[Scene, list[T]]:
-    """Realisations, or rows of tables, of each scene, in the order in which the scenes come.
+    """Realisations, or rows of tables, by scene, in order of first appearance.
 
-    Those on surfaces that the paper could not have are left out.
+    Scenes on surfaces that are not of the paper's kind are left out.
     """
     found: dict[Scene, list[T]] = {}
     for item in items:
@@ -32,7 +32,7 @@ def by_scene(
 
 
 def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
-    """Values by a first key, as they come, and by a second key, in its order."""
+    """Values by a first key, in order of appearance, and by a second key, in ascending order."""
     found: dict[Any, dict[Any, T]] = {}
     for first, second, value in items:
         found.setdefault(first, {})[second] = value
@@ -47,12 +47,12 @@ def on_one_side(items: Iterable[tuple[Any, Any, Any, T]]) -> dict[Any, dict[Any,
 
 
 def has_pillars_alone(scene: Scene) -> bool:
-    """Whether it has pillars without grooves, and slides along x."""
+    """Whether a scene has pillars without grooves, and slides along x."""
     return scene.lengths.keys() == {"n_p", "n_s"} and scene.direction == "x"
 
 
 def is_even(scene: Scene, varied: Collection[str] = ()) -> bool:
-    """Whether it has pillars alone, as far apart as wide, and no other constants of its own."""
+    """Whether a scene has only pillars with n_s = n_p, and no constants but `varied`."""
     own = {name for name, _ in scene.varied}
     return has_pillars_alone(scene) and scene.n_p == scene.n_s and own <= {*varied}
 

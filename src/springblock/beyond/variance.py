@@ -35,7 +35,7 @@ def variance(values: Array) -> Interval:
 
 
 def exponent(sizes: Mapping[int, Array]) -> Interval:
-    """x in a variance that goes with n^-x, n = N² blocks, with its 95 % interval."""
+    """x in a variance proportional to n^-x, n = N² blocks, with its 95 % interval."""
     slope = np.linalg.pinv(_design(sizes))[1]
     return interval(list(sizes.values()), _VARIANCE, lambda values: np.log(values) @ slope)
 

@@ -14,7 +14,7 @@ SCHEMA = pa.schema(
     [
         *texts(
             claim="short name of the statement",
-            section="where the paper makes it",
+            section="section of the paper",
             form="universal, general or existential",
             statement='the paper\'s words, and after "Tested:" the criterion',
             case="surface, part or reading that the row is about",
@@ -29,12 +29,12 @@ SCHEMA = pa.schema(
             together_low="lower end of the 95 % interval simultaneous with those of the "
             "statement's other rows (Bonferroni)",
             together_high="upper end",
-            claimed_low="the statement claims more than this",
-            claimed_high="and less than this",
+            claimed_low="lower limit of the claimed range",
+            claimed_high="upper limit",
         ),
-        column("realisations", pa.int32(), "1", "behind the value, or surfaces; 0: exact"),
+        column("realisations", pa.int32(), "1", "number of realisations or surfaces; 0: exact"),
         *texts(
-            sample="what the value is from: realisations or surfaces",
+            sample="what is sampled: realisations or surfaces",
             outcome="of this row: holds, fails or open",
         ),
         *numbers(
@@ -43,7 +43,7 @@ SCHEMA = pa.schema(
             "true ones",
         ),
         *texts(
-            verdict="on the statement, from all its rows",
+            verdict="verdict on the statement, from all its rows",
             boundary="where the statement holds and where it fails",
             rests_on="files, scenes and rows behind the value, by ';'",
         ),

@@ -1,4 +1,4 @@
-"""The page on the mechanism, from its template; every number in it comes from the tables."""
+"""The page on the mechanism, from its template and the tables."""
 
 from collections.abc import Mapping
 from itertools import pairwise, product
@@ -17,7 +17,7 @@ from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
 from springblock.model.material import Material
 
-#: Names of the models on the page, each with one effect more than the last.
+#: Names of the models on the page, each with one effect more than the one before.
 NAMES = {
     "independent": "stress alone",
     "quasi_static": "load transfer",
@@ -148,8 +148,8 @@ def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
 def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str:
     """Say where the full model is lowest, and from which model on all agree with that.
 
-    A model agrees where its friction at this size cannot be told from its lowest, but that at
-    another size can.
+    A model agrees where its friction at this size does not differ significantly from its lowest,
+    but does at another size.
     """
     full, sizes = found["simulation"].place, rows["n_p"].unique()
     *simpler, _ = found.values()

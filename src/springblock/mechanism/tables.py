@@ -67,11 +67,11 @@ BUDGET = pa.schema(
         *texts(model="simulation, the full model, or overshooting"),
         *_SAME[-1:],
         *numbers("1", edge_share="share of edge blocks in those in contact"),
-        *numbers("s", time="time; in the model without time the slider's way over its velocity"),
+        *numbers("s", time="time; without time in the model, slider displacement over velocity"),
         *numbers(
             "1",
             edge="force on blocks in contact beside one without, over the normal force; NaN "
-            "once the model has come to its end",
+            "after the end of the run",
             core="the same of other blocks in contact",
             free="the same of blocks without contact; 0 in the model without inertia",
         ),

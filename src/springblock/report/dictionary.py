@@ -10,16 +10,16 @@ from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMA
 
 _PAGE = """# The tables
 
-Written by `springblock dictionary` from the schemas that the files themselves carry. Every table is
-a Parquet file, and all read alike:
+`springblock dictionary` writes this page from the schemas of the files. Every table is a Parquet
+file, read by
 
     import pandas as pd
 
     pd.read_parquet("results/tables/realisations.parquet")
     pd.read_parquet("results/realisations")  # all batches at once, curves and fields included
 
-`springblock info FILE` says of any file what it holds and what made it. Units are SI; what counts
-blocks, or is a number of its own, says so.
+`springblock info FILE` describes the content and the origin of a file. Units are SI, blocks,
+or 1 for pure numbers.
 
 {sections}
 """

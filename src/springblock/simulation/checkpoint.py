@@ -1,4 +1,4 @@
-"""Checkpoints: unfinished runs in files, which continue to the same bits."""
+"""Checkpoints: files from which unfinished runs continue, with the same result to the bit."""
 
 import hashlib
 import json
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[str, str]:
-    """Return all that determines a run, as text or digest, by the names used in error messages.
+    """Return what determines a run, as text or digest, by the names used in error messages.
 
     `surface` comes from `prelude.conditions`. The number of cores and the prelude are left out,
     since results do not depend on them.

@@ -1,4 +1,4 @@
-"""Checks of times."""
+"""Checks of types and times."""
 
 import math
 from collections.abc import Sequence
@@ -6,7 +6,7 @@ from typing import Any
 
 from springblock.model.direction import REAL
 
-#: Blocks times snapshots that a run keeps at most: 6 GB of fields.
+#: Largest number of blocks times snapshots in a run: 6 GB of fields.
 _MOST_IN_SNAPSHOTS = 2**27
 
 
@@ -47,7 +47,7 @@ def count_samples(duration: float, sample_interval: float) -> int:
 def snapshot_samples(
     times: Sequence[float], sample_interval: float, blocks: int, duration: float | None = None
 ) -> list[int]:
-    """Sample intervals until each of the snapshots in s, of a surface of so many blocks.
+    """Return the number of sample intervals until each snapshot; times in s.
 
     Raises
     ------

@@ -45,7 +45,7 @@ class Fields:
 
     @property
     def state(self) -> NDArray[np.int8]:
-        """State of each block as of `BlockState`, (k, N_y, N_x)."""
+        """`BlockState` of each block, (k, N_y, N_x)."""
         moving = self.velocity.any(axis=1)
         in_contact = np.where(moving, BlockState.SLIDING, BlockState.STUCK)
         return np.where(self.contact, in_contact, BlockState.FREE).astype(np.int8)

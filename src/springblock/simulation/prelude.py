@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 #: Sample intervals between two candidates for a stored state.
 _BETWEEN = 10
-#: For each of these shares of all seeds, the latest state is stored from which so many may start.
+#: Shares of all seeds: for each, the latest state from which this share may start is stored.
 #: The expected number of detached blocks grows about exponentially with time; six states at about
 #: these shares then save the most time, and few seeds start from zero.
 HOLDING = (0.998, 0.96, 0.85, 0.65, 0.4, 0.2)
@@ -45,7 +45,7 @@ _NEVER = 1e150
 class Prelude:
     """Stored states of one scene: k states, at most one per share in `HOLDING`.
 
-    In the kernels' units, blocks row by row. Valid only for the conditions of its computation.
+    Values are in the kernels' units, with blocks row by row. They are valid for `conditions` only.
     """
 
     conditions: str  #: all that determines the motion, see `conditions`
@@ -84,7 +84,7 @@ class Prelude:
     def start(self, motion: Motion, latest: float) -> None:
         """Set a surface at rest to the latest stored state that is valid for its thresholds.
 
-        At most to sample interval `latest`; it stays at rest if no stored state is valid.
+        States after sample interval `latest` are not used. Without a valid one it stays at rest.
         """
         state, blocks, grid = motion.state, motion.state.blocks, motion.constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
@@ -141,9 +141,9 @@ def compute_prelude(
     cores: int = 1,
     mu_static: ArrayLike | None = None,
 ) -> Prelude:
-    """Load a surface whose blocks never detach, until in most realisations one would have.
+    """Load a surface without detachment until a block would detach in most realisations.
 
-    `simulate` takes the prelude for any seed. Arguments and errors are those of `Surface` and
+    `simulate` accepts the prelude for any seed. Arguments and errors are those of `Surface` and
     `simulate`; if `mu_static` is given instead of drawn, only the last state before a detachment is
     stored.
     """

@@ -12,7 +12,7 @@ from springblock.simulation.fields import Fields
 Array = NDArray[np.float64]
 Counts = NDArray[np.integer]
 
-#: Rise of the force after a minimum, over its drop from the peak, for which the minimum counts.
+#: Smallest rise of the force after a minimum that counts, over its drop from the peak.
 _REBOUND = 0.1
 
 
@@ -50,8 +50,8 @@ class Run:
     def dynamic_friction(self) -> float:
         """Mean of the force over P l² N_y N_x after the first minimum that follows the peak.
 
-        Over the remaining samples, in which the force still oscillates. NaN if the run ends before
-        the minimum, or the force does not fall.
+        The force still oscillates in these samples. NaN if the run ends before the minimum, or the
+        force does not fall.
         """
         minimum = first_minimum(self.force)
         if minimum is None:

@@ -14,7 +14,7 @@ from springblock.simulation.checks import check_positive, check_type, whole_mult
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
-#: Largest number of steps times blocks, and that of a year on one core.
+#: Largest number of steps times blocks, and the number that takes one core a year.
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
 #: Largest number of samples, the limit of a cell of a table.
 _MOST_SAMPLES = 2**31 - 1
@@ -95,8 +95,8 @@ class Setup:
     ) -> None:
         """Refuse a run that would be too long.
 
-        Without a duration, a run lasts for the loading time of its strongest block, of coefficient
-        `threshold`, and at least `until` its last snapshot, s.
+        Without a duration, a run lasts for the loading time of its strongest block, whose
+        coefficient is `threshold`, and at least `until` its last snapshot, s.
 
         Raises
         ------

@@ -23,7 +23,7 @@ from springblock.solver.shear import shear_forces
 
 Array = NDArray[np.float64]
 
-#: Sample intervals between two tests whether a run is complete.
+#: Sample intervals between two tests of whether a run is complete.
 _SAMPLES_PER_CALL = 10
 #: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of the
 #: time of the last first detachment.
@@ -72,8 +72,8 @@ def simulate(
     progress : bool
         Whether to show a progress bar on stderr.
     checkpoint : Path
-        File for the state of the unfinished run. If it exists, the run continues from it, to the
-        same bits; it is removed at the end.
+        File for the state of the unfinished run. If it exists, the run continues from it, with the
+        same result to the bit; it is removed at the end.
     checkpoint_interval : s
         Wall-clock seconds between two checkpoints.
 
@@ -82,8 +82,8 @@ def simulate(
     TypeError, ValueError
         If an argument is not valid, or prelude or checkpoint belong to another run.
     SimulationError
-        If a spring leaves 1/2 to 2 times its rest length or becomes NaN, with time and block; or
-        if blocks do not detach in a run without duration.
+        If the length of a spring is below 1/2 or above 2 times its rest length, or NaN (the message
+        gives time and block), or if blocks do not detach in a run without duration.
     """
     check_type("surface", surface, Surface)
     check_type("setup", setup, Setup)

@@ -48,9 +48,9 @@ from springblock.solver.stability import leapfrog_force_time
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
 
-#: Rows at rest are checked earlier than computed by this relative margin, against rounding.
+#: Relative margin, against rounding, by which the estimated steps at rest of a row are reduced.
 _SLACK = 1e-9
-#: Relative tolerance within which a velocity is that of a block accelerated from rest by F_mot.
+#: Relative tolerance on the velocity of a block that F_mot has accelerated from rest.
 _FROM_REST = 1e-12
 #: Effectively infinite number of steps.
 _FOREVER = 1e15
@@ -62,7 +62,7 @@ force_time = leapfrog_force_time
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far.
 
-    Means of the values half a step before and after; the latter are computed on a copy.
+    Both are means of the values half a step before and after; the latter are computed on a copy.
     """
     ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
@@ -75,10 +75,10 @@ class Rows(NamedTuple):
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether any block is in contact
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether its blocks are computed in this step
-    wake: NDArray[np.int64]  #: (N_y,) step in which they must be computed at the latest
+    wake: NDArray[np.int64]  #: (N_y,) latest step in which they must be computed
     sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block slides, with a row beyond each edge
     switching: NDArray[np.int64]  #: (N_y,) switches to sliding, also after an instant of rest
-    released: NDArray[np.int64]  #: (N_y,) those of blocks that were at rest before the step
+    released: NDArray[np.int64]  #: (N_y,) switches of blocks at rest before the step
     attached: NDArray[np.bool_]  #: (N_y,) whether any block has never detached
     x: Array  #: (N_y,) sums over its blocks, see `Totals`
     y: Array
@@ -259,7 +259,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
     """Place the releases of `count` blocks at their times within the step, not at its end.
 
     The loop has moved each block by a since step k. By (10) to (12) of docs/model.md it slips by s
-    until step k and moves on at (1/2 + θ_ε) a. Heat grows by Q and the additional friction work.
+    until step k and then moves at (1/2 + θ_ε) a. Heat grows by Q and the additional friction work.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
     slider, stiffness = (slide[0] * k, slide[1] * k), springs.k_s + 3.0 * springs.kappa
@@ -291,7 +291,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         state = state_at_release(law)
         friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, state, (slip + speed) * a1, True)
-        work = friction * a1 * (slip + 0.5 * (share - 0.5))  # along s, and by the change of speed
+        work = friction * a1 * (slip + 0.5 * (share - 0.5))  # along s, and for the change of speed
         extra = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)  # Q of (12)
         rows.heat[row] += work + extra
         rows.squares[row] += (speed * speed - 1.0) * a2
@@ -327,7 +327,7 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 @kernel
 def _update_rows(blocks, law, rows, released, count, band, s, pull, now):
-    """Record switches, releases and detachments of a band; return as `move_band` does."""
+    """Record switches, releases and detachments of a band; return what `move_band` returns."""
     n, switches = band.grid.n_x, np.int64(0)
     for row in range(band.start, band.stop):
         i = row * band.grid.pitch
@@ -370,7 +370,7 @@ def wake(rows, now, periodic):
     for row in range(n):
         disturbed = rows.sliding[row] or rows.sliding[row + 1] or rows.sliding[row + 2]
         if disturbed:
-            rows.wake[row] = now + 1  # estimated again once all are at rest
+            rows.wake[row] = now + 1  # estimated again when all are at rest
         rows.awake[row] = disturbed or rows.wake[row] <= now
     if periodic:
         rows.awake[n] = rows.awake[0]

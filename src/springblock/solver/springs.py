@@ -14,9 +14,9 @@ form.
 
 A row takes two short loops, over the forces of its springs and over the sums on its blocks: one
 long loop would need more registers than the processor has. Rows are filled up to whole vectors with
-phantom blocks, which have the displacement of the last block, no diagonal springs, and never move.
-With periodic edges they are images of the first blocks of the row, and an image of the first row
-follows the last one, so that springs across the edges are computed like all others.
+phantom blocks, which have the displacement of the last block, have no diagonal springs and never
+move. With periodic edges they are images of the first blocks of the row, and an image of the first
+row follows the last one, so that springs across the edges are computed like all others.
 
 Lengths are in l, forces in the velocity that they add in one step, in l per step.
 """
@@ -34,8 +34,8 @@ from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
 
-#: Largest |q| for which g is the polynomial, and its largest relative error: as large as the
-#: rounding error of a strain of 5e-4 between blocks displaced by l.
+#: Largest |q| for which g is computed by the polynomial, and its largest relative error, as large
+#: as the rounding error of a strain of 5e-4 between blocks displaced by l.
 SERIES_RANGE = 1.0 / 32.0
 SERIES_ERROR = 4e-13
 SERIES_DEGREE = 6
@@ -169,7 +169,7 @@ def _series(q, c):
 def _relative_displacements(ux, uy, i, j, x):
     """Relative displacements d of the springs of block (i, x) to the east, north and north-east.
 
-    The fourth is that of the spring between its eastern and its northern neighbour; row j is next.
+    The fourth spring joins its eastern and northern neighbours; j is the offset of the next row.
     """
     ax, ay = ux[i + x], uy[i + x]
     bx, by = ux[i + x + ONE], uy[i + x + ONE]
@@ -328,7 +328,7 @@ def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider
 
 @kernel
 def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
-    """Do the work of `forces_on_band`, given the forces on the first row from the row below."""
+    """Store F_mot of a band, given the forces on its first row from the row below."""
     end = band.grid.width + ONE
     # A periodic row is one tile, as its first block needs the springs of the last one.
     tile = band.grid.width if band.grid.periodic is not None else _TILE
@@ -374,7 +374,7 @@ def scratch() -> Array:
 
 
 def aligned(size: int, shift: int = 0) -> Array:
-    """Zeros, the second of which begins a cache line, shifted by `shift` lines.
+    """Return zeros whose second element begins a cache line, shifted by `shift` lines.
 
     Arrays with different shifts avoid 4K aliasing: a load would wait for a store to an address that
     differs by a multiple of 4096 B.

@@ -49,8 +49,8 @@ SCHEMA = pa.schema(
         *texts(quantity="what value is"),
         *numbers(
             "1",
-            value="the quantity that is judged; NaN where there is none",
-            closed_form="what it should be; NaN where that is unknown",
+            value="value of the quantity; NaN without one",
+            closed_form="its closed form; NaN if unknown",
             relative_error="value/closed_form - 1; NaN without either",
             tolerance="largest relative_error that is accepted, or NaN",
         ),
