@@ -6,6 +6,7 @@ that: what a cell shows is what it prints and its last expression.
 
 import ast
 import base64
+import hashlib
 import io
 import os
 import re
@@ -141,6 +142,21 @@ def test_the_lesson_can_be_followed_and_its_answers_are_right(study):
     assert pillar[names["edge"]].mean() < 0.9 * pillar[names["core"]].mean()
     sizes = [np.mean([run.static_friction for run in read(f"p{n}.parquet")]) for n in (2, 6, 30)]
     assert sizes == pytest.approx([0.82, 0.65, 0.70], abs=0.01)
+
+
+def test_the_page_on_a_measured_surface_can_be_followed(study):
+    """Its scan is the file described, and 1/40 of the paper's lengths does not change friction."""
+    pytest.importorskip("SurfaceTopography")  # not in `make test-versions`
+    scan = ROOT / "config/examples/sbs_pmma.nid"
+    described = scan.with_suffix(".md").read_text(encoding="utf-8")
+    assert hashlib.sha256(scan.read_bytes()).hexdigest() in described
+    names = follow("measured.md", study, {"measured.yaml\n": "measured.yaml -n\n"})
+    run, [paper] = names["run"], read("paper.parquet")
+    assert run.static_friction == pytest.approx(0.66, rel=SCATTER)
+    assert paper.static_friction == pytest.approx(run.static_friction, rel=1e-9)
+    assert paper.t_max == pytest.approx(40 * run.t_max, rel=1e-9)
+    assert [mask.sum() for mask in names["masks"]] == [706, 1411, 2822]
+    assert (study / "measured.png").exists()
 
 
 def shown(value):

@@ -205,7 +205,7 @@ def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypat
     text = page(rows(SOME, Evidence()))
     assert "| It grows | range | 0.5 was a slip |" in text
     assert "It is gone" not in text  # not everything needs to be simulated
-    assert "**reproduced** | reproduced | depends on |" in text
+    assert "**reproduced** | – | reproduced | depends on |" in text
     before[0]["claimed_low"] = "0.0"
     grows = rows(SOME[:1], Evidence())
     assert "| It grows | test | 0.5 was a slip |" in register.changes(grows)

@@ -111,7 +111,7 @@ def test_the_command_cuts_a_mask_for_the_solver(springblock, tmp_path):
 def test_jobs_read_what_was_cut(tmp_path):
     cut = Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5)
     mask = BlockMap.of_topography(cut, tmp_path)
-    assert mask.name.startswith("rough-")
+    assert mask.name.startswith("rough_0.5-")
     np.save(mask.file, mask.values)
     assert BlockMap.mask(mask.file) == mask
 

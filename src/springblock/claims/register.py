@@ -33,7 +33,7 @@ def verdicts() -> dict[str, Row]:
     That of the registered test on the fresh seeds is `confirmed`.
     """
     fresh = {row["claim"]: row["verdict"] for row in _rows("confirmed.csv")}
-    return {row["claim"]: row | {"confirmed": fresh[row["claim"]]} for row in registered()}
+    return {row["claim"]: row | {"confirmed": fresh.get(row["claim"], "")} for row in registered()}
 
 
 def _rows(name: str) -> list[Row]:

@@ -162,9 +162,12 @@ class BlockMap:
 
     @classmethod
     def of_topography(cls, cut: Cut, folder: Path) -> "BlockMap":
-        """Return the mask of a cut; jobs read it from `folder`."""
-        values = cut.mask()
-        name = _name(cut.topography, values)
+        """Return the mask of a cut; jobs read it from `folder`.
+
+        Its name contains the bearing area or height, by which tables and figures sort the cuts.
+        """
+        values, level = cut.mask(), cut.height if cut.bearing_area is None else cut.bearing_area
+        name = _name(cut.topography.with_stem(f"{cut.topography.stem}_{level:g}"), values)
         return cls(name, values, folder / f"{name}.npy", cut)
 
 
