@@ -7,6 +7,8 @@
 #               on Debian, a quarter of an hour
 # make bench    measure how fast it is, against C and LAMMPS: one table in some two and a half minutes;
 #               make bench-release keeps a line of it for this release in benchmarks/history.csv
+# make bench-ratios  fail if the kernel, over a C loop, or the start of a job, over the import of
+#               numba, takes longer than it should: half a minute
 # make full     the whole study, on which the pages in docs rest: two hours on two cores
 # make verify   hold results/ against its checksums and the code of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same
@@ -31,7 +33,7 @@ INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full test browser test-slurm test-versions verify soak mutants bench bench-release docs archive redraw setup lock clean
+.PHONY: all quick full test browser test-slurm test-versions verify soak mutants bench bench-release bench-ratios docs archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -86,6 +88,9 @@ test-versions:
 bench bench-release: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
 	$(BIN)/python -m benchmarks $(if $(filter bench-release,$@),--release)
+
+bench-ratios: setup
+	$(BIN)/python -m benchmarks.ratios
 
 docs: full
 	$(BIN)/springblock dictionary --output docs/tables.md
