@@ -90,13 +90,13 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     Tested: on average over pillars and realisations; the second ring begins after the border.
     """
     for scene, runs in pillars(evidence.records).items():
-        maps, ends = pillar_map(runs, scene.pattern), {}
+        maps, before = pillar_map(runs, scene.pattern), dict[str, Array]()
         for ring, parts in _rings(scene.n_p):
             times = {f"{n} ({ring})": maps[:, mask].mean(axis=1) for n, mask in parts.items()}
             yield from samples.in_order(scene, times)
-            first, *_, last, _ = times.items()
-            yield from samples.in_order(scene, dict([*ends, first]))
-            ends = [last]
+            first, *_, last, _ = times
+            yield from samples.in_order(scene, before | {first: times[first]})
+            before = {last: times[last]}
 
 
 @claim("The order of detachment never changes", "3.2", 5, _PILLARS, "universal")
