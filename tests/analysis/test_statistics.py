@@ -13,7 +13,6 @@ from springblock.analysis.statistics import (
     cluster_sizes,
     cut,
     difference_interval,
-    half_widths,
     load_peaks,
     mean_interval,
     mean_of_rest,
@@ -23,7 +22,6 @@ from springblock.analysis.statistics import (
     proportion_interval,
     repeatability,
     standard_error,
-    students_t,
     whole_curve,
 )
 from springblock.simulation.run import friction
@@ -236,14 +234,6 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
     half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
     value = found[0, 0]
     assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
-
-
-def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
-    widths = half_widths(rng.normal(0.0, 1.0, 200), (10, 40, 160, 640))
-    assert list(widths) == [10, 40, 160]
-    wider = students_t(9) / students_t(39)
-    assert widths[10] / widths[40] == pytest.approx(2.0 * wider, rel=0.1)
-    assert widths[40] == pytest.approx(students_t(39) / 40**0.5, rel=0.1)
 
 
 def test_clusters_hold_neighbours_and_corners_if_asked():

@@ -47,7 +47,6 @@ def given(number: int) -> dict[str, dict]:
         "size": sizes,
         "angle": {"x": some(0.7), "45": some(0.6), "y": some(0.8)},
         "levels": levels,
-        "repetitions": scenes,
         "restick": scenes,
     }
 
@@ -122,14 +121,6 @@ def test_the_lesser_peak_is_shown_run_by_run():
     ((along,), (across,)) = means(twin.axes[2])
     assert along[1] > 80.0  # both hills rise from almost nothing
     assert across[1] == 0.0
-
-
-def test_intervals_narrow_with_the_root_of_the_number():
-    (friction,) = draw("repetitions", 20).axes
-    measured, predicted = (line.get_xydata() for line in friction.get_lines()[:2])
-    assert measured[:, 0].tolist() == [3, 5, 10, 20]
-    np.testing.assert_allclose(predicted[:, 1] * np.sqrt(predicted[:, 0]), predicted[0, 1] * 3**0.5)
-    assert measured[-1, 1] == pytest.approx(predicted[-1, 1], rel=0.1)
 
 
 def test_only_blocks_that_let_go_again_are_counted():

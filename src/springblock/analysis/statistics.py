@@ -8,7 +8,7 @@ to 95 % than that of bootstrap percentiles. The observables are those of Costagl
 """
 
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -21,7 +21,6 @@ from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
-_SUBSETS = 30  #: number of subsets over which the width of an interval is averaged
 #: Least force of a load peak over the largest force; in sliding it is two thirds or less.
 _LOAD_PEAK = 0.9
 _PROMINENT = 0.01  #: least prominence of a load peak over the largest force
@@ -158,22 +157,6 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
 def weights_of(drawn: NDArray[np.intp], k: int) -> Array:
     """Weights, (b, k), of the realisations in each of b resamples, given by index, (b, n)."""
     return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
-
-
-def half_widths(values: Array, sizes: Iterable[int]) -> dict[int, float]:
-    """Half the width of the interval of the mean, (k,), for samples of fewer realisations, by size.
-
-    Averages over random subsets; sizes above k are omitted.
-    """
-    rng = np.random.default_rng(0)
-    widths: dict[int, float] = {}
-    for size in sizes:
-        if size > len(values):
-            break
-        drawn = [rng.permutation(values)[:size] for _ in range(_SUBSETS)]
-        _, low, high = mean_interval(np.stack(drawn, axis=1))
-        widths[size] = float(np.mean(high - low)) / 2.0
-    return widths
 
 
 def standard_error(values: Array) -> Array:

@@ -217,16 +217,6 @@ FIGURES: dict[str, Declaration] = {
         marks=f"""Lines: means; bands: {INTERVALS}. Legends: size and gap of each level in blocks,
         and the lesser peak; it and triangles are defined as in figure 9. {ENDS}""",
     ),
-    "supplement_repetitions": Declaration(
-        title="Number of realisations",
-        module="supplement",
-        caption="""Half-width of the 95 % interval of static friction against the number k of
-        realisations, which the paper does not give.""",
-        source=_MAIN_SURFACES,
-        marks="""Symbols: t intervals, means over random subsets of the ensembles; lines: 1.96
-        standard deviations of the whole ensemble over the square root of k. At small k, t intervals
-        are wider, since the scatter is estimated from few realisations.""",
-    ),
     "supplement_restick": Declaration(
         title="Blocks that detach again",
         module="supplement",

@@ -8,7 +8,6 @@ from textwrap import fill
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
 
 from springblock.analysis import statistics
 from springblock.io.records import Record
@@ -19,9 +18,6 @@ from springblock.simulation.run import Array, Run, percent
 
 _SPREAD = 2.0  #: degrees over which single runs are spread
 _CLOSE = 0.85  #: share of the maximum from which the force on three levels is shown
-_SIZES = (3, 5, 10, 20, 50, 100, 200, 500, 1000)  #: of subsets of an ensemble
-_MILLI = 1e3  #: 10⁻³ per unit
-_NORMAL = 1.96  #: half a 95 % interval in standard errors
 _TIMES = (0.8, 0.9, 1.0)  #: t/t_max up to which repeated detachments are counted
 _ROW = 62.0  #: mm, height of the panels of a surface and of its name
 _TITLE = "$n_p/n_s$ of each level: lesser peak"  #: of the legends of levels
@@ -108,27 +104,6 @@ def supplement_levels(ensembles: Mapping[tuple[str, int], Sequence[Record]]) -> 
     low, high = panels[0].get_ylim()
     panels[0].set_ylim(low - 0.4 * (high - low), high)  # room for the legends
     panels[-1].set_xlabel("time (µs)")
-    return picture
-
-
-def supplement_repetitions(ensembles: Mapping[Key, Sequence[Run]]) -> Figure:
-    """Draw half the 95 % interval of static friction over the number of realisations."""
-    picture, (ax,) = style.panels(style.COLUMN, 76.0)
-    for key in style.in_order(ensembles):
-        look = style.surface_look(key)
-        values = _MILLI * np.array([run.static_friction for run in ensembles[key]])
-        if widths := statistics.half_widths(values, _SIZES):
-            sizes, predicted = np.array(list(widths)), _NORMAL * values.std(ddof=1)
-            ax.plot(sizes, list(widths.values()), linestyle="none", **look)
-            ax.plot(sizes, predicted / np.sqrt(sizes), color=look["color"], linewidth=0.5)
-    ax.set(yscale="log", ylabel="± of static friction (10⁻³)", xlabel="number of realisations")
-    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    ax.yaxis.set_major_formatter("{x:g}")
-    ax.yaxis.set_minor_formatter(NullFormatter())
-    most = max(map(len, ensembles.values()))
-    curves.name_places(ax, [k for k in _SIZES if k <= max(most, _SIZES[0])])
-    ax.plot([], [], color=GREY, linewidth=0.5, label=r"$\propto 1/\sqrt{k}$")
-    style.legend_above(picture, ax, ncols=3)
     return picture
 
 
