@@ -75,8 +75,8 @@ class Rows(NamedTuple):
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether any block is in contact
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether its blocks are computed in this step
-    wake: NDArray[np.int64]  #: (N_y,) latest step in which they must be computed
-    sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block slides, with a row beyond each edge
+    wake: NDArray[np.int64]  #: (N_y,) step in which it must be computed at the latest
+    sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block moves, with a row beyond each edge
     switching: NDArray[np.int64]  #: (N_y,) switches to sliding, also after an instant of rest
     released: NDArray[np.int64]  #: (N_y,) switches of blocks at rest before the step
     attached: NDArray[np.bool_]  #: (N_y,) whether any block has never detached
@@ -360,9 +360,9 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
 
 @kernel
 def wake(rows, now, periodic):
-    """Mark the rows in which a block slides, may detach in step `now`, or has a sliding neighbour.
+    """Mark the rows in which a block moves, may detach in step `now`, or has a moving neighbour.
 
-    Only these are computed.
+    Only these are computed. Rows without contact count as moving throughout.
     """
     n = len(rows.wake)
     if periodic:
@@ -418,7 +418,7 @@ def _time_loop(state, constants, first, steps, every, samples, rows, released):
 def advance(
     state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
 ) -> tuple[int, int, int]:
-    """See `Integrator.advance`.
+    """Advance a state on one core; arguments as of `Advance`.
 
     A row at rest among rows at rest is skipped until one of its blocks may detach; the result is
     the same to the bit.
