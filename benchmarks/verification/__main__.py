@@ -48,7 +48,7 @@ def reference(problems: tuple[str, ...]) -> None:
 
 @main.command()
 def entries() -> None:
-    """Write ENTRIES.md: what our own integrators are off by."""
+    """Write ENTRIES.md: what our integrators and Siconos are off by, and their CPU time."""
     write_text(Path(__file__).with_name("ENTRIES.md"), own.page())
 
 

@@ -1,9 +1,25 @@
-"""The first entries: the project's own integrators at some steps, as one table per problem."""
+"""The first entries: our integrators and Siconos at some steps, as one table per problem."""
 
-from collections.abc import Iterator
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
 
+import numpy as np
+
+from benchmarks.timing import interleaved
 from benchmarks.verification.metrics import cells, errors, uncertainties
-from benchmarks.verification.problems import PROBLEMS, Answer, Problem, read_reference, read_surface
+from benchmarks.verification.problems import (
+    PROBLEMS,
+    Answer,
+    Problem,
+    read_answer,
+    read_reference,
+    read_surface,
+)
 from springblock.accuracy.conventions import PLAIN
 from springblock.accuracy.work_precision import FORCE_EVALUATIONS, solve_with
 from springblock.io.rows import markdown_table
@@ -16,7 +32,15 @@ STEPS = {
     "rk4": (4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9),
     PLAIN: (2e-8, 1e-8, 5e-9),
 }
-_HEADER = ("code", "step, s", "force evaluations", "t_det", "static friction", "force", "order")
+SICONOS = "Siconos"
+SICONOS_STEPS = STEPS["leapfrog"]
+REPETITIONS = 3  #: of our runs, for the median of their CPU time
+_SYSTEM_PYTHON = "/usr/bin/python3"  # for which Debian packages Siconos
+_PROGRAM = Path(__file__).parents[1] / "peers" / "siconos_blocks.py"
+_HEADER = (
+    *("code", "step, s", "force evaluations", "CPU s"),
+    *("t_det", "static friction", "force", "order"),
+)
 
 _PAGE = """# Entries
 
@@ -24,7 +48,11 @@ Written by `python -m benchmarks.verification entries`; README.md defines the me
 t_det is the RMS error before the horizon over t_max, force the largest error before t_max over the
 largest force, and order the number of blocks out of order. The first line of each table says how
 uncertain these are: entries below cannot be told apart.
+
+CPU s is the time of one run on one core, without compilation: of our integrators the median of
+three runs, of Siconos a single run, without set-up.{siconos}
 """
+_ABSENT = " Siconos is not installed here, and its rows are left out."
 
 
 def solved_by(
@@ -35,20 +63,61 @@ def solved_by(
     return Answer(problem, run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
 
 
+def solved_by_siconos(step: float, problem: Problem) -> tuple[Answer, int, float]:
+    """Return what Siconos says, its force evaluations and its CPU time in s."""
+    with tempfile.TemporaryDirectory() as folder:
+        t_det, force = (Path(folder) / name for name in ("t_det.csv", "force.csv"))
+        numbers = f"{step!r}", f"{problem.duration!r}"
+        outcome = subprocess.run(
+            # isolated: without the packages of this process
+            [
+                _SYSTEM_PYTHON,
+                "-I",
+                _PROGRAM,
+                problem.folder / "surface.csv",
+                *numbers,
+                t_det,
+                force,
+            ],
+            env=os.environ | {"OMP_NUM_THREADS": "1"},
+            stdout=subprocess.PIPE,
+            text=True,
+            check=True,
+        )
+        evaluations, seconds = outcome.stdout.split()
+        return read_answer(problem, t_det, force), int(evaluations), float(seconds)
+
+
 def page() -> str:
     """All entries, in Markdown."""
+    siconos = _has_siconos()
     tables = (
-        f"## {problem.name.capitalize()}\n\n{markdown_table(_HEADER, _lines(problem))}\n"
+        f"## {problem.name.capitalize()}\n\n{markdown_table(_HEADER, _lines(problem, siconos))}\n"
         for problem in PROBLEMS.values()
     )
-    return "\n".join([_PAGE, *tables])
+    return "\n".join([_PAGE.format(siconos="" if siconos else _ABSENT), *tables])
 
 
-def _lines(problem: Problem) -> Iterator[tuple[str, ...]]:
+def _has_siconos() -> bool:
+    if not (shutil.which(_SYSTEM_PYTHON) and shutil.which("gcc")):
+        return False
+    command = [_SYSTEM_PYTHON, "-I", "-c", "import siconos.kernel"]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def _lines(problem: Problem, siconos: bool) -> Iterator[Sequence[str]]:
     surface, reference = read_surface(problem), read_reference(problem)
-    yield "uncertainty", "", "", *cells(uncertainties(reference))
+    yield "uncertainty", "", "", "", *cells(uncertainties(reference))
+
+    def line(code: str, step: float, answer: Answer, evaluations: int, seconds: float) -> list[str]:
+        cost = f"{step:g}", f"{evaluations}", f"{seconds:.2g}"
+        return [code, *cost, *cells(errors(answer, reference))]
+
     for integrator, steps in STEPS.items():
         for step in steps:
-            answer, evaluations = solved_by(integrator, step, problem, surface)
-            off_by = errors(answer, reference)
-            yield integrator, f"{step:g}", f"{evaluations}", *cells(off_by)
+            run = partial(solved_by, integrator, step, problem, surface)
+            answer, evaluations = run()  # compiles
+            (seconds,) = interleaved({integrator: run}, REPETITIONS).values()
+            yield line(integrator, step, answer, evaluations, float(np.median(seconds)))
+    for step in SICONOS_STEPS if siconos else ():
+        yield line(SICONOS, step, *solved_by_siconos(step, problem))
