@@ -27,6 +27,7 @@ def test_studies_with_equal_true_values_seldom_differ_significantly(rng):
     """In 2 of 40 pairs at most, and four standard errors of that number."""
     pairs = [discrepancies(realisations(rng), realisations(rng)) for _ in range(40)]
     assert {len(found) for found in pairs} == {10}
+    assert discrepancies(realisations(rng, k=1), realisations(rng)) == []  # it has no scatter
     assert sum(bool(significant(found)) for found in pairs) <= 2 + 4 * np.sqrt(2 * 0.95)
 
 
@@ -49,6 +50,7 @@ def test_lengths_are_compared_by_their_limits(difference, errors):
     (found,) = discrepancies(*tables)
     assert found.p_value == pytest.approx(2.0 * ndtr(-errors), rel=1e-5)
     assert bool(significant([found])) == (errors > 2.0)
+    assert discrepancies(tables[0], tables[0]) == []
 
 
 def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
@@ -58,4 +60,7 @@ def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
     found = compare(one, other)
     assert (found.both, found.first, found.second, found.same) == (2, 1, 1, False)
     assert found.differences == [Difference("t_max", rows=1, largest=0.5, relative=0.25)]
+    assert compare(one.select(["t_max"]), other.select(["t_max"])).differences[0].rows == 3
+    with pytest.raises(ValueError, match="differ in their columns: seed"):
+        compare(one, other.select(["t_max"]))
     assert compare(one, one.take([2, 0, 1])).same

@@ -98,6 +98,9 @@ def test_curves_are_cut_to_the_shortest_run_or_end_with_the_longest():
     assert np.isfinite(curve.friction[0]).all()
     assert np.isnan(curve.friction[1, 12:]).all()
     assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+    runs[1].time = 2.0 * runs[1].time
+    with pytest.raises(ValueError, match="must have the same sample interval"):
+        cut(runs, [friction(each) for each in runs])
     assert not curve.detachments[1, 12:].any()
 
 
@@ -241,6 +244,7 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
 def test_half_widths_fall_with_the_root_of_the_number_of_realisations(rng):
     widths = half_widths(rng.normal(0.0, 1.0, 200), (10, 40, 160, 640))
     assert list(widths) == [10, 40, 160]
+    assert half_widths(np.ones(10), (5, 10)) == {5: 0.0, 10: 0.0}
     wider = students_t(9) / students_t(39)
     assert widths[10] / widths[40] == pytest.approx(2.0 * wider, rel=0.1)
     assert widths[40] == pytest.approx(students_t(39) / 40**0.5, rel=0.1)
