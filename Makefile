@@ -12,6 +12,8 @@
 # make full     the whole study, on which the pages in docs rest: two hours on two cores
 # make verify   hold results/ against its checksums and the code of today
 # make soak     kill the quick study ten times at random moments: its tables must stay the same
+# make coverage list the lines and branches of the model that the tests do not reach: kernels run
+#               interpreted, on few blocks; some minutes on two cores
 # make mutants  put 300 errors into copies of the code, one into each, and count those that the tests
 #               catch: an hour on two cores
 # make docs     bring the pages in docs up to date with the study
@@ -27,13 +29,18 @@ PYTHON ?= python3
 VENV := .venv
 PEERS := benchmarks/peers/peers.lock
 BIN := $(VENV)/bin
+PARALLEL := --numprocesses auto --dist loadfile --no-loadscope-reorder
+# Tests of kernels on few blocks and in few steps, which together reach every line.
+INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or (each_step and grooves) \
+    or (stress_stays and leapfrog) or burst_alone or collapses or turns_negative
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
 
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full test browser test-slurm test-versions verify soak mutants bench bench-release bench-ratios docs archive redraw setup lock clean
+.PHONY: all quick full test coverage browser test-slurm test-versions verify soak mutants bench bench-release bench-ratios docs \
+    archive redraw setup lock clean
 
 all: setup
 	$(BIN)/snakemake
@@ -49,7 +56,20 @@ test: setup $(if $(CI),browser)
 	$(BIN)/ruff format --check
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
-	$(BIN)/pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
+	$(BIN)/pytest $(PARALLEL)
+
+# Coverage sees a kernel only if it is interpreted, and most of the rest is quicker if none is.
+coverage: setup
+	$(BIN)/coverage erase
+	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
+	    beyond cli claims/test_rule.py claims/test_samples.py validation/test_law_files.py) -k "not study_may"
+	NUMBA_DISABLE_JIT=1 $(BIN)/coverage run -m pytest -W ignore $(PARALLEL) --dist load \
+	    $(addprefix tests/solver/test_,springs.py release.py laws.py parallel.py) \
+	    $(addprefix tests/simulation/test_,fields.py simulation.py) \
+	    $(addprefix tests/validation/test_,lattice.py law_files.py specification.py) \
+	    -k "$(INTERPRETED)"
+	$(BIN)/coverage combine --quiet
+	$(BIN)/coverage report
 
 # What is there serves; Chrome does as well. Only this target, and CI, install anything.
 browser:

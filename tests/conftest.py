@@ -4,11 +4,14 @@ import fcntl
 import os
 from collections.abc import Callable
 
+import numba
 import numpy as np
 import pytest
 from click.testing import CliRunner
 from hypothesis import settings
 
+if numba.config.DISABLE_JIT:
+    import interpreted  # noqa: F401
 from springblock.cli import main
 from studies import Study
 

@@ -79,13 +79,6 @@ OWN = {
     "solver/law_file": "tests/validation/test_law_files.py",
     "solver/rk4": "tests/validation/test_convergence.py",
 }
-#: What the interpreter needs in place of machine code, at the end of a module.
-STAND_INS = {
-    "springs": "",
-    "compilation": "def add(total, term):\n    return total + term\n",
-    "inverse_root": "def _guess(x):\n    half = int(np.float64(x).view(np.int64)) >> 1\n"
-    "    return np.uint64(_MAGIC - half).view(np.float64)\n",
-}
 
 _OTHER: dict[type[ast.AST], type[ast.AST]] = {
     ast.Lt: ast.LtE,
@@ -241,10 +234,6 @@ def caught_by(mutant: Mutant, room: Path) -> str:
         (package / mutant.file).write_text(mutant.source)
         own = OWN.get(stem, f"tests/{folder}/test_{Path(stem).name}.py")
         tests = plan.interpreted if interpreted else (own, *plan.tests)
-        if interpreted:
-            for name, code in STAND_INS.items():
-                file = package / f"solver/{name}.py"
-                file.write_text(file.read_text().replace("U = np.uint64", "U = int") + "\n" + code)
         for each in tests:
             exists = (ROOT / each.partition(" ")[0]).exists()
             if exists and (found := failing(room / "src", each, interpreted)):

@@ -222,7 +222,7 @@ def resistance(
     low, high = still, np.maximum(speed, speed + share * friction_at(still))
     mean, rises = high, friction_at(high) > friction_at(still)
     bisected = rises | (share > 0.0)
-    for _ in range(2000):
+    for _ in range(2000):  # pragma: no branch - far fewer halvings leave no number between
         right = speed + share * friction_at(mean)
         low, high = np.where(mean < right, mean, low), np.where(mean < right, high, mean)
         found = np.maximum(np.where(bisected, 0.5 * (low + high), right), 0.0)

@@ -12,4 +12,7 @@ def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
     found = compare(one, other)
     assert (found.both, found.first, found.second, found.same) == (2, 1, 1, False)
     assert found.differences == [Difference("t_max", rows=1, largest=0.5, relative=0.25)]
+    assert compare(one.select(["t_max"]), other.select(["t_max"])).differences[0].rows == 3
+    with pytest.raises(ValueError, match="differ in their columns: seed"):
+        compare(one, other.select(["t_max"]))
     assert compare(one, one.take([2, 0, 1])).same

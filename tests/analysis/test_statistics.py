@@ -96,6 +96,9 @@ def test_curves_are_cut_to_the_shortest_run_or_end_with_the_longest():
     assert np.isfinite(curve.friction[0]).all()
     assert np.isnan(curve.friction[1, 12:]).all()
     assert curve.detachments.sum(axis=1).tolist() == [100.0, 100.0]
+    runs[1].time = 2.0 * runs[1].time
+    with pytest.raises(ValueError, match="must have the same sample interval"):
+        cut(runs, [friction(each) for each in runs])
     assert not curve.detachments[1, 12:].any()
 
 

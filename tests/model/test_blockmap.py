@@ -77,6 +77,9 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
         (np.array([["a", ""]]), "a.npy", "must hold zeros and one other value, not .'', 'a'"),
         (np.array([[{}, 1]], object), "a.npy", "must be an array of numbers saved by NumPy"),
         (np.ones(3, bool), "a.npy", r"must have the shape \(N_y, N_x\), not \(3,\)"),
+        (np.ones((1, 4097), bool), "a.npy", "is too large; a surface may have at most 4096"),
+        (np.ones((1, 4097), bool), "a.png", "is too large; a surface may have at most 4096"),
+        (CORNER, "a-00000000.npy", "holds the mask a-.*, not that of its name"),
         (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
     ],
 )
@@ -118,6 +121,8 @@ def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
 def test_coefficients_are_real_numbers(saved, values):
     with pytest.raises(ValueError, match=r"corner.npy must hold real numbers, not "):
         BlockMap.coefficients(saved(values))
+    with pytest.raises(ValueError, match=r"absent.npy does not exist"):
+        BlockMap.coefficients(Path("absent.npy"))
 
 
 def test_without_the_reader_a_topography_is_refused(tmp_path, monkeypatch):

@@ -71,6 +71,7 @@ def test_only_damping_and_friction_may_vanish(name):
     ("constants", "derived"),
     [
         ({"density": 1e-320}, "mass"),
+        ({"thickness": 1e-200}, "k_s"),
         ({"pressure": 1e308, "spacing": 1e10, "thickness": 1e10}, "block_load"),
         ({"youngs_modulus": 1e308, "thickness": 1e3}, "k_int"),
     ],

@@ -97,6 +97,7 @@ def test_contact_is_read_only():
         (lambda: Pattern.flat(4, n_rows=0), "n_rows must be at least 1 block, not 0"),
         (lambda: Pattern.pillars(12, 4, 2).grooved(1, 4), "groove of 4 .* pillar of 4 blocks"),
         (lambda: Pattern.pillars(12, 4, 2).grooved(2, 1), "do not fill a pillar of 4 blocks"),
+        (lambda: Pattern.flat(4097), "N must be at most 4096, not 4097"),
         (lambda: Pattern.flat(0), "N must be at least 1"),
         (lambda: Pattern.pillars(12, 0, 2), "n_p must be at least 1"),
         (lambda: Pattern.pillars(12, 2, -2), "n_s must be at least 1"),

@@ -151,11 +151,25 @@ def test_invalid_cuts_are_refused(tmp_path, header, how, sentence):
     assert "\n" not in str(refusal.value)
 
 
-def test_heights_in_volts_are_refused(tmp_path, monkeypatch):
-    """As an atomic force microscope may leave them."""
-    volts = SurfaceTopography.Topography(HEIGHTS.T, (4e-5, 3e-5), unit="V")
-    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(volts))
-    with pytest.raises(ValueError, match=r"rough.txt: its unit must be a length, not 'V'"):
+MAP, NOTHING = (4e-5, 3e-5), np.ma.masked_all((4, 3))
+
+
+@pytest.mark.parametrize(
+    ("measured", "sentence"),
+    [
+        # as an atomic force microscope may leave them
+        (SurfaceTopography.Topography(HEIGHTS.T, MAP, unit="V"), "its unit must be a length, not"),
+        (SurfaceTopography.Topography(NOTHING, MAP, unit="m"), "has no valid point"),
+        (SurfaceTopography.UniformLineScan(HEIGHTS[0], 4e-5, unit="m"), "not a profile"),
+        (SimpleNamespace(nb_grid_pts=(2**14, 2**13)), "it has 134217728 points; 67108864 is the"),
+    ],
+)
+def test_what_is_no_map_of_heights_is_refused(tmp_path, monkeypatch, measured, sentence):
+    monkeypatch.setattr(SurfaceTopography, "open_topography", opened(measured))
+    with pytest.raises(ValueError, match=rf"rough.txt.* {sentence}"):
+        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
+    monkeypatch.setattr("springblock.model.blockmap._BYTES", 100)
+    with pytest.raises(ValueError, match=r"rough.txt is too large; .* at most 100 bytes"):
         Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
 
 

@@ -78,9 +78,11 @@ def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator
     assert not file.exists()
 
 
-def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped):
-    file = stopped(prelude=compute_prelude(PILLARS.contact), duration=3e-4)
-    assert answer(pull(checkpoint=file, duration=3e-4, cores=2)) == answer(pull(duration=3e-4))
+@pytest.mark.parametrize("kept", [True, False])
+def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped, kept):
+    prelude = compute_prelude(PILLARS.contact)
+    how = {"checkpoint": stopped(prelude=prelude, duration=3e-4), "duration": 3e-4, "cores": 2}
+    assert answer(pull(**how, prelude=prelude if kept else None)) == answer(pull(duration=3e-4))
 
 
 def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):

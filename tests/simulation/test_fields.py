@@ -83,7 +83,7 @@ def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodi
         Surface(contact, mu_static, mu_dynamic, periodic),
         Material(slider_velocity=5e-2),
     )
-    how = {"duration": 1e-5, "snapshot_times": 2e-7 * np.arange(12, 16)}
+    how = {"duration": 4e-6, "snapshot_times": 2e-7 * np.arange(12, 16)}
     fields = simulate(surface, Setup(fast, integrator), direction=30, **how).fields
     load = threshold(fast) * contact.size / np.count_nonzero(contact)
     stuck, sliding = (fields.state == each for each in (BlockState.STUCK, BlockState.SLIDING))

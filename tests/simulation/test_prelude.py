@@ -106,6 +106,9 @@ def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
     assert vars(stored).keys() == vars(prelude).keys()
     for name, value in vars(prelude).items():
         np.testing.assert_array_equal(getattr(stored, name), value)
+    (tmp_path / "prelude.npz").write_bytes(b"text")
+    with pytest.raises(ValueError, match=r"prelude.npz is not a prelude, or damaged"):
+        Prelude.read(tmp_path / "prelude.npz")
 
 
 @pytest.mark.parametrize(

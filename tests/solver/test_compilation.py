@@ -33,6 +33,9 @@ def test_a_folder_is_refused_that_is_not_the_users_alone(tmp_path, monkeypatch, 
     with pytest.raises(PermissionError, match=f"others can write to {folder}$"):
         _cache_folder()
     folder.chmod(0o700)
+    monkeypatch.setattr(os, "access", lambda *how: False)
+    with pytest.raises(PermissionError, match=r"springblock/\w+ is read-only$"):
+        _cache_folder()
     monkeypatch.setattr(os, "getuid", lambda: tmp_path.stat().st_uid + 1)
     with pytest.raises(PermissionError, match=f"others can write to {tmp_path}"):
         _cache_folder()

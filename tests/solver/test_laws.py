@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from numba import njit
 
-from springblock import Material
+from springblock import Material, specification
+from springblock.model.law import LawFile
 from springblock.model.material import LAWS
 from springblock.solver import laws
 from springblock.solver.friction import apply_friction
-from springblock.solver.laws import SlipWeakening, VelocityWeakening, law_of
+from springblock.solver.laws import SlipWeakening, VelocityWeakening, from_file, law_of
 
 STATIC, DYNAMIC = 1.0, 0.6
 DROP = STATIC - DYNAMIC
@@ -82,6 +83,24 @@ def test_friction_is_that_at_the_mean_speed_which_depends_on_it(scale, share):
         taken = resistance(law, 0.0, speed, share)
         mean = speed + share * taken
         assert taken == pytest.approx(DYNAMIC + DROP / (1.0 + mean / scale), rel=1e-13)
+
+
+@pytest.mark.parametrize("scale", [0.05, 100.0])
+def test_a_file_of_velocity_weakening_is_the_built_in_law(scale, tmp_path):
+    """They agree on V, to the tolerance of an iteration; the slowest blocks stop, with V = 0."""
+    file = tmp_path / "velocity.py"
+    file.write_text(
+        f"def friction(mu_static, mu_dynamic, speed):\n"
+        f"    return mu_dynamic + (mu_static - mu_dynamic) / (1.0 + speed / {scale})\n"
+    )
+    own = from_file(LawFile.read(file), np.ones(2, bool), 1.0, 1.0, 1.0)
+    for speed in np.linspace(0.0, 2.0, 40):
+        found, exact = (
+            max(speed - 0.5 * resistance(law, 1, speed, -0.5), 0.0)
+            for law in (own, VelocityWeakening(scale))
+        )
+        assert found == pytest.approx(exact, rel=1e-12)
+    assert specification.Law.of(Material(law=file)).after({}, 1.0, 1.0) == {}  # it has no state
 
 
 def test_of_two_solutions_the_larger_speed_holds():

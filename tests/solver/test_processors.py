@@ -46,12 +46,12 @@ has = {"avx512f": True, "avx512vl": True}
 llvm.get_host_cpu_name = lambda: "skylake-avx512"
 llvm.get_host_cpu_features = lambda: llvm.targets.FeatureMap(has)
 from numba import float64
-from springblock.solver.compilation import kernel
+from springblock.solver.compilation import add, kernel
 
 @kernel
 def doubled(x):
     for i in range(len(x)):
-        x[i] = 2.0 * x[i]
+        x[i] = add(x[i], x[i])
 
 doubled.compile((float64[::1],))
 print(*("zmm" in code for code in doubled.inspect_asm().values()))

@@ -155,6 +155,7 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
             "CONSTANTS = {'gamma': (1.0, '')}\n" + FRICTION,
             "'gamma' is a constant of the material",
         ),
+        ("STATE = ['s']\n" + FRICTION, "STATE must be a dictionary"),
         ("STATE = {'s': 'a'}\n" + FRICTION, r"STATE\['s'\] must be a number or the name of"),
         ("STATE = {'s': 0.0}\n" + FRICTION, "must define the function update"),
         (
@@ -177,16 +178,30 @@ def test_a_file_that_is_no_law_is_refused_in_one_sentence(text, sentence, tmp_pa
     assert "\n" not in str(refused.value)
 
 
-def test_what_numba_cannot_compile_and_what_turns_negative_is_refused(tmp_path):
+def test_what_is_no_file_of_text_or_no_number_is_refused(tmp_path):
+    for place, reason in ((tmp_path, "cannot be read"), (tmp_path / "law.py", "does not exist")):
+        with pytest.raises(ValueError, match=reason):
+            LawFile.read(place)
+    with pytest.raises(ValueError, match="floor must be a finite number, not nan"):
+        LawFile.read(EXPONENTIAL, floor=math.nan)
+
+
+def test_what_numba_cannot_compile_is_refused(tmp_path):
     (tmp_path / "set.py").write_text("def friction(speed):\n    return len({1: speed, 'a': 2})\n")
-    surface = uniform(1, 1.0, 0.6)
     with pytest.raises(ValueError, match=r"set\.py cannot be compiled by numba"):
-        simulate(surface, Setup(Material(law=tmp_path / "set.py")))
+        one_block(Material(law=tmp_path / "set.py"), 1e-6)
+
+
+def test_what_turns_negative_or_holds_forever_is_refused(tmp_path):
+    surface, fast = uniform(1, 1.0, 0.6), {"slider_velocity": 5e-2}
+    (tmp_path / "firm.py").write_text("def friction(mu_static):\n    return 100.0 * mu_static\n")
+    with pytest.raises(RuntimeError, match="1 contact blocks have not detached; if this is"):
+        simulate(surface, Setup(Material(law=tmp_path / "firm.py", **fast)))
     falling = "STATE = {'s': 0.5}\ndef friction(s):\n    return s\n"
     falling += "def update(s, speed):\n    return s - speed\n"
     (tmp_path / "falling.py").write_text(falling.replace("- speed", "- 0.1 * (speed < 1.0)"))
     with pytest.raises(RuntimeError, match=r"falling-.* returned a friction coefficient"):
-        simulate(surface, Setup(Material(law=tmp_path / "falling.py")))
+        simulate(surface, Setup(Material(law=tmp_path / "falling.py", **fast)))
     with pytest.raises(ValueError, match="integrator must be leapfrog with the law exponential"):
         Setup(Material(law=EXPONENTIAL), integrator="rk4")
     with pytest.raises(ValueError, match=r"unknown constant 'd_1'; choose from d_0, floor"):

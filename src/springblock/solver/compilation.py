@@ -46,7 +46,7 @@ def _processor_features() -> str | None:
         return config.CPU_FEATURES
     try:
         features = llvmlite.binding.get_host_cpu_features()
-    except RuntimeError:  # LLVM does not know this processor
+    except RuntimeError:  # pragma: no cover - only on a processor that LLVM does not know
         return None
     return f"{features.flatten()},-prefer-256-bit" if features.get("avx512f") else None
 

@@ -150,8 +150,6 @@ def _between(law, row, speed, share, static, dynamic, low, high):
     below = low[0] - speed - share * low[1]
     above, friction, moved = high[0] - speed - share * high[1], high[1], 0.0
     for _ in range(_ITERATIONS):
-        if above <= below:
-            break
         middle = right - above * (right - left) / (above - below)
         mean = math.exp(middle)
         friction = _friction(law, row, mean, static, dynamic)
