@@ -20,7 +20,7 @@ def written() -> str:
         "differ from those of the full simulation by up to 0.3% up to n_p = 6 and by up to 8.3%",
         "0.30, at n_p = 6",
         "load transfer raises friction on pillars of 20 blocks and lowers it on all others",
-        "lowest at n_p = 20, with load transfer at 6, with overshoot at 6, and in the full",
+        "it is at n_p = 20, with load transfer at 6, with overshoot at 6, and in the full",
         # what all models share from seed to seed leaves no interval of their differences
         "| 6 | -8.3 [-8.3, -8.3] | -8.3 [-8.3, -8.3] | 0.2 [0.2, 0.2] |",
         # on the thin layer the full model is lowest at 20 blocks, and only stress alone is there
