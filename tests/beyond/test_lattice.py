@@ -5,6 +5,7 @@ import numpy as np
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
+    Comparison,
     Lattice,
     Quantity,
     answers,
@@ -80,25 +81,43 @@ def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
     assert f"Same scatter on every lattice: {UNCHANGED} (80" in size
     assert "Thicker layers, l = 10 µm: changes (80 µm at l_z = 10" in size
     assert "No disorder: changes (80 µm at l = 10 µm, 40" in size
-    lattice, layer = conclusion.split("**A thicker layer changes**")
-    (part,) = (each for each in lattice.split("; ") if "the friction-minimising size" in each)
-    assert "in some" in part
-    assert "the friction-minimising size" in layer
+    assert "layer is thicker, the friction-minimising size** changes (80 µm at l_z" in conclusion
+    refined = f"lattice is refined**, it {UNCHANGED} (no disorder: changes); static friction on"
+    assert refined in conclusion
     assert len(table.splitlines()) == 2 + len(PLACES)
 
 
-def test_changes_are_those_from_the_first_to_the_last_lattice():
+def test_changes_are_those_from_the_first_lattice_finer_than_the_layer_to_the_last():
     part = comparisons(surfaces())
-    values = {20: (3.0, 2.0, 4.0), 10: (2.0, 1.0, 3.0), 5: (1.0, 0.5, 1.5)}
+    values = {20: (0.1, 0.0, 0.2), 10: (2.0, 1.5, 2.5), 5: (1.0, 0.5, 1.5)}
     way = Quantity("way", "µm")
     found = {at: {way: Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
     changed = changes(part, found, way)
     assert changed["block"] == (
         "decreases",
-        "Same scatter on every lattice: decreases from 3.0 [2.0, 4.0] µm at l = 20 µm "
-        "to 1.0 [0.5, 1.5] µm at l = 5 µm (difference: -2.0 [-3.1, -0.9] µm).",
+        "Same scatter on every lattice: decreases from 2.0 [1.5, 2.5] µm at l = 10 µm "
+        "to 1.0 [0.5, 1.5] µm at l = 5 µm (difference: -1.0 [-1.7, -0.3] µm).",
     )
     assert changed["layer"][0] == UNCHANGED
+
+
+def test_a_value_beyond_both_ends_is_named():
+    """Static friction on pillars of 60 µm by l_z, from `docs/beyond.md`."""
+    values = {
+        10: (0.6448, 0.6431, 0.6465),
+        20: (0.6506, 0.6484, 0.6528),
+        40: (0.63, 0.6281, 0.6319),
+    }
+    layers = {Lattice(10.0, float(l_z), 0.1, 0.0): {} for l_z in values}
+    friction = Quantity("friction")
+    found = {at: {friction: Interval(*map(np.array, values[at.thickness]))} for at in layers}
+    (_, said) = changes({"layer": Comparison("Layers", "thickness", layers)}, found, friction)[
+        "layer"
+    ]
+    assert said.endswith(
+        "l_z = 40 µm (difference: -0.0148 [-0.0173, -0.0123]), but is "
+        "0.6506 [0.6484, 0.6528] at l_z = 20 µm."
+    )
 
 
 def test_values_without_scatter_are_exact():

@@ -23,8 +23,9 @@ def test_the_page_counts_surfaces_with_more_along_than_across():
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
     conclusion, hierarchy, table = peaks.answers(made)
     assert "across them** on 1 of 2 surfaces, and less prominent on 1" in conclusion
-    assert "with pawls of 4 and grooves of 2 blocks: 94.99" in conclusion
-    assert "in 0 of 1 cases, and less prominent in 1" in hierarchy
+    assert "it is largest with pawls of 4 and grooves of 2 blocks: 94.99" in conclusion
+    assert "in 0 of 1 cases, and less prominent in 1. Where it exceeds 1 % on both" in hierarchy
+    assert "more prominent in 0 of 0 cases, and less prominent in 0; the" in hierarchy
     assert len(table.splitlines()) == 4
 
 

@@ -41,7 +41,7 @@ def test_clumps_at_random_places_are_larger_than_by_chance_and_resting_ones_no_c
 def test_the_page_counts_surfaces_with_larger_clusters(rng):
     made = {FLAT: [before(clumps(rng), seed) for seed in range(10)]}
     conclusion, table = clusters.answers(made)
-    assert "blocks in the same places on 1 of 1 surfaces, and larger than with " in conclusion
+    assert "blocks in the same places on 1 of 1 surfaces; larger than with as " in conclusion
     assert conclusion.endswith("(surface: flat).")
     assert "| flat |" in table
 
@@ -84,15 +84,15 @@ def scattered(length, best=lambda std: 10.0):
 @pytest.mark.parametrize(
     ("exponent", "words", "best", "minimum"),
     [
-        (-1.0, "decreases", lambda std: 100.0 * std, "changes from 4 to 20."),
-        (0.0, UNCHANGED, lambda std: 10.0, f"{UNCHANGED}: 10."),
+        (-1.0, "decreases", lambda std: 100.0 * std, "changes from 4 to 20"),
+        (0.0, UNCHANGED, lambda std: 10.0, f"{UNCHANGED}: 10"),
     ],
 )
 def test_the_page_says_what_scatter_changes(exponent, words, best, minimum):
     conclusion, table = scatter.answers(scattered(lambda std: 2.0 * (10.0 * std) ** exponent, best))
     assert "from 0.05 to 0.2**, the decay length" in conclusion
     assert f"length {words}" in conclusion or f"and {words}" in conclusion
-    assert conclusion.endswith(f"the friction-minimising n_p {minimum}")
+    assert conclusion.endswith(f"the friction-minimising n_p {minimum}, among 4, 10 and 20.")
     assert len(table.splitlines()) == 5
 
 
@@ -127,4 +127,12 @@ def test_a_variance_that_stays_at_last_goes_by_no_power():
     made = of_sizes(1.0)
     made[Scene(40)] = lean(Scene(40), 0.7, 200, 0.1 / 10)
     made[Scene(20)] = lean(Scene(20), 0.7, 200, 0.1 / 40)
-    assert "no power law on flat surfaces" in next(variance.answers(made))
+    assert "A law n^-x is rejected on flat surfaces (chi" in next(variance.answers(made))
+
+
+def test_a_power_law_is_tested_by_all_variances():
+    """Those of `docs/beyond.md`, section 7, / 1e-6: flat surfaces, then pillars of 10 blocks."""
+    flat = {30: 100.0, 60: 14.0, 120: 9.9, 240: 1.1, 480: 1.0}
+    assert variance.misfit(flat, [20, 20, 40, 20, 20]) == pytest.approx(11.23, abs=0.01)
+    pillars = {40: 81.0, 60: 35.0, 80: 22.0, 120: 10.4, 160: 4.9, 240: 4.0}
+    assert variance.misfit(pillars, [20, 60, 20, 60, 20, 20]) == pytest.approx(1.36, abs=0.01)

@@ -41,13 +41,12 @@ number of blocks in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
+{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
 is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
 {length_ensemble} for the decay length, is up to
 {errors}. It exceeds the estimated bias in {larger} of {n} cases.
 {pooled}Quote means with their intervals over seeds, and add the bias where hundreds of realisations
-are pooled. Compare ensembles only: on patterned surfaces single runs diverge before the force peak,
-at any step.
+are pooled. Compare ensembles only: single runs on patterned surfaces diverge at any step.
 """
 
 _POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} of the two.

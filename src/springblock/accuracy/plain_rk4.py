@@ -1,4 +1,4 @@
-"""Runge-Kutta as one would first write it; it does not converge, and shows why care is needed.
+"""Runge-Kutta as one would first write it, whose errors hardly decrease with the step.
 
 Friction opposes the velocity of each *stage*, and a block sticks again when its velocity turns
 back. The stage velocities of a slow block alternate in sign, so that it creeps instead of coming

@@ -83,7 +83,7 @@ _SURFACES = {
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
-PLAIN_STEPS = STEPS[:-2]  # long enough to see that it does not converge
+PLAIN_STEPS = STEPS[:-2]  # enough to see that its errors hardly decrease
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4

@@ -82,13 +82,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if not found:
         return
     anywhere = sum(bool(each.ratio.low > 1.0) for each in found.values())
+    smaller = sum(bool(each.ratio.high < 1.0) for each in found.values())
     in_place = sum(bool(each.ratio_mixed.low > 1.0) for each in found.values())
     most = max(found, key=lambda scene: float(found[scene].ratio_mixed.mean))
     yield (
         "**Precursors form larger clusters than expected by chance**: larger than with blocks in "
-        f"the same places on {in_place} of {len(found)} surfaces, and larger than with as many "
-        f"blocks anywhere on {anywhere}. The largest ratio to blocks in the same places is "
-        f"{number(found[most].ratio_mixed)} (surface: {name(most)})."
+        f"the same places on {in_place} of {len(found)} surfaces; larger than with as many blocks "
+        f"anywhere on {anywhere}, and smaller on {smaller}. The largest ratio to blocks in the "
+        f"same places is {number(found[most].ratio_mixed)} (surface: {name(most)})."
     )
     header = ["surface", "detached before t_max", "mean cluster (blocks)"]
     header += ["ratio to anywhere", "ratio to same places"]

@@ -123,6 +123,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     shares, left = explained(found), np.array([*residuals(found).values()])
     scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
     rms = np.sqrt((left**2).sum() / freedom)
+    rest = 1.0 - shares["both"].mean
     size, contact, more, both = (number(share, " %", 100.0) for share in shares.values())
     words = "Static friction depends on the size of pillars more than on contact fraction"
     if shares["more by size"].high < 0.0:
@@ -130,9 +131,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     elif not shares["more by size"].low > 0.0:
         words = "Size and contact fraction explain static friction equally well"
     yield (
-        f"**{words}**: of its variance over {len(found)} surfaces, size explains {size} beyond "
-        f"what contact fraction explains, and contact fraction {contact} beyond what size "
-        f"explains (difference: {more})."
+        f"**{words}**, among these {len(found)} surfaces: of its variance, size explains {size} "
+        f"beyond what contact fraction explains, contact fraction {contact} beyond what size "
+        f"explains (difference: {more}), and their interaction up to {100.0 * rest:.2g} %."
     )
     add_up = "the effects are additive within the scatter"
     if (left**2).sum() / scatter**2 > chdtri(freedom, _LEVEL):

@@ -65,6 +65,11 @@ class Comparison(NamedTuple):
     axis: str  #: the length, of `Lattice`
     surfaces: Surfaces
 
+    @property
+    def fine(self) -> Surfaces:
+        """Surfaces whose lattice is no coarser than the layer is thick."""
+        return {at: self.surfaces[at] for at in self.surfaces if at.spacing <= at.thickness}
+
 
 def by_lattice(ensembles: Ensembles) -> Surfaces:
     """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer.
@@ -175,7 +180,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
         changed[quantities[0]].pop(kind, None)
     changed[Quantity("the friction-minimising size")] = _moves(compared)
-    yield _conclusion(changed)
+    yield _conclusion(changed, larger[-1])
     for (name, _), by_comparison in changed.items():
         bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
         yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
@@ -200,74 +205,65 @@ def changes(
     found: Mapping[Lattice, Mapping[Quantity, Interval]],
     quantity: Quantity,
 ) -> Changes:
-    """Say how a value changes from the first to the last surface of each comparison."""
+    """Say how a value changes from the first to the last surface of each comparison, l <= l_z.
+
+    Values between them that lie significantly above both, or below both, are given as well.
+    """
     said = {}
     unit = quantity.unit and f" {quantity.unit}"
-    for kind, (words, axis, surfaces) in compared.items():
-        known = [(at, found[at][quantity]) for at in surfaces if quantity in found[at]]
+    for kind, each in compared.items():
+        known = [
+            (f" at {_place(at, each.axis)}", found[at][quantity])
+            for at in each.fine
+            if quantity in found[at]
+        ]
         if len(known) >= 2:
-            (first, before), (last, after) = known[0], known[-1]
-            places = f" at {_place(first, axis)}", f" at {_place(last, axis)}"
-            sentence = f"{words}: {change(before, after, unit, places)}."
-            said[kind] = direction(before, after), sentence
+            (first, before), *between, (last, after) = known
+            sentence = f"{each.words}: {change(before, after, unit, (first, last))}"
+            for at, value in between:
+                if UNCHANGED != direction(before, value) == direction(after, value):
+                    sentence += f", but is {number(value, unit)}{at}"
+            said[kind] = direction(before, after), f"{sentence}."
     return said
 
 
 def _moves(compared: Mapping[str, Comparison]) -> Changes:
     """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
     said = {}
-    for kind, (words, axis, surfaces) in compared.items():
-        fine = {
-            at: sizes
-            for at, sizes in surfaces.items()
-            if at.spacing <= at.thickness and len(sizes) >= _SIZES
-        }
+    for kind, each in compared.items():
+        fine = {at: sizes for at, sizes in each.fine.items() if len(sizes) >= _SIZES}
         common = sorted(set.intersection(*map(set, fine.values()))) if len(fine) >= 2 else []
         if len(common) >= _SIZES:
             best = {
                 at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
             }
             verb = "changes" if are_apart(best.values()) else UNCHANGED
-            places = ", ".join(f"{each} µm at {_place(at, axis)}" for at, each in best.items())
+            places = ", ".join(f"{size} µm at {_place(at, each.axis)}" for at, size in best.items())
             among = listed([f"{size:g}" for size in common])
-            said[kind] = verb, f"{words}: {verb} ({places}; among {among} µm)."
+            said[kind] = verb, f"{each.words}: {verb} ({places}; among {among} µm)."
     return said
 
 
-def _conclusion(changed: Mapping[Quantity, Changes]) -> str:
-    """Say what changes with l (in all refinements of the lattice, in some or in none) and l_z."""
-    every, opposite, some, none, layer = (list[str]() for _ in range(5))
-    for (name, unit), by_comparison in changed.items():
-        verbs = {kind: verb for kind, (verb, _) in by_comparison.items()}
-        if unit == "blocks":  # the same in µm is among them
-            continue
-        if verbs.pop("layer", UNCHANGED) != UNCHANGED:
-            layer.append(name)
-        found = {*verbs.values()}
-        if found == {UNCHANGED}:
-            none.append(name)
-        elif UNCHANGED in found:
-            some.append(name)
-        elif found:
-            (every if len(found) == 1 else opposite).append(name)
-    cases = {
-        "in every case below": every,
-        "in every case, but not in the same direction": opposite,
-        "in some cases": some,
-        "in no case": none,
-    }
-    of_lattice = "; ".join(f"{_grouped(names)} ({how})" for how, names in cases.items() if names)
+def _conclusion(changed: Mapping[Quantity, Changes], broad: float) -> str:
+    """Say how the friction-minimising size, friction and a decay length change."""
+    wanted = "static friction", f"the decay length on pillars of {broad:g} µm"
+    *others, (_, size) = changed.items()  # the friction-minimising size is the last
+    values = [f"{each.name} {_how(by)}" for each, by in others if each.name.startswith(wanted)]
+    _, moves = size.get("layer", ("", "Layers: is not compared."))
     return (
-        f"**Refining the lattice changes** {of_lattice}. **A thicker layer changes** "
-        f"{_grouped(layer) or 'none of these'}."
+        "**When the layer is thicker, the friction-minimising size** "
+        f"{moves.partition(': ')[2]} **When the lattice is refined**, it {_how(size)}; "
+        f"{'; '.join(values)}."
     )
 
 
-def _grouped(names: Sequence[str]) -> str:
-    """List names, those on the same pillars together."""
-    found: dict[str, list[str]] = {}
-    for name in names:
-        what, on, where = name.partition(" on pillars")
-        found.setdefault(on + where, []).append(what)
-    parts = [listed(group) + where for where, group in found.items()]
-    return ", and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
+def _how(changes: Changes) -> str:
+    """Say what most refinements of the lattice do, and in brackets what the others do."""
+    found = {kind: verb for kind, (verb, _) in changes.items() if kind != "layer"}
+    usual = mode(found.values()) if found else "is not compared"
+    others = [
+        f"{changes[kind][1].partition(':')[0].lower()}: {verb}"
+        for kind, verb in found.items()
+        if verb != usual
+    ]
+    return f"{usual} ({'; '.join(others)})" if others else usual

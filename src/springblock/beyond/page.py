@@ -29,5 +29,5 @@ def page(ensembles: Ensembles) -> str:
         answers.append(f"{i}. {answer}")
         values[name] = "\n\n".join(rest)
     text = _PAGE.read_text(encoding="utf-8")
-    constants = {"last": LAST, "shuffles": clusters.SHUFFLES, "far": variance.FAR}
+    constants = {"last": LAST, "shuffles": clusters.SHUFFLES}
     return text.format(answers="\n".join(answers), **constants, **values)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.analysis.statistics import Interval, mean_interval, prominence
-from springblock.beyond.question import Ensembles, grouped, number
+from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
 from springblock.beyond.resampling import interval
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
@@ -14,6 +14,7 @@ from springblock.model.direction import degrees
 from springblock.simulation.run import friction
 
 NEEDS = "groups peaks and grooves"
+_TWO = 1.0  #: %, prominence of the lesser of two load peaks, at least
 
 
 class Grooves(NamedTuple):
@@ -60,21 +61,27 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
     contrasts = {key: _difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
     more, less = _significant(list(contrasts.values()))
-    most = max(found, key=lambda key: float(mean(found[key][0.0]).mean))
+    along = {key: mean(angles[0.0]) for key, angles in found.items()}
+    most = max(found, key=lambda key: float(along[key].mean))
+    alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     yield (
         f"**The lesser load peak is more prominent when sliding along the grooves than across "
-        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. It is most "
-        f"prominent with pawls of {most.n_p2} and grooves of {most.n_s2} blocks: "
-        f"{number(mean(found[most][0.0]), ' %')} of the largest force."
+        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. Among these, it "
+        f"is largest{', though not significantly,' if alike[1:] else ''} with pawls of {most.n_p2} "
+        f"and grooves of {most.n_s2} blocks: {number(along[most], ' %')} of the largest force."
     )
-    pairs = [(found[key], found.get(Grooves(0, key.n_s2, key.n_p2))) for key in found if key.n_p]
-    on_pillars = [_difference(on[0.0], off[0.0]) for on, off in pairs if off]
-    if on_pillars:
-        more, less = _significant(on_pillars)
+    pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
+    if pairs:
+        apart = [_difference(found[on][0.0], found[off][0.0]) for on, off in pairs]
+        least = [min(along[on].mean, along[off].mean) for on, off in pairs]
+        two = [each for each, low in zip(apart, least, strict=True) if low > _TWO]
+        (more, less), (more_of_two, less_of_two) = _significant(apart), _significant(two)
         yield (
             "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
-            f"over the whole surface in {more} of {len(on_pillars)} cases, and less prominent in "
-            f"{less}."
+            f"over the whole surface in {more} of {len(pairs)} cases, and less prominent in "
+            f"{less}. Where it exceeds {_TWO:g} % on both, it is more prominent in {more_of_two} "
+            f"of {len(two)} cases, and less prominent in {less_of_two}; the other differences are "
+            "those of surfaces of which one at least has no second peak of this size."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

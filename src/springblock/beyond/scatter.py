@@ -53,10 +53,11 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if len(scatters) < 3 or not (lengths := decay_lengths(scatters)):
         return
     friction = {std: samples(sizes) for std, sizes in scatters.items()}
-    yield _conclusion(lengths, [lowest(by_size) for by_size in friction.values()])
+    sizes = [str(n_p) for n_p in next(iter(friction.values()))]
+    minima = [lowest(by_size) for by_size in friction.values()]
+    yield f"{_conclusion(lengths, minima)}, among {listed(sizes)}."
     header = ["scatter", *(f"decay length, n_p = {n_p} (blocks)" for n_p in lengths)]
-    sizes = ", ".join(map(str, next(iter(friction.values()))))
-    header += [f"friction-minimising n_p of {sizes}", "lowest friction"]
+    header += [f"friction-minimising n_p of {', '.join(sizes)}", "lowest friction"]
     lines = []
     for std, by_size in friction.items():
         fitted = [number(by_scatter[std]) for by_scatter in lengths.values()]
@@ -74,5 +75,5 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
         f"**When the scatter of the thresholds increases from {least:g} to {most:g}**, the decay "
-        f"length {listed(said)}; the friction-minimising n_p {then}."
+        f"length {listed(said)}; the friction-minimising n_p {then}"
     )

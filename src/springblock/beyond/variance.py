@@ -1,9 +1,10 @@
 """How static friction varies from one realisation to another, by the size of the surface."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
+from scipy.special import chdtri
 
 from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.friction import static_friction
@@ -14,7 +15,7 @@ from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
 NEEDS = "groups flat and variance"
-FAR = 3.0  #: standard errors of a variance from a power law that does not describe it
+_LEVEL = 0.05  #: of the test of a power law
 _VARIANCE = partial(np.var, ddof=1)
 Pattern = tuple[int, int]  #: n_p and n_s, blocks; zeros on flat surfaces
 
@@ -34,24 +35,26 @@ def variance(values: Array) -> Interval:
     return interval([values], _VARIANCE)
 
 
-def exponent(sizes: Mapping[int, Array]) -> Interval:
-    """x in a variance proportional to n^-x, n = N² blocks, with its 95 % interval."""
+def exponent(sizes: Mapping[int, Array]) -> Interval | None:
+    """x in a variance proportional to n^-x, n = N² blocks; none where this law is rejected."""
+    found = {n: float(_VARIANCE(values)) for n, values in sizes.items()}
+    if misfit(found, [*map(len, sizes.values())]) > chdtri(len(sizes) - 2, _LEVEL):
+        return None
     slope = np.linalg.pinv(_design(sizes))[1]
     return interval(list(sizes.values()), _VARIANCE, lambda values: np.log(values) @ slope)
 
 
-def misfit(sizes: Mapping[int, Array]) -> float:
-    """Largest distance of a variance from the power law, in its standard errors.
+def misfit(variances: Mapping[int, float], counts: Sequence[int]) -> float:
+    """Return chi-squared of the best power law for variances by N, each of `counts` realisations.
 
     The logarithm of the variance of k normal values has a standard error of about √(2/(k - 1)).
     """
-    design, logs = _design(sizes), np.log([_VARIANCE(values) for values in sizes.values()])
-    left = logs - design @ (np.linalg.pinv(design) @ logs)
-    counts = np.array([len(values) for values in sizes.values()])
-    return float(np.abs(left * np.sqrt((counts - 1) / 2.0)).max())
+    weights = np.sqrt((np.array(counts) - 1.0) / 2.0)
+    design, logs = weights[:, None] * _design(variances), weights * np.log([*variances.values()])
+    return float(((logs - design @ (np.linalg.pinv(design) @ logs)) ** 2).sum())
 
 
-def _design(sizes: Mapping[int, Array]) -> Array:
+def _design(sizes: Collection[int]) -> Array:
     return np.column_stack([np.ones(len(sizes)), -2.0 * np.log(list(sizes))])
 
 
@@ -66,9 +69,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if found:
         laws = listed([_law(*each) for each in found.items()])
         yield (
-            "**The variance of static friction between realisations decreases approximately as "
-            f"n^-x**, where n = N² blocks. We find {laws}. Independent blocks have x = 1, but so "
-            "has any surface on which correlation extends over a fixed number of blocks."
+            "**The variance of static friction between realisations decreases with the number of "
+            f"blocks**, n = N². A law n^-x {laws}. Independent blocks have x = 1, but so has "
+            "any surface on which correlation extends over a fixed number of blocks."
         )
         steps = listed([_last_step(*each) for each in found.items()])
         yield f"**Between the two largest surfaces** the variance changes by {steps}."
@@ -90,11 +93,10 @@ def _last_step(pattern: Pattern, sizes: Mapping[int, Array]) -> str:
 
 def _law(pattern: Pattern, sizes: Mapping[int, Array]) -> str:
     where = f"on pillars with {name(pattern)}" if any(pattern) else "on flat surfaces"
-    if misfit(sizes) > FAR:
-        return f"no power law {where}"
-    power = exponent(sizes)
+    if (power := exponent(sizes)) is None:
+        return f"is rejected {where} (chi-squared test at {100.0 * _LEVEL:g} %)"
     differs = "not " if power.low <= 1.0 <= power.high else ""
-    return f"x = {number(power)} {where} ({differs}significantly different from 1)"
+    return f"has x = {number(power)} {where} ({differs}significantly different from 1)"
 
 
 def _lines(pattern: Pattern, sizes: Mapping[int, Array]) -> Iterator[Sequence[str]]:

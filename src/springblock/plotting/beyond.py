@@ -156,7 +156,8 @@ def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
         blocks = [float(n**2) for n in sizes]
         spread = [variance.variance(values) for values in sizes.values()]
         named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
-        label = f"{named}: $x$ = {float(variance.exponent(sizes).mean):.2f}"
+        power = variance.exponent(sizes)  # none where a power law is rejected
+        label = f"{named}: $x$ = {power.mean:.2f}" if power else named
         curves.draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
         products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
         independent = np.exp(np.mean(np.log(products))) / np.array(blocks)

@@ -247,7 +247,7 @@ FIGURES: dict[str, Declaration] = {
         realisations can be compared. d-f) Bias of mean static friction against the step, relative
         to the same seeds at a fine step. Small surfaces and, where the study has `production:
         true`, 120 × 120 blocks; both integrators, and Runge-Kutta with friction evaluated in each
-        stage, which does not converge.""",
+        stage.""",
         source=TableSource(("work_precision", "production")),
         marks="""Blue areas: range of 95 % of the means over 20 seeds. Bars: 95 % t intervals. The
         axis of biases is linear within ±1 % and logarithmic beyond.""",
