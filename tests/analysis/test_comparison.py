@@ -1,6 +1,7 @@
 """Differences between two tables, row by row."""
 
 import pyarrow as pa
+import pytest
 
 from springblock.analysis.comparison import Difference, compare
 
