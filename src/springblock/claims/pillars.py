@@ -44,6 +44,7 @@ _LARGEST = f"realisations of pillars with n_p of {_LARGE} or more"
 _BOTH = "realisations of the flat surface and of pillars with n_p of 6 or more"
 _SIZES = "realisations of pillars of three sizes or more, from n_p = 3 or less on"
 _SCATTER = "mu_static_std"
+_BIAS = 1e-3  #: bound of the numerical bias of static friction at the default step
 _COMPARED = (3, 6, 10, 20, 30)  #: n_p of pillars whose thresholds scatter less and more
 _SCATTERS = f"realisations of pillars with n_p of {', '.join(map(str, _COMPARED))} and more scatter"
 
@@ -361,10 +362,10 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
-    """Return the scenes whose static friction is not significantly above the lowest (95 %)."""
+    """Return the scenes whose static friction may be the lowest: within `_BIAS` of it (95 %)."""
     least = samples.friction(evidence, _lowest(evidence, scenes))
     more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
-    return [scene for scene in scenes if not more[scene].ci_low > 0.0]
+    return [scene for scene in scenes if not more[scene].ci_low > _BIAS]
 
 
 def _over_t_avg(quantity: Quantity) -> Quantity:
@@ -406,8 +407,10 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """“[...] an optimal length scale of the pillars [...] maximizes the occurrence of sliding
     precursors, so that the static friction is minimized [...].”
 
-    Tested: against every other size. Where the lowest static friction cannot be assigned to one
-    size, all candidates count.
+    Tested: against every other size. Sizes whose static friction is within the numerical bias,
+    0.001, of the lowest are all candidates. At n_p = 6 it is lower than at 7 by 0.0008 with the
+    default step, and by 0.0003 with 5e-9 s (80 realisations of each): about 1000 with this step
+    would decide. If friction is lowest at 6 the statement fails; if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
@@ -417,8 +420,8 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """“This explains why the smallest static friction is obtained for an specific intermediate
     value of n_p [...] and the force peak at the transition is considerably more rounded.”
 
-    Tested: by its width over t_avg, against the smallest and the largest pillars. Where the lowest
-    static friction cannot be assigned to one size, all candidates count.
+    Tested: by its width over t_avg, against the smallest and the largest pillars. Sizes whose
+    static friction is within the numerical bias, 0.001, of the lowest are all candidates.
     """
     return _larger_there(evidence, f"{_SUPPORTED} over t_avg", _over_t_avg(samples.width))
 
@@ -429,7 +432,7 @@ def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     around the maximum of the friction force. This leads to a longer duration of the transition
     between static and dynamic friction.”
 
-    Tested: by its duration over t_avg, against the smallest and the largest pillars. Where the
-    lowest static friction cannot be assigned to one size, all candidates count.
+    Tested: by its duration over t_avg, against the smallest and the largest pillars. Sizes whose
+    static friction is within the numerical bias, 0.001, of the lowest are all candidates.
     """
     return _larger_there(evidence, f"{_DURATION} over t_avg", _over_t_avg(samples.lasting))
