@@ -45,6 +45,10 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     (row,) = pq.read_table(output).to_pylist()
     assert row["direction"] == "x"
     assert row["runs"] == 6
+    pairs = [read(folder / f"{i}.parquet") for i in (0, 2)]
+    by_seed = np.mean([[run.t_avg for run in runs] for runs in pairs], axis=0)  # not independent
+    exact = ttest_1samp(by_seed, 0.0).confidence_interval()
+    assert [row["t_avg_low"], row["t_avg_high"]] == pytest.approx(list(exact), rel=1e-10)
     assert "by: unknown name 'speed'" in springblock("table", folder, "--by", "speed", refused=True)
 
 
@@ -64,6 +68,10 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     exact = [other.mean() - one.mean(), *test.confidence_interval()]
     found = [float(row["static_friction" + end]) for end in ("", "_low", "_high")]
     assert found == pytest.approx(exact, rel=1e-9)
+    springblock("table", slow, fast, "--changes", "--of", "static_friction", "--output", output)
+    (same,) = written(output)
+    assert (same["from"], same["to"]) == ("slider_velocity = 0.0005", "0.001")
+    assert row.items() <= same.items()
 
 
 def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(

@@ -13,7 +13,7 @@ def test_changes_are_from_the_lowest_to_the_highest_value_seed_by_seed():
     """Scatter that both ensembles have leaves the difference exact."""
     speeds = {1e-3: 0.83, 5e-4: 0.9, 2.5e-4: 0.8}
     made = [row | HOW for speed, friction in speeds.items() for row in rows(at(speed), friction)]
-    ((name, ends, others, difference),) = own._changes(made)
+    ((name, ends, others, difference),) = own._changes(own.ensembles(made))
     assert (name, ends, others) == ("slider_velocity (m/s)", "0.00025 to 0.001", "–")
     assert difference.startswith("0.03")
 

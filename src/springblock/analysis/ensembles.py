@@ -1,6 +1,6 @@
 """Ensembles in tables of realisations: their means, and changes between two tables."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -104,15 +104,35 @@ def telling(members: Iterable[Names]) -> list[str]:
 
 
 def mean(ensemble: Ensemble, observable: str) -> Interval:
-    """Mean over realisations with its 95 % interval; its limits are NaN for a single one."""
+    """Mean over seeds with its 95 % interval; its limits are NaN for a single seed.
+
+    Realisations of the same seed, whose coefficients may be the same, count as one, their mean.
+    """
+    by_seed: dict[int, list[float]] = {}
+    for seed, value in zip(ensemble.seeds, ensemble.values(observable), strict=True):
+        by_seed.setdefault(seed, []).extend([value] if np.isfinite(value) else [])
+    means = np.array([np.mean(values) for values in by_seed.values() if values])
     with np.errstate(invalid="ignore"):
-        return mean_interval(_known(ensemble.values(observable)))
+        return mean_interval(_known(means))
 
 
 def constants(members: Sequence[Ensemble]) -> dict[str, object]:
     """Return the names that have the same value in all ensembles, with that value."""
     apart = set(telling(each.names for each in members))
     return {name: value for name, value in members[0].names.items() if name not in apart}
+
+
+def extremes(members: Sequence[Ensemble]) -> Iterator[tuple[str, object, object, Change]]:
+    """Yield the changes from the lowest to the highest value of each name that differs.
+
+    Each with the name and both values; names that not every ensemble has are left out.
+    """
+    for name in telling(each.names for each in members):
+        if all(name in each.names for each in members):
+            low, *_, high = sorted({each.names[name] for each in members}, key=_order)
+            first, last = ([m for m in members if m.names[name] == end] for end in (low, high))
+            for change in changes(first, last)[1]:
+                yield name, low, high, change
 
 
 def changes(

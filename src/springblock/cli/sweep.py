@@ -138,7 +138,7 @@ def sweep(
         found = lines(table.to_pylist(), over)
         picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
         save(picture, output / f"{over}.png", plot.caption(found))
-    click.echo(f"springblock table {output} shows the means")
+    click.echo(f"springblock table {output} shows the means, and with --changes how they change")
 
 
 def _own(varied: Varied, usual: Setup) -> Varied:

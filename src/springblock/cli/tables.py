@@ -11,10 +11,12 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import (
     OBSERVABLES,
+    Change,
     Ensemble,
     Names,
     changes,
     ensembles,
+    extremes,
     mean,
     telling,
 )
@@ -46,19 +48,56 @@ _OUTPUT = click.option(
 @click.option(
     "--by", multiple=True, help="Column that defines ensembles; all by default. Can be repeated."
 )
+@click.option(
+    "--changes",
+    "of_ends",
+    is_flag=True,
+    help="Show the changes from the lowest to the highest value of each parameter instead.",
+)
 @_OUTPUT
 def table(
-    paths: tuple[Path, ...], of: tuple[str, ...], by: tuple[str, ...], output: Path | None
+    paths: tuple[Path, ...],
+    of: tuple[str, ...],
+    by: tuple[str, ...],
+    of_ends: bool,
+    output: Path | None,
 ) -> None:
     """Show the mean observables of each ensemble in PATHS, files or folders of realisations.
 
-    Intervals are 95 % intervals of Student's t.
+    Intervals are 95 % intervals of Student's t over seeds; each holds by itself.
     """
     members = ensembles(_rows(paths), by)
+    if of_ends:
+        _report_changes(members, of, output)
+        return
     names = list(by) or telling(each.names for each in members)
     columns = {"runs": [len(each.rows) for each in members]}
     intervals = {name: [mean(each, name) for each in members] for name in of}
     _report([each.names for each in members], names, columns, intervals, output)
+
+
+def _report_changes(members: list[Ensemble], of: tuple[str, ...], output: Path | None) -> None:
+    """Print a row for each change between the ends of a parameter."""
+    found = list(extremes(members))
+    if not found:
+        raise ValueError("--changes: no parameter has two values")
+    changed = [each for *_, each in found]
+    columns: dict[str, list[Any]] = {
+        "from": [f"{name} = {low}" for name, low, _, _ in found],
+        "to": [high for _, _, high, _ in found],
+        **_sizes(changed),
+    }
+    intervals = {name: [each.of(name) for each in changed] for name in of}
+    every = [each.names for each in changed]
+    _report(every, telling(every), columns, intervals, output)
+
+
+def _sizes(changed: Sequence[Change]) -> dict[str, list[Any]]:
+    """Return the columns that say what the differences are from."""
+    return {
+        "runs": [f"{len(each.first.rows)}, {len(each.second.rows)}" for each in changed],
+        "difference": ["by seed" if each.paired else "of means" for each in changed],
+    }
 
 
 @click.command("compare")
@@ -83,13 +122,9 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         _tell_alone(path, [each for each in members if id(each) not in shared])
     every = [each.names for each in found]
     names = telling(every)
-    columns = {
-        "runs": [f"{len(each.first.rows)}, {len(each.second.rows)}" for each in found],
-        "difference": ["by seed" if each.paired else "of means" for each in found],
-    }
     intervals = {name: [each.of(name) for each in found] for name in of}
     click.echo("Second minus first:")
-    _report(every, names, columns, intervals, output)
+    _report(every, names, _sizes(found), intervals, output)
 
 
 def _rows(paths: Sequence[Path]) -> list[Row]:

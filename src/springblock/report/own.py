@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pyarrow as pa
 
-from springblock.analysis.ensembles import Ensemble, changes, constants, ensembles, mean, telling
+from springblock.analysis.ensembles import Ensemble, constants, ensembles, extremes, mean, telling
 from springblock.beyond.question import number
 from springblock.io.parquet import load
-from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, SETUP
 from springblock.model.material import Material
 from springblock.plotting.style import MICRO
@@ -31,15 +30,14 @@ _MEANS = (
 def page(table: Path, pictures: Iterable[Path], films: Mapping[Path, Path]) -> str:
     """Write the page from the table of realisations, pictures, and films with their runs."""
     realisations = load(table)
-    rows = realisations.to_pylist()
-    members = ensembles(rows)
+    members = ensembles(realisations.to_pylist())
     head, means = _means(members)
     return rendered(
         "own.html",
         runs=realisations.num_rows,
         head=head,
         means=means,
-        changes=list(_changes(rows)),
+        changes=list(_changes(members)),
         common=_common(members),
         figures=[media.picture(file) for file in pictures],
         films=[media.moving(file, batch) for file, batch in films.items()],
@@ -64,24 +62,18 @@ def _means(members: list[Ensemble]) -> tuple[list[str], list[list[str]]]:
     return head, rows
 
 
-def _changes(rows: list[Row]) -> Iterator[list[str]]:
+def _changes(members: list[Ensemble]) -> Iterator[list[str]]:
     """Yield the changes of static friction from the lowest to the highest value of each parameter.
 
     Each row has the parameter and both values, the other parameters of the ensembles, and the mean
-    difference with its interval: seed by seed where both have the same coefficients.
+    difference with its interval.
     """
-    members = ensembles(rows)
     apart = telling(each.names for each in members)
-    for name in apart:
-        if not all(name in each.names for each in members):
-            continue  # a constant that not every law of friction has
-        low, *_, high = (each.names[name] for each in ensembles(rows, [name]))
-        first, last = ([m for m in members if m.names[name] == end] for end in (low, high))
-        for change in changes(first, last)[1]:
-            others = {key: change.names[key] for key in apart if key in change.names}
-            where = ", ".join(f"{key} = {value}" for key, value in others.items())
-            difference = number(change.of("static_friction"))
-            yield [_with_unit(name), f"{low} to {high}", where or "–", difference]
+    for name, low, high, change in extremes(members):
+        others = {key: change.names[key] for key in apart if key in change.names}
+        where = ", ".join(f"{key} = {value}" for key, value in others.items())
+        difference = number(change.of("static_friction"))
+        yield [_with_unit(name), f"{low} to {high}", where or "–", difference]
 
 
 def _with_unit(name: str) -> str:
