@@ -7,6 +7,7 @@ import pyarrow as pa
 import pytest
 
 from springblock.claims import CLAIMS
+from springblock.claims.ranges import PLAIN, SCALED
 from springblock.claims.rule import Evidence
 from springblock.claims.table import rows
 from springblock.cli import main
@@ -82,8 +83,8 @@ def test_findings_take_their_numbers_from_the_statements():
         judged("Lowest static friction at an intermediate n_p", "", 0.17),
         judged("Order of detachment on a pillar", "n_p = 6", 0.1),
         judged("The order of detachment never changes", "n_p = 6", 0.33, "not reproduced", "fails"),
-        judged(length, "A = 1, n_p = 20", 2.7),
-        judged(length, "A = free, n_p = 20", 3.6),
+        judged(length, f"fit = {PLAIN}, n_p = 20", 2.7),
+        judged(length, f"fit = {SCALED}, n_p = 20", 3.6),
         judged("Correlation length grows with n_p", "", -0.005, "not settled", "open"),
         judged(peaks, "n_p2 = 4", 0.004, outcome="fails"),
         judged(peaks, "n_p2 = 8", 0.028),
@@ -94,7 +95,7 @@ def test_findings_take_their_numbers_from_the_statements():
     assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
     assert told["order"]["inward"]
     assert told["order"]["shares"] == [(6, "0.33 [0.32, 0.34]")]
-    assert [name for name, _ in told["correlation"]["fits"]] == ["free", "1"]
+    assert [name for name, _ in told["correlation"]["fits"]] == [SCALED, PLAIN]
     assert told["correlation"]["growth"] == [("", "-0.005 [-0.015, 0.005]")]
     assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
     assert told["peaks"]["others"] == [("grooves", "0.027 [0.017, 0.037]")]

@@ -12,6 +12,7 @@ from springblock.accuracy.conventions import ENSEMBLE
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.beyond.question import by_scene, number
+from springblock.claims.ranges import PLAIN, SCALED
 from springblock.io.rows import Row, select
 from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
@@ -121,9 +122,9 @@ def _correlation(tables: Tables) -> dict[str, Any]:
     return {
         "title": f"Detachments along the sliding direction are correlated over {span} blocks",
         "fits": [
-            (name, [(size, _quoted(row)) for size, row in _by_size(own).items()])
-            for name in ("free", "1")
-            if (own := [row for row in rows if f"A = {name}" in row["case"]])
+            (curve, [(size, _quoted(row)) for size, row in _by_size(own).items()])
+            for curve in (SCALED, PLAIN)
+            if (own := [row for row in rows if row["case"].startswith(f"fit = {curve}")])
         ],
         "growth": [
             (_sign(_interval(row), "decreases", "increases", ""), _quoted(row)) for row in growth
