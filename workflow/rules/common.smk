@@ -136,11 +136,11 @@ class Announced(logging.Handler):
             print(f"These jobs take {cost.in_words(self.times, workflow.cores)}.", file=sys.stderr)
 
 
-def expected(rule, wildcards):
-    """CPU time in s that a job is expected to take."""
-    if rule in ("prelude", "simulate_batch"):
+def expected(name, wildcards):
+    """CPU time in s that a job of this name is expected to take."""
+    if name in ("prelude", "simulate_batch"):
         return cost.expected(*work(wildcards))
-    return cost.expected_of(rule)
+    return cost.expected_of(name)
 
 
 if workflow.is_main_process:

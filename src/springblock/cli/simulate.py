@@ -243,7 +243,9 @@ def _in_words(rows: list[Row]) -> str:
         error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
         told.append(f"{name} {values.mean():.5g}" + (f" ± {error:.2g}" if error else "") + unit)
     runs = f" (means of {len(rows)} runs ± standard error)" if len(rows) > 1 else ""
-    return ", ".join(told) + runs
+    rising = sum(int(np.argmax(row["force"]) == len(row["force"]) - 1) for row in rows)
+    note = f"; at the end the force still increases in {rising} of {len(rows)}" if rising else ""
+    return ", ".join(told) + runs + note
 
 
 def _check_fields(

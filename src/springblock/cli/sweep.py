@@ -19,6 +19,7 @@ from springblock.cli.simulate import SETUP, batch_table, loaded, metadata_of, re
 from springblock.io.parquet import load, origin_of, read, write
 from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
+from springblock.model.material import expanded
 from springblock.model.scene import COLUMNS, Scene, Varied, in_order
 from springblock.plotting import sweep as plot
 from springblock.plotting.lines import axes, lines
@@ -143,7 +144,8 @@ def sweep(
 
 def _own(varied: Varied, usual: Setup) -> Varied:
     """Return constants of a scene without those that all scenes have."""
-    return tuple((name, value) for name, value in varied if value != usual.constants.get(name))
+    known = expanded(usual.constants)
+    return tuple((name, value) for name, value in varied if value != known.get(name))
 
 
 def _batches(scene: Scene, seeds: int, output: Path) -> Iterator[tuple[range, Path]]:
