@@ -270,7 +270,7 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         ("scenes.flat.snapshot_times", [3e-7], "flat: snapshot_times must be a multiple of sample"),
         ("scenes.flat.snapshot_times", [1.0], "flat: snapshot_times must lie within the duration"),
         ("scenes.pillars.seeds", [20, 60], "pillars: seeds must have one number per n_p, 7, not 2"),
-        ("scenes.pillars.n_p", list(range(7, 14)), r"pillars: the period, size and gap = 7 \+ 7"),
+        ("scenes.pillars.n_p", list(range(7, 14)), r"pillars: the period of size and gap = 7 \+ 7"),
         ("scenes.grooves.0.n_s2", [58], "scenes.grooves: a groove of 58 .* of 58"),
         ("scenes.third_level.0.np", [9], "third_level.0: unknown key 'np'"),
         ("scenes.flat.material", {"speed": [1.0]}, "scenes.flat: unknown constant 'speed'"),

@@ -47,7 +47,7 @@ def _cut_surface(name: str, n: int, level: Level) -> Segments:
     period = level.size + level.gap
     if n % period:
         raise ValueError(
-            f"the period, size and gap = {level.size} + {level.gap} = {period}, "
+            f"the period of size and gap = {level.size} + {level.gap} = {period} "
             f"must divide {name} = {n}; it leaves {n % period} blocks over"
         )
     return [(start, level.size) for start in range(level.gap // 2, n, period)]
