@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize_scalar
 
 from springblock import Pattern
 from springblock.analysis.correlation import (
@@ -113,6 +114,17 @@ def test_exact_curves_give_exact_lengths():
     np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
     assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
     assert np.isnan(fit_tail(curves[:, :2], error[:2])).all()
+
+
+def test_distances_count_by_their_inverse_variance():
+    """No exponential passes through these three points; another weighting gives another length."""
+    r, curve, error = np.arange(1, 4), np.array([0.8, 0.3, 0.3]), np.array([0.02, 0.1, 0.3])
+
+    def misfit(length):
+        return np.sum(((curve - np.exp(-r / length)) / error) ** 2)
+
+    best = minimize_scalar(misfit, bounds=(0.5, 20.0)).x
+    assert fit_length(curve[None], error)[0] == pytest.approx(best, rel=1e-3)
 
 
 def test_sides_are_the_outer_rows_and_columns_of_the_pillars():

@@ -103,8 +103,8 @@ def test_curves_are_cut_to_the_shortest_run_or_end_with_the_longest():
 
 
 def test_a_mean_is_taken_over_the_runs_that_have_not_ended(rng):
-    """As long as half of them are."""
-    values = rng.normal(size=(4, 5))
+    """As long as half of them are left: three of five, and not two."""
+    values = rng.normal(size=(5, 5))
     values[0, 2:] = values[1, 3:] = values[2, 4:] = np.nan
     mean, low, high = mean_of_rest(values)
     for part, whole in zip((mean, low, high), mean_interval(values[:, :2]), strict=True):
