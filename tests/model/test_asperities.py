@@ -145,6 +145,7 @@ def test_impossible_distributions_are_refused_without_drawing(constants, sentenc
 def test_the_probability_of_a_threshold_is_the_share_of_draws(kind):
     """Within four standard errors; where nothing holds its logarithm is minus infinity."""
     material = replace(PAPER, mu_static_std=0.2, distribution=kind)
+    check_draws((N, N), material)  # refuses nothing that can be drawn
     draws, _ = draw_friction(N, 0, material)
     needed = np.array([0.0, 0.7, 0.9, 1.0, 1.2])
     shares = np.exp(log_share_above(needed, material))

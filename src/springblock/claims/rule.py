@@ -70,7 +70,7 @@ class Finding:
 
     def _outcome(self, low: float, high: float) -> str:
         lowest, highest = self.claimed
-        if lowest < low and high < highest:
+        if (lowest < low or math.isinf(lowest)) and (high < highest or math.isinf(highest)):
             return "holds"
         return "fails" if high <= lowest or low >= highest else "open"
 
