@@ -44,6 +44,8 @@ def test_a_known_length_is_found(decaying):
     found = Correlation(decaying)
     length = found.length()
     assert length.last == 6  # n_p/3
+    error = found.resampled[:, 1:7].std(axis=0)
+    assert length.fitted.mean == fit_length(found.mean[None, 1:7], error)[0]  # from r = 1
     for estimate in (length.fitted, length.tail):
         assert estimate.low < 3.0 < estimate.high
         assert estimate.high - estimate.low < 1.5

@@ -10,8 +10,15 @@ from claims.paper import ALONG, FLAT, peaks
 from springblock.analysis.estimate import Estimate
 from springblock.claims.flat import not_all_nucleate
 from springblock.claims.load_peaks import both_peaks
+from springblock.claims.pillars import _rings
 from springblock.claims.samples import first_patch, isolated, magnitude, position, rates
-from springblock.claims.sides import events, mixed, paired_difference, unpaired_difference
+from springblock.claims.sides import (
+    events,
+    misfits,
+    mixed,
+    paired_difference,
+    unpaired_difference,
+)
 from springblock.claims.surfaces import edge, grooved_parts
 
 RUN = paper.record(FLAT, 0)
@@ -92,3 +99,16 @@ def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
     np.testing.assert_array_equal(sum(parts), contact)
     assert edge(contact)[[0, 4, 6], 10].all()  # beside the margin and the first groove
     assert not edge(contact)[2, 10]
+
+
+@pytest.mark.parametrize(("n_p", "rings"), [(4, 1), (5, 2), (6, 2)])
+def test_a_pillar_has_a_second_ring_if_it_has_a_centre_within(n_p, rings):
+    assert len(list(_rings(n_p))) == rings
+
+
+def test_each_kind_of_curve_fits_itself_best():
+    r = np.arange(1.0, 7.0)
+    curves = np.exp(-r / 3.0), (1.0 + r) ** -0.5, np.maximum(0.0, 1.0 - r / 8.0)
+    for kind, distances in enumerate(zip(*misfits(0.7 * np.array(curves)), strict=True)):
+        assert np.argmin(distances) == kind
+        assert distances[kind] < 5e-3  # lengths are tried 3.5 % apart
