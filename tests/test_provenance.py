@@ -8,6 +8,7 @@ import pytest
 
 import springblock
 from springblock import provenance
+from springblock.provenance import configuration_digest
 
 ROOT = Path(springblock.__file__).parent
 SOURCE = '''"""A module."""
@@ -92,3 +93,9 @@ def test_data_moves_one_way(file):
     for name in imports(file):
         part = name.split(".")[1]
         assert part not in places or places[part] <= here, f"{file} imports {name}"
+
+
+def test_the_order_of_keys_does_not_change_a_configuration():
+    one, other = {"step": 1e-8, "seeds": 3}, {"seeds": 3, "step": 1e-8}
+    assert configuration_digest(one) == configuration_digest(other)
+    assert configuration_digest(one) != configuration_digest({"step": 1e-8})

@@ -115,3 +115,17 @@ def test_a_surface_at_rest_stores_all_work_in_its_springs(integrator):
     assert run.energy.work_in == pytest.approx(work, rel=1e-12, abs=0)
     assert run.energy.elastic == pytest.approx(work, rel=1e-12, abs=0)
     assert run.energy.kinetic == run.energy.friction == run.energy.viscous == 0.0
+
+
+def test_springs_across_periodic_edges_store_energy(rng):
+    """The sum over all springs of an oblong surface, with lengths by the hypotenuse."""
+    material, u = Material(), 1e-7 * rng.standard_normal((2, 4, 5))
+    springs = 0.0
+    for j, i in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        apart, rest = np.roll(u, (-j, -i), axis=(1, 2)) - u, material.spacing * np.array([i, j])
+        longer = np.hypot(*(apart + rest[:, None, None])) - np.hypot(*rest)
+        springs += 0.5 * material.k_int / (1.0 + (i * j != 0)) * np.sum(longer**2)
+    slider = np.array([1e-7, 0.0])
+    hung = 0.5 * material.k_s * np.sum((slider[:, None, None] - u) ** 2)
+    found = elastic_energy(u, slider, material, periodic=True)
+    assert found == pytest.approx(springs + hung, rel=1e-10)
