@@ -1,4 +1,4 @@
-# What becomes of the paper's statements, and what was learnt beyond them.
+# Which of the paper's statements are reproduced, and what was learnt beyond them.
 
 #: Groups whose realisations claims rest on.
 GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
