@@ -74,6 +74,23 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     assert row.items() <= same.items()
 
 
+def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch, tmp_path):
+    """By velocity alone: the change of a seed is its mean over both dampings."""
+    files = [
+        batch(0, 2, "--vary", f"slider_velocity={speed}", "--vary", f"gamma={gamma}")
+        for speed in ("5e-4", "1e-3")
+        for gamma in ("0", "5e3")
+    ]
+    output, by = tmp_path / "by.csv", ("--by", "slider_velocity", "--of", "t_avg")
+    springblock("table", *files, "--changes", *by, "--output", output)
+    (row,) = written(output)
+    times = np.array([[run.t_avg for run in read(file)] for file in files])
+    by_seed = times[2:].mean(axis=0) - times[:2].mean(axis=0)
+    exact = ttest_1samp(by_seed, 0.0).confidence_interval()
+    found = [float(row[f"t_avg_{end}"]) for end in ("low", "high")]
+    assert found == pytest.approx(list(exact), rel=1e-9)
+
+
 def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
     springblock, batch, tmp_path
 ):

@@ -32,8 +32,14 @@ class Ensemble(NamedTuple):
         return [row["seed"] for row in self.rows]
 
     def values(self, observable: str) -> np.ndarray:
-        """Values of the realisations, (k,)."""
-        return np.array([row[observable] for row in self.rows], dtype=float)
+        """Value of each seed, (k,); NaN where it is undefined.
+
+        Realisations of the same seed, whose coefficients may be the same, count as one, their mean.
+        """
+        by_seed: dict[int, list[float]] = {}
+        for row in self.rows:
+            by_seed.setdefault(row["seed"], []).append(row[observable])
+        return np.array([_known(np.array(values)).mean() for values in by_seed.values()])
 
 
 class Change(NamedTuple):
@@ -104,16 +110,9 @@ def telling(members: Iterable[Names]) -> list[str]:
 
 
 def mean(ensemble: Ensemble, observable: str) -> Interval:
-    """Mean over seeds with its 95 % interval; its limits are NaN for a single seed.
-
-    Realisations of the same seed, whose coefficients may be the same, count as one, their mean.
-    """
-    by_seed: dict[int, list[float]] = {}
-    for seed, value in zip(ensemble.seeds, ensemble.values(observable), strict=True):
-        by_seed.setdefault(seed, []).extend([value] if np.isfinite(value) else [])
-    means = np.array([np.mean(values) for values in by_seed.values() if values])
+    """Mean over seeds with its 95 % interval; its limits are NaN for a single seed."""
     with np.errstate(invalid="ignore"):
-        return mean_interval(_known(means))
+        return mean_interval(_known(ensemble.values(observable)))
 
 
 def constants(members: Sequence[Ensemble]) -> dict[str, object]:

@@ -120,7 +120,8 @@ def sweep(
     """Simulate ensembles of one surface for several constants and directions.
 
     The output folder receives the runs, the table realisations.parquet and a figure against each
-    constant or direction with several values. Runs already in the folder are not repeated.
+    constant or direction with several values, all of this command's runs. Runs already in the
+    folder are not repeated.
     """
     usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
     scenes = [
