@@ -19,8 +19,8 @@ import numpy as np
 from benchmarks.speed import STEPS, N, Solver, c_loop_in_motion
 from benchmarks.timing import Missing, Runs, interleaved
 
-#: Limits. On an AMD EPYC the ratios are 1.20 and 2.45, with standard deviations of 0.02 and 0.08 from
-#: one measurement to the next; with AVX-512 that of the kernel is 1.05.
+#: Limits. On an AMD EPYC the ratios are 1.20 and 2.45, with standard deviations of 0.02 and 0.08
+#: from one measurement to the next; with AVX-512 that of the kernel is 1.05.
 KERNEL, START = 1.4, 3.0
 REPETITIONS = 15
 
