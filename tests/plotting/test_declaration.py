@@ -53,7 +53,7 @@ def test_a_dry_run_loads_nothing_that_draws():
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
     present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
     assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
-    assert not {f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")} & present
+    assert "supplement_levels" not in present
     alone = {name for name, figure in FIGURES.items() if not figure.is_part_of(FULL[1])}
     assert alone == {"surfaces"}  # whose files a user brings
 
@@ -63,15 +63,12 @@ SMALL, LARGE, WIDE = Scene(120, 2, 2), Scene(120, 20, 20), Scene(120, 20, 40)
 ALONG, OTHER = Scene(120, 58, 62, 8, 2), Scene(120, 58, 62, 10, 2)
 ACROSS, ASKEW = replace(ALONG, direction="y"), replace(OTHER, direction="45")
 CUT = replace(ALONG, n_p3=18, n_s3=2)
+CUT_ASKEW = replace(CUT, direction="45")
 GROUPS = {
     "flat": [FLAT, UPWARDS],
     "pillars": [SMALL, LARGE, WIDE],
     "grooves": [ALONG, ACROSS, OTHER],
-    "spacing": [Scene(120, 20, 4), LARGE],
-    "size_flat": [Scene(240)],
-    "size_pillars": [Scene(240, 20, 20), Scene(240, 2, 2)],
-    "angles": [ASKEW, replace(ALONG, direction="45")],
-    "third_level": [CUT, replace(CUT, direction="45")],
+    "third_level": [CUT, CUT_ASKEW],
 }
 
 
@@ -82,11 +79,7 @@ GROUPS = {
         ("figure_5", [LARGE]),
         ("figure_6", [FLAT, SMALL, LARGE]),
         ("figure_9", [ALONG, ACROSS, OTHER]),
-        ("supplement_spacing", [LARGE, WIDE, Scene(120, 20, 4)]),
-        ("supplement_size", [FLAT, Scene(240), LARGE, Scene(240, 20, 20)]),
-        ("supplement_angle", [OTHER, ASKEW]),
-        ("supplement_levels", [ALONG, ACROSS, CUT]),
-        ("supplement_restick", [FLAT, UPWARDS, SMALL, LARGE, ALONG, ACROSS]),
+        ("supplement_levels", [CUT, CUT_ASKEW]),
     ],
 )
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
@@ -95,11 +88,6 @@ def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
 
 
 def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
-    """Grooved surfaces of other sizes, and with them the one that they are compared with."""
-    large = Scene(240, 58, 62, 10, 2)
-    source = FIGURES["supplement_size"].source
-    needs = source.needs(GROUPS | {"size_grooves": [large]}, {})
-    assert [need.scene for need in needs][-2:] == [OTHER, large]
     few = [Scene(126, 7, 7), Scene(120, 4, 4)]  # sizes that need another N
     needs = FIGURES["figure_6"].source.needs(GROUPS | {"small_pillars": few}, {})
     assert [need.scene for need in needs] == [FLAT, SMALL, LARGE, *few]

@@ -20,7 +20,6 @@ FIGURES = {
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
     and (figure.category != "Beyond" or GROUPS_BEYOND)
-    and (not figure.upon_request or config["production"])
 }
 #: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
 SWEPT = {

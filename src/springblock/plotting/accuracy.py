@@ -2,25 +2,20 @@
 
 from collections.abc import Sequence
 from itertools import product
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, SymmetricalLogLocator
+from matplotlib.ticker import FixedLocator, LogLocator, SymmetricalLogLocator
 from pandas import DataFrame
 
-from springblock.accuracy import budget, conventions
-from springblock.accuracy.budget import Bias, Choice
-from springblock.accuracy.conventions import DELAY, ENSEMBLE, LENGTH, PAPER_STEP, PLAIN, SCENES
-from springblock.io.rows import Row
+from springblock.accuracy import conventions
+from springblock.accuracy.conventions import ENSEMBLE, PAPER_STEP, PLAIN, SCENES
 from springblock.model.defaults import INTEGRATOR, STEP
 from springblock.plotting import style
 from springblock.plotting.curves import draw_points, name_places
-from springblock.plotting.style import BLACK, BLUE, GREY, NANO, PERCENT, VERMILION, Look
-from springblock.simulation.run import Array
-
-Cases = dict[tuple[str, str], DataFrame]  #: by quantity and scene, finest step first
+from springblock.plotting.style import BLACK, GREY, NANO, PERCENT, Look
 
 #: Names, colours and markers, with the Runge-Kutta whose order is lost.
 _METHODS = style.METHODS | {
@@ -38,17 +33,6 @@ _MARKED: dict[str, tuple[str, float, Look]] = {
     "default": (INTEGRATOR, STEP, {**_RING, "marker": "o", "markersize": 8.5}),
     "paper": (PLAIN, PAPER_STEP, {**_RING, "marker": "D", "markersize": 7.5}),
 }
-
-_DOTS = (1, 10, 100, 1000)  #: seeds marked along a line of total errors
-_SPENT = (0.2, 2e3)  #: CPU time of ensembles, s
-#: Looks of quantities with total errors.
-_QUANTITIES: dict[str, Look] = {
-    "static_friction": {"label": "static friction", "color": BLACK, "marker": "o"},
-    DELAY: {"label": r"$t_\mathrm{max} - t_\mathrm{avg}$", "color": VERMILION, "marker": "s"},
-    LENGTH: {"label": "decay length", "color": BLUE, "marker": "^", "markersize": 3.6},
-}
-_STUDY: Look = {**_RING, "marker": "o", "markersize": 8.0}  #: ring of the study's own ensembles
-_ENVELOPE: Look = {"color": "0.8", "linewidth": 4.0, "zorder": 0.5}
 
 #: Outcomes without an error to show: marker, its height as a share of the panel, and name.
 _ENDS = {
@@ -177,101 +161,6 @@ def _fit_percent(panels: Sequence[Axes], linear: float, ticks: Sequence[float]) 
     axis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=linear, subs=range(2, 10)))
     axis.set_major_formatter("{x:g}")
     panels[0].set_ylim(1.5 * low, 1.5 * high)
-
-
-def total_error(table: DataFrame) -> Figure:
-    """Draw the table `production`: biases, and total errors."""
-    picture, panels = style.panels(style.DOUBLE, 217.0, "abc;def;ghi|.jL", height_ratios=(3, 1))
-    *panels, legend = panels
-    measured = table.sort_values("step").groupby(["quantity", "scene"])
-    every = [case for case in product(_QUANTITIES, SCENES) if case in measured.groups]
-    cases, colors = {case: measured.get_group(case) for case in every}, style.shades(table.step)
-    _draw_biases(panels[:3], cases)
-    for ax, rows in zip(panels[3:], cases.values(), strict=True):
-        _draw_errors(ax, rows, colors)
-        ax.set(xscale="log", yscale="log", xlabel="CPU time of an ensemble (s)", xlim=_SPENT)
-    for first, look in zip((3, 6, 9), _QUANTITIES.values(), strict=True):
-        row = panels[first : first + 3]
-        row[0].set_ylabel(f"error of {look['label']} (%)")
-        ends = np.array([ax.get_ylim() for ax in row])
-        style.share_axes(row)
-        row[0].set_ylim(0.25 * ends.min(), ends.max())  # room for words
-    legend.set_axis_off()
-    legend.legend(*panels[3].get_legend_handles_labels(), loc="upper left")
-    return picture
-
-
-def _draw_biases(panels: Sequence[Axes], cases: Cases) -> None:
-    """Draw biases of all quantities, side by side at each step but the finest, which has none."""
-    for ax, scene in zip(panels, SCENES, strict=True):
-        for aside, quantity in zip((0.95, 1.0, 1.05), _QUANTITIES, strict=True):
-            if (quantity, scene) in cases:
-                rows = cases[quantity, scene]
-                places = aside * rows.cpu_seconds[1:]
-                draw_points(ax, places, _percent(rows), **_QUANTITIES[quantity])
-        _mark_steps(ax, cases["static_friction", scene])
-        _name_scene(ax, cases["static_friction", scene], pad=13.0)
-        ax.axhline(0.0, color=BLACK, linewidth=0.4, zorder=0.5)
-        ax.set(xscale="log", xlabel="CPU time of a realisation (s)")
-        ax.margins(x=0.08)
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        ax.xaxis.set_major_formatter("{x:g}")
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.sharey(panels[0])
-        ax.tick_params(labelleft=ax is panels[0])
-    _fit_percent(panels, 0.1, (-1.0, -0.1, 0.0, 0.1, 1.0))
-    panels[0].set_ylabel("bias (%), linear within ±0.1 %")
-    frame: Look = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
-    named = panels[SCENES.index("pillared")].get_legend_handles_labels()  # all quantities
-    panels[0].legend(*named, loc="lower right", **frame)
-
-
-def _mark_steps(ax: Axes, rows: DataFrame) -> None:
-    """Draw a line at the CPU time of each step, and write the step in ns above it."""
-    for spent, step in zip(rows.cpu_seconds, rows.step, strict=True):
-        ax.axvline(spent, color=GREY, linewidth=0.3, zorder=0.3)
-        name = f"{NANO * step:g}{' ns' if step == rows.step.min() else ''}"
-        look: Look = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-        look |= {"ha": "center", "fontweight": "bold" if step == STEP else "normal"}
-        ax.annotate(name, (spent, 1.0), (0.0, 2.5), **look)
-
-
-def _draw_errors(ax: Axes, table: DataFrame, colors: dict[float, Any]) -> None:
-    """Draw the total error of each step over the CPU time of ensembles, and the least of all.
-
-    Words name the best step and number of seeds at the ring, and what half its error costs.
-    """
-    rows = cast(list[Row], table.to_dict("records"))
-    by_bias = [budget.choices(rows, bias) for bias in Bias._fields]
-    spent = np.geomspace(*_SPENT, 400)
-    for choice, low, high in zip(*by_bias, strict=True):
-        is_default = choice.step == STEP
-        look: Look = {"color": colors[choice.step], "zorder": 2.0 + is_default}
-        name = f"{NANO * choice.step:g} ns{', the default' if is_default else ''}"
-        width = 1.6 if is_default else 0.8
-        ax.plot(spent, _errors(choice, spent), linewidth=width, label=name, **look)
-        dots = np.array([choice.spent(seeds) for seeds in _DOTS]) * (1.0 + 1e-12)
-        ax.plot(dots, _errors(choice, dots), linestyle="none", marker=".", **look)
-        ends = _errors(low, spent), _errors(high, spent)
-        ax.fill_between(spent, *ends, color=look["color"], alpha=0.15, linewidth=0.0)
-    seconds, steps = budget.study_budget(rows), by_bias[0]
-    (default,) = (choice for choice in steps if choice.step == STEP)
-    ax.plot([seconds], _errors(default, np.array([seconds])), label="the study's seeds", **_STUDY)
-    least = [PERCENT * budget.best(steps, s).error(s) for s in spent]
-    ax.plot(spent, least, label="least error", **_ENVELOPE)
-    ax.plot([], [], color=GREY, alpha=0.25, linewidth=5.0, label="bias within its interval")
-    chosen, costs = budget.best(steps, seconds), [budget.halving(each, seconds) for each in by_bias]
-    words = (
-        f"best at {seconds:.2g} s: {NANO * chosen.step:g} ns, {chosen.seeds(seconds):.0f} seeds;\n"
-        f"half its error: {costs[0]:.1f} × CPU time\n({min(costs):.1f} to {max(costs):.1f})"
-    )
-    ax.text(0.03, 0.05, words, transform=ax.transAxes)
-
-
-def _errors(choice: Choice, spent: Array) -> Array:
-    """Return the total error in percent at CPU times in s, (n,); NaN below one realisation."""
-    errors = PERCENT * np.array([choice.error(seconds) for seconds in spent])
-    return np.where(np.isfinite(errors), errors, np.nan)
 
 
 def stability(cases: DataFrame) -> Figure:

@@ -3,7 +3,7 @@
 The command line and the workflow read these declarations alone.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -91,13 +91,12 @@ class RealisationsSource(Source):
     """
 
     keys: tuple[str, ...] = ()
-    pick: Callable[..., Iterable[Scene]] = chain  #: given the scenes of each group
     batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
 
     def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        picked = self.pick(*(groups.get(group, []) for group in self.groups + self.also))
-        scenes = first_of_each(self.keys, having(lengths, picked))
-        return [Need("realisations", scene, self.batches) for scene in scenes]
+        scenes = chain.from_iterable(groups.get(group, []) for group in self.groups + self.also)
+        drawn = first_of_each(self.keys, having(lengths, scenes))
+        return [Need("realisations", scene, self.batches) for scene in drawn]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,7 +119,6 @@ class Declaration:
     caption: str  #: what is plotted, for which surfaces; lines may break anywhere
     source: Source
     marks: str = ""  #: meaning of bands, bars and symbols; follows surfaces and realisations
-    upon_request: bool = False  #: drawn in studies with `production: true` alone
 
     def __post_init__(self) -> None:
         for name in ("caption", "marks"):

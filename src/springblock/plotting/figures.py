@@ -5,16 +5,11 @@ This module loads neither matplotlib nor pandas: a dry run of the study starts q
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from dataclasses import replace
-from itertools import chain
-
-from springblock.model.scene import Scene
 from springblock.plotting.declaration import (
     CorrelationsSource,
     Declaration,
     PatternSource,
     RealisationsSource,
-    Scenes,
     Source,
     TableSource,
 )
@@ -29,46 +24,8 @@ ENDS = """Realisations end after a set time, or after the first minimum that fol
     maximum; the mean force is dotted once the first of them has ended, and stops when half of them
     have."""
 
-
-def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
-    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
-    return [*flat, *pillars, *one_pattern(grooves)]
-
-
-def one_pattern(*groups: Scenes) -> list[Scene]:
-    """Return the scenes of all groups with the pattern of the last group's first one."""
-    last = groups[-1][0]
-    size, direction = last.n_blocks, last.direction
-    return [s for s in chain(*groups) if replace(s, n_blocks=size, direction=direction) == last]
-
-
-def one_of_each(*groups: Scenes) -> list[Scene]:
-    """Return a flat, a pillared and a grooved surface, each in all its sizes N, if varied."""
-    found = []
-    for group, varied in zip(groups[::2], groups[1::2], strict=True):
-        directions = {scene.direction for scene in varied}
-        scenes = one_pattern(group, varied) if varied else []
-        found += [scene for scene in scenes if scene.direction in directions]
-    return found
-
-
-def sizes_varied(pillars: Scenes, spacing: Scenes) -> list[Scene]:
-    """Return pillars of the sizes n_p whose distance n_s is varied."""
-    sizes = {scene.n_p for scene in spacing}
-    return [scene for scene in (*pillars, *spacing) if scene.n_p in sizes]
-
-
-def with_and_without(grooves: Scenes, third_level: Scenes) -> list[Scene]:
-    """Return the first pattern of three levels along x and y, with and without its third level."""
-    cut = third_level[0]
-    whole = replace(cut, n_p3=0, n_s3=0, along_3="")
-    wanted = {replace(pattern, direction=way) for pattern in (cut, whole) for way in ("x", "y")}
-    return [scene for scene in (*grooves, *third_level) if scene in wanted]
-
-
-_MAIN_SURFACES = RealisationsSource(
-    groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction"), pick=main_surfaces
-)
+#: Keys of grooved pillars.
+PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "direction")
 
 #: By name, in the order of names in the report: `springblock figure NAME` draws one.
 FIGURES: dict[str, Declaration] = {
@@ -159,7 +116,7 @@ FIGURES: dict[str, Declaration] = {
         bin; against time, once a force has reached 80 % of its maximum. Grooved pillars, sliding
         along and across the grooves; a row for each width of pawls and grooves, n_p2/n_s2. Figure 9
         of the paper, which does not give its sizes.""",
-        source=RealisationsSource(groups=("grooves",), keys=("n_p2", "n_s2", "direction")),
+        source=RealisationsSource(groups=("grooves",), keys=PATTERN),
         marks=f"""Thin lines: the first {SINGLE} realisations; thick lines: means; bands:
         {INTERVALS}. Triangles: peaks of the mean force that reach 90 % of its maximum, with a
         prominence of more than two standard errors and 1 % of the maximum; peaks of realisations at
@@ -167,65 +124,13 @@ FIGURES: dict[str, Declaration] = {
         each realisation's second most prominent peak over its largest force (0 with one peak).
         {ENDS}""",
     ),
-    "supplement_spacing": Declaration(
-        title="Distance between pillars",
-        module="supplement",
-        caption="""a) Static friction and b) t_max - t_avg against the distance n_s between pillars,
-        which the paper leaves open, for each pillar size n_p.""",
-        source=RealisationsSource(
-            groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=sizes_varied
-        ),
-        marks=f"""a) Symbols: means; bars: {INTERVALS}. b) Dots: realisations; dashes: medians.""",
-    ),
-    "supplement_size": Declaration(
-        title="Size of the surface",
-        module="supplement",
-        caption="""a) Static friction over its mean at the largest N and b) t_max - t_avg, against
-        the side N of the surface, for a flat, a pillared and, where the study varies its size, a
-        grooved surface. Figures of the paper are at N = 120.""",
-        source=RealisationsSource(
-            groups=("flat", "size_flat", "pillars", "size_pillars"),
-            also=("grooves", "size_grooves"),
-            keys=("n_p", "n_p2", "direction", "n_blocks"),
-            pick=one_of_each,
-        ),
-        marks=f"""a) Symbols: means; bars: {INTERVALS}. b) Dots: realisations; dashes: medians.
-        Surfaces of equal N are slightly offset.""",
-    ),
-    "supplement_angle": Declaration(
-        title="Sliding at an angle to grooves",
-        module="supplement",
-        caption="""a) Static friction, b) t_max - t_avg and c) prominence of the lesser load peak
-        against the angle between sliding direction and grooves, 0 or 90 degrees in the paper. The
-        lesser peak is the second most prominent one of a realisation; its prominence is given over
-        the largest force, and is 0 with one peak.""",
-        source=RealisationsSource(
-            groups=("grooves", "angles"), keys=("direction",), pick=one_pattern
-        ),
-        marks=f"""Small dots: realisations, slightly offset; large dots in a), c): means; bars:
-        {INTERVALS}. b) has no means, since realisations may form two clusters.""",
-    ),
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""Friction force over the normal force against time, towards the end of the run,
-        sliding a) along and b) across the grooves, on patterns of two and of three levels. The
-        paper expects its effects to remain with further levels.""",
-        source=RealisationsSource(
-            groups=("grooves", "third_level"), keys=("direction", "level"), pick=with_and_without
-        ),
-        marks=f"""Lines: means; bands: {INTERVALS}. Legends: size and gap of each level in blocks,
-        and the lesser peak; it and triangles are defined as in figure 9. {ENDS}""",
-    ),
-    "supplement_restick": Declaration(
-        title="Blocks that detach again",
-        module="supplement",
-        caption="""Share of the contact blocks that have come to rest and detached again by 80 %,
-        90 % and 100 % of t_max, for each surface: an upper bound on the effect of the rule for
-        re-sticking, which the paper does not give. With `rk4` a block sticks whenever it reverses
-        its motion, with `leapfrog` only if static friction can hold it.""",
-        source=_MAIN_SURFACES,
-        marks="""Dots: realisations; dashes: medians.""",
+        caption="""As figure 9, with pawls and grooves of a third level, n_p3/n_s3, within those of
+        the second. The paper expects its effects to remain with further levels.""",
+        source=RealisationsSource(groups=("third_level",), keys=PATTERN),
+        marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",
     ),
     "surfaces": Declaration(
         title="Surfaces of one's own",
@@ -251,19 +156,6 @@ FIGURES: dict[str, Declaration] = {
         source=TableSource(("work_precision", "production")),
         marks="""Blue areas: range of 95 % of the means over 20 seeds. Bars: 95 % t intervals. The
         axis of biases is linear within ±1 % and logarithmic beyond.""",
-    ),
-    "total_error": Declaration(
-        title="Error against CPU time at full size",
-        module="accuracy",
-        caption="""Errors of ensembles against CPU time, with 120 × 120 blocks. a-c) Bias of the
-        mean relative to the same seeds at the finest step, against the CPU time of a realisation;
-        the numbers above are steps in ns. d-j) Total error of k seeds, the square root of bias² +
-        variance/k, against the CPU time of all, including the prelude.""",
-        source=TableSource(("production",)),
-        marks="""a-c) Bars: 95 % t intervals. d-j) Dots: 1, 10, 100 and 1000 seeds; rings: those of
-        the study at the default step; lines: with the estimated bias; bands: with the ends of its
-        interval; grey: the smallest error at any step.""",
-        upon_request=True,
     ),
     "stability": Declaration(
         title="Stiff and extreme cases",
