@@ -84,21 +84,21 @@ GROUPS = {
 )
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
     lengths = {"n_p": 20} if name == "figure_5" else {}
-    assert FIGURES[name].source.needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
+    assert FIGURES[name].needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
 
 
 def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
     few = [Scene(126, 7, 7), Scene(120, 4, 4)]  # sizes that need another N
-    needs = FIGURES["figure_6"].source.needs(GROUPS | {"small_pillars": few}, {})
+    needs = FIGURES["figure_6"].needs(GROUPS | {"small_pillars": few}, {})
     assert [need.scene for need in needs] == [FLAT, SMALL, LARGE, *few]
 
 
 def test_figures_need_no_more_tables_than_they_show():
-    assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
-    tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
+    assert FIGURES["figure_3"].needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
+    tables = FIGURES["figure_7"].needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
     assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
-    assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
-    both = FIGURES["work_precision"].source.needs(GROUPS, {})
+    assert FIGURES["stability"].needs(GROUPS, {}) == [Need("stability")]
+    both = FIGURES["work_precision"].needs(GROUPS, {})
     assert both == [Need("work_precision"), Need("production")]
 
 
@@ -109,14 +109,14 @@ def test_captions_say_what_a_study_draws(config, groups):
     for name, declared in FIGURES.items():
         if not declared.is_part_of(groups):
             continue
-        source, lengths = declared.source, config["figures"].get(name, {})
-        given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
+        lengths = config["figures"].get(name, {})
+        given = declared.needs(groups, lengths) or declared.options(config["n_blocks"], lengths)
         assert given or not signature(drawing(name)).parameters
         caption = declared.caption_in(known, lengths, material)
         assert caption.startswith(declared.caption)
         assert caption.endswith(declared.marks or ".")
         assert not set("{}") & set(declared.title + caption)  # wildcards for the workflow
-        for need in source.needs(groups, lengths):
+        for need in declared.needs(groups, lengths):
             for key, length in need.scene.lengths.items() if need.scene else ():
                 assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
             if need.scene:
@@ -131,19 +131,19 @@ def test_a_caption_follows_the_grid():
         "flat": [study.Ensemble(FLAT, range(7, 8), None)],
         "pillars": [study.Ensemble(scene, range(20), None) for scene in (LARGE, SMALL)],
     }
-    source = FIGURES["figure_6"].source
-    assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
+    figure = FIGURES["figure_6"]
+    assert figure.data_in_words(ensembles, {}, Material(pressure=1e5)) == (
         "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
         "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
-    assert source.in_words(ensembles, {}, weak).endswith(
+    assert figure.data_in_words(ensembles, {}, weak).endswith(
         "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
     )
-    one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
+    one = FIGURES["figure_3"].data_in_words(ensembles, {}, Material())
     assert one == "N = 120, sliding direction x. Flat surface (seed 7). Material of the paper."
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
-    assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
+    assert FIGURES["figure_9"].data_in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
         "(4 realisations, seeds 0 to 3). Material of the paper."
     )
@@ -210,6 +210,6 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
 
 def test_a_drawn_pattern_is_the_study_s_surface_or_one_pillar_and_its_gap():
     lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 120 --n-p 58")
-    assert FIGURES["figure_8"].source.options(60, lengths).startswith("--n-blocks 120")
-    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")
+    assert FIGURES["figure_8"].options(120, lengths).startswith("--n-blocks 120 --n-p 58")
+    assert FIGURES["figure_8"].options(60, lengths).startswith("--n-blocks 120")
+    assert FIGURES["figure_8"].options(360, lengths).startswith("--n-blocks 360")

@@ -74,7 +74,7 @@ def test_its_caption_names_what_is_ones_own():
     scenes = [Scene(mask=BlockMap("islands-1a2b3c4d", ISLANDS), edges="periodic"), weibull]
     scenes += [Scene(4, mu_static_field=mu)]
     ensembles = {"surfaces": [Ensemble(scene, range(3), None) for scene in scenes]}
-    said = FIGURES["surfaces"].source.in_words(ensembles, {}, Material(distribution="uniform"))
+    said = FIGURES["surfaces"].data_in_words(ensembles, {}, Material(distribution="uniform"))
     assert said == (
         "Sliding direction x. "
         "Surface islands-1a2b3c4d, n_rows = 6, periodic edges, N = 9 "
