@@ -94,9 +94,9 @@ def test_figures_do_not_follow_the_settings_of_the_reader(tmp_path):
 
 def test_sizes_of_pillars_have_colours_that_can_be_told_apart():
     """Those of the paper keep theirs; others are spread over all shades."""
-    papers = style.pillar_looks((0, 6, 20))
-    assert papers == {n_p: style.pillar_look(n_p) for n_p in (0, 6, 20)}
+    assert style.pillar_looks((6, 20)).items() <= style.pillar_looks((0, 2, 6, 20, 60)).items()
     looks = style.pillar_looks((12, 14, 15))
+    del looks[0]
     colors = np.array([look["color"][:3] for look in looks.values()])
     assert np.linalg.norm(np.diff(colors, axis=0), axis=1).min() > 0.2
     assert len({look["marker"] for look in looks.values()}) == 3

@@ -20,7 +20,7 @@ from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
 from springblock.plotting.maps import painted, scale
-from springblock.plotting.style import BEFORE_AFTER, pillar_look
+from springblock.plotting.style import BEFORE_AFTER, pillar_looks
 from springblock.simulation.run import friction
 
 SIZE = 6
@@ -265,7 +265,7 @@ def test_curves_go_on_past_the_shortest_run():
 
 def test_pillars_look_the_same_wherever_they_are_drawn():
     """Neighbouring sizes differ in their marker, and in lightness for those who see no colour."""
-    looks = [pillar_look(n_p) for n_p in (0, *range(2, 11), 20, 30, 60)]
+    looks = pillar_looks((0, *range(2, 11), 20, 30, 60)).values()
     assert len({look["marker"] for look in looks}) == len(looks)
     grey = [np.dot(to_rgb(look["color"]), (0.299, 0.587, 0.114)) for look in looks]
     assert (np.diff(grey) > 0.0).all()

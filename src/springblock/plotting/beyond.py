@@ -259,7 +259,7 @@ def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
         if scene.n_p2 or scene.n_p not in _SHOWN:
             continue
         masks = [clusters.precursors(run) for run in runs]
-        color = style.pillar_look(scene.n_p)["color"]
+        color = style.pillar_looks(_SHOWN)[scene.n_p]["color"]
         anywhere = [clusters.shuffled(mask, scene.contact, rng) for mask in masks]
         _draw_shares(ax, masks, color, linestyle="-", label=style.pillar_name(scene.n_p))
         _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)

@@ -78,7 +78,7 @@ def span(run: Run) -> tuple[float, float]:
 
 @style.journal
 def scenery(run: Run) -> tuple[Figure, Update]:
-    """Draw the static artists, and return them with the functions that move the others."""
+    """Draw the static artists, and return them with the function that moves the others."""
     kept = len(run.snapshots) > 0
     curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
     picture = Figure(figsize=((curves + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
@@ -126,9 +126,9 @@ def _blocks(ax: Axes, run: Run) -> Update:
 
 def _displacement(ax: Axes, run: Run) -> Update:
     """Map the latest snapshot so far; before the first there is none."""
-    fields, look = maps.displacements(run.snapshots)
+    fields = maps.displacements(run.snapshots)
     nothing = np.full_like(fields[0], np.nan)
-    image = maps.draw_map(ax, nothing, animated=True, **look)
+    image = maps.draw_map(ax, nothing, animated=True, **maps.sequential(fields))
     title = ax.set_title("", animated=True)
     style.color_bar(ax, image, maps.DISPLACEMENT, orientation="horizontal")
 

@@ -123,10 +123,9 @@ def draw_key(ax: Axes, *names: str) -> None:
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
 
 
-def displacements(snapshots: Array) -> tuple[Array, Look]:
-    """Return |u| in nm of snapshots, (k, 2, N, N) m, and the look of their maps."""
-    sizes = style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
-    return sizes, sequential(sizes)
+def displacements(snapshots: Array) -> Array:
+    """Return |u| in nm of snapshots, (k, 2, N, N) m."""
+    return style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
 
 
 def sequential(values: Array) -> Look:

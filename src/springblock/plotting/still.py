@@ -1,9 +1,11 @@
 """Pictures of one run and of one surface."""
 
+from collections.abc import Iterable, Sequence
 from textwrap import fill
 
 import numpy as np
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
@@ -11,7 +13,7 @@ from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.fields import Fields
-from springblock.simulation.run import Run
+from springblock.simulation.run import Array, Run
 
 RUN_CAPTION = """Friction force over the normal force and share of blocks that detach in each sample
 interval, against time; first detachment time t_det over t_max of each block; displacements, if the
@@ -26,7 +28,7 @@ SURFACE_CAPTION = """Blocks in contact with the substrate (dark) and out of cont
 the mask used by the solver: a) the whole surface; b) single blocks from the first corner of the
 contact on. Arrow: sliding direction."""
 
-_SNAPSHOTS = 4  #: largest number shown: the first, the last, and others evenly between them
+_SHOWN = 4  #: largest number of times shown: the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 #: Width in mm of maps of stress and slip at so many times.
 _WIDTHS = {1: COLUMN, 2: COLUMN, 3: style.ONE_AND_A_HALF, 4: DOUBLE}
@@ -60,35 +62,37 @@ def plot(run: Run) -> Figure:
     others = {"not detached": run.contact & np.isnan(run.t_det), "not in contact": ~run.contact}
     maps.draw_key(panels["M"], *(name for name, blocks in others.items() if blocks.any()))
     if len(run.snapshots):
-        _draw_snapshots(parts[1], run)
+        chosen = _chosen(run.snapshot_times)
+        row = parts[1].subplots(1, _SHOWN, sharey=True)
+        for ax in row[len(chosen) :]:
+            ax.remove()
+        sizes = maps.displacements(run.snapshots[chosen])
+        _draw_maps(row[: len(chosen)], sizes, maps.DISPLACEMENT, run.snapshot_times[chosen])
     return picture
 
 
-def _draw_snapshots(part: SubFigure, run: Run) -> None:
-    """Map displacements at up to four times, in the same colours."""
-    chosen = _chosen(len(run.snapshots))
-    fields, look = maps.displacements(run.snapshots[chosen])
-    panels = part.subplots(1, _SNAPSHOTS)
-    for ax in panels[len(chosen) :]:
-        ax.remove()
-    for ax, i, field in zip(panels, chosen, fields, strict=False):
-        image = maps.draw_map(ax, field, **look)
-        ax.set_title(f"{MICRO * run.snapshot_times[i]:.4g} µs")
-        if i:
-            ax.set_ylabel("")
-            ax.tick_params(labelleft=False)
-    color_bar(panels[len(chosen) - 1], image, maps.DISPLACEMENT)
+def _chosen(times: Array) -> NDArray[np.int_]:
+    """Return the places of up to four of these times, from the first to the last."""
+    count = len(times)
+    return np.unique(np.linspace(0, count - 1, min(count, _SHOWN)).round().astype(int))
 
 
-def _chosen(count: int) -> NDArray[np.int_]:
-    """Places of up to four of so many snapshots, from the first to the last."""
-    return np.unique(np.linspace(0, count - 1, min(count, _SNAPSHOTS)).round().astype(int))
+def _draw_maps(
+    panels: Sequence[Axes], fields: Array, label: str, times: Iterable[float] = ()
+) -> None:
+    """Map a field, (k, rows, columns), in common colours, with its times in s above, if given."""
+    for ax, field in zip(panels, fields, strict=True):
+        image = maps.draw_map(ax, field, **maps.sequential(fields))
+        ax.label_outer()
+    for ax, time in zip(panels, times, strict=False):
+        ax.set_title(f"{MICRO * time:.4g} µs")
+    color_bar(panels[-1], image, label)
 
 
 @journal
 def plot_fields(fields: Fields, name: str = "") -> Figure:
     """Draw maps of shear stress, above, and slip, below, at up to four of the times."""
-    chosen = _chosen(len(fields.time))
+    chosen = _chosen(fields.time)
     count, (rows, columns) = len(chosen), fields.contact.shape
     letters, width = "abcdefgh"[: 2 * count], _WIDTHS[count]
     height = _TEXT + 2.0 * min((width - _TEXT) / count * rows / columns, _TALLEST)
@@ -97,16 +101,9 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
     picture.suptitle(
         fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium"
     )
-    stress = style.KILO * fields.shear_stress[chosen], maps.STRESS
-    slip = style.NANO * fields.slip[chosen], maps.SLIP
-    for row, (shown, label) in enumerate((stress, slip)):
-        look = maps.sequential(shown)
-        for ax, one, time in zip(panels[row * count :], shown, fields.time[chosen], strict=False):
-            image = maps.draw_map(ax, one, **look)
-            if not row:
-                ax.set_title(f"{MICRO * time:.4g} µs")
-            ax.label_outer()
-        color_bar(ax, image, label)
+    stress, slip = style.KILO * fields.shear_stress[chosen], style.NANO * fields.slip[chosen]
+    _draw_maps(panels[:count], stress, maps.STRESS, fields.time[chosen])
+    _draw_maps(panels[count:], slip, maps.SLIP)
     return picture
 
 

@@ -31,7 +31,7 @@ COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's 
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
 # black is flat; blue is along x, vermilion along y and green oblique, for sides as for sliding
-# directions; purple is a third level. Pillars have the colours of `pillar_look`.
+# directions; purple is a third level. Pillars have the colours of `pillar_looks`.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
@@ -112,17 +112,17 @@ def panels(
     """Make a figure of `width` x `height` mm with panels where `letters` has them.
 
     In "ab;cd|ef" semicolons end rows, and below a bar are columns of their own. Panels come in the
-    order of their letters, with "a)" above each if there are several; capital letters are not
-    shown. `placing` are further arguments of `Figure.subplot_mosaic`.
+    order of their letters, with "a)" above each if there are several. `placing` are further
+    arguments of `Figure.subplot_mosaic`.
     """
     picture = Figure(figsize=(width * MM, height * MM), layout="constrained")
     blocks = [[list(row) for row in block.split(";")] for block in letters.split("|")]
     mosaic: Any = [[block] for block in blocks] if len(blocks) > 1 else blocks[0]
     placed = picture.subplot_mosaic(mosaic, **placing)
     for letter, ax in placed.items():
-        if letter.islower() and len(placed) > 1:
+        if len(placed) > 1:
             ax.set_title(f"{letter})", loc="left", fontweight="bold")
-    return picture, [placed[letter] for letter in sorted(placed, key=lambda x: (x.isupper(), x))]
+    return picture, [placed[letter] for letter in sorted(placed)]
 
 
 def share_axes(row: Sequence[Axes]) -> None:
@@ -158,26 +158,21 @@ def shades(values: Iterable[float]) -> dict[float, Any]:
     return dict(zip(ordered, map(tuple, _SHADES(np.linspace(0.0, 1.0, len(ordered)))), strict=True))
 
 
-def pillar_look(n_p: int) -> Look:
-    """Return the colour and marker of pillars of a size; 0 is a flat surface."""
-    if not n_p:
-        return {"color": BLACK, "marker": "o"}
-    place = np.log(n_p / 2.0) / np.log(_LARGEST / 2.0)
-    return {"color": _SHADES(place), "marker": _MARKERS.get(n_p, "o")}
-
-
 def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
-    """Colours and markers of pillars of several sizes.
+    """Return the colours and markers of pillars by their size; 0 is a flat surface.
 
-    Those of `pillar_look`, or by their rank where one of the sizes has no marker there.
+    Sizes of the paper have colours and markers of their own; if there are others, all sizes have
+    those of their rank.
     """
-    every = sorted(set(sizes))
-    looks = {n_p: pillar_look(n_p) for n_p in every}
-    if {*every} <= {0, *_MARKERS}:
-        return looks
-    colors, markers = shades(filter(None, every)), cycle(_MARKERS.values())
-    ranked = zip(colors.items(), markers, strict=False)
-    return looks | {int(n_p): {"color": color, "marker": m} for (n_p, color), m in ranked}
+    every = sorted({*sizes} - {0})
+    looks: dict[int, Look] = {0: {"color": BLACK, "marker": "o"}}
+    if {*every} <= {*_MARKERS}:
+        places = [np.log(n_p / 2.0) / np.log(_LARGEST / 2.0) for n_p in every]
+        colors, markers = map(_SHADES, places), [_MARKERS[n_p] for n_p in every]
+        own = zip(every, colors, markers, strict=True)
+    else:
+        own = zip(every, shades(every).values(), cycle(_MARKERS.values()), strict=False)
+    return looks | {n_p: {"color": color, "marker": marker} for n_p, color, marker in own}
 
 
 def pillar_name(n_p: int) -> str:
