@@ -15,12 +15,11 @@ from springblock.plotting.maps import painted
 from springblock.plotting.style import VERMILION
 
 PILLARS = Pattern.pillars(12, 4, 2)
-KEPT = 1.5e-4  #: s, of the snapshot
 
 
 @pytest.fixture(scope="module")
 def run() -> Realisation:
-    return simulate(drawn(PILLARS, 1), duration=2e-4, snapshot_times=[KEPT])
+    return simulate(drawn(PILLARS, 1), duration=2e-4)
 
 
 @pytest.fixture
@@ -49,12 +48,12 @@ def test_where_nothing_detaches_the_whole_run_is_shown():
 @pytest.mark.parametrize("columns", [12, 9])
 def test_each_frame_shows_its_time(run, columns):
     """On a rectangle, too."""
-    cut = {name: getattr(run, name)[..., :columns] for name in ("t_det", "contact", "snapshots")}
+    cut = {name: getattr(run, name)[..., :columns] for name in ("t_det", "contact")}
     first = np.isfinite(cut["t_det"]) & (cut["t_det"] <= run.time[-1])
     edges = np.append(-1.0, run.time)
     run = replace(run, **cut, detachments=np.histogram(cut["t_det"][first], edges)[0])
     picture, update = film.scenery(run)
-    blocks, snapshot, force, share = picture.axes
+    blocks, force, share = picture.axes
     now, before = np.nanpercentile(run.t_det, [50, 40])
     update(now, before)
     np.testing.assert_array_equal(blocks.images[0].get_array(), painted(run, now, before))
@@ -67,10 +66,6 @@ def test_each_frame_shows_its_time(run, columns):
             np.testing.assert_array_equal(so_far.get_ydata(), values[: len(so_far.get_ydata())])
     half = share.get_lines()[1].get_ydata()[-1]
     assert half == pytest.approx(50.0, abs=100.0 * 2.0 / run.contact.sum())
-    update(0.99 * KEPT, 0.0)
-    assert np.isnan(snapshot.images[0].get_array().filled(np.nan)).all()
-    update(1.01 * KEPT, 0.99 * KEPT)
-    np.testing.assert_allclose(snapshot.images[0].get_array(), 1e9 * np.hypot(*run.snapshots[0]))
 
 
 def test_what_stands_still_is_drawn_once_and_what_moves_on_it(run, brief):

@@ -22,10 +22,11 @@ _HOLD = 15  #: of these frames show the end
 _AROUND = 0.1  #: time shown before the first and after the last detachment over that in between
 _PIXELS = 5  #: per mm
 _HEIGHT = 112.0  #: mm
-_MAP, _BOTTOM, _SIDE = 13.0, 26.0, 72.0  #: left and lower edge and side, mm: 360 pixels
+_MAP, _SIDE = 13.0, 72.0  #: left edge of the map and its side, mm: 360 pixels
+_CURVES = _MAP + _SIDE + 19.0  #: left edge of the curves, mm
 
 Frame = NDArray[np.uint8]  #: (height, width, 3)
-#: Moves a panel on to a time, given the time of the frame before, s; returns what has moved.
+#: Moves the film on to a time, given the time of the frame before, s; returns what has moved.
 Update = Callable[[float, float], list[Artist]]
 
 
@@ -66,11 +67,11 @@ def moments(run: Run) -> Array:
 def span(run: Run) -> tuple[float, float]:
     """Return the time span of the film, s.
 
-    That is the time from the first to the last detachment or snapshot, and a little before and
-    after it: the loading, half of a run or more, and steady sliding show nothing.
+    That is the time from the first to the last detachment, and a little before and after it: the
+    loading, half of a run or more, and steady sliding show nothing.
     """
     end = float(run.time[-1])
-    seen = np.append(run.t_det[np.isfinite(run.t_det)], run.snapshot_times)
+    seen = run.t_det[np.isfinite(run.t_det)]
     first, last = (seen.min(), seen.max()) if seen.size else (0.0, end)
     around = _AROUND * (last - first) + run.time[1]
     return max(0.0, first - around), min(end, last + around)
@@ -79,18 +80,17 @@ def span(run: Run) -> tuple[float, float]:
 @style.journal
 def scenery(run: Run) -> tuple[Figure, Update]:
     """Draw the static artists, and return them with the function that moves the others."""
-    kept = len(run.snapshots) > 0
-    curves = _MAP + _SIDE + (_SIDE + 33.0 if kept else 19.0)
-    picture = Figure(figsize=((curves + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
+    picture = Figure(figsize=((_CURVES + 84.0) * MM, _HEIGHT * MM), dpi=_PIXELS / MM)
     picture.suptitle(run.name, y=0.975, fontsize="medium")
-    updates = [_blocks(_place(picture, _MAP, _BOTTOM, _SIDE, _SIDE), run)]
-    if kept:
-        ax = _place(picture, _MAP + _SIDE + 14.0, _BOTTOM, _SIDE, _SIDE)
-        updates.append(_displacement(ax, run))
-    force = _place(picture, curves, 63.0, 80.0, 37.0)
-    detached = _place(picture, curves, 11.0, 80.0, 37.0)
+    blocks = _place(picture, _MAP, 26.0, _SIDE, _SIDE)
+    force = _place(picture, _CURVES, 63.0, 80.0, 37.0)
+    detached = _place(picture, _CURVES, 11.0, 80.0, 37.0)
+    image = maps.draw_times(blocks, run, until=0.0)
+    image.set_animated(True)
+    others = [] if run.contact.all() else ["not in contact"]
+    maps.draw_key(blocks, "not detached", "detaching now", *others)
     share = 100.0 * np.cumsum(run.detachments) / np.count_nonzero(run.contact)
-    updates += [_curve(force, run, friction(run)), _curve(detached, run, share)]
+    curves = [_curve(force, run, friction(run)), _curve(detached, run, share)]
     start, stop = (MICRO * end for end in span(run))
     force.axvspan(start, stop, color="0.93", linewidth=0.0, zorder=0)
     force.set(xlim=(0.0, MICRO * run.time[-1]), ylabel=style.FORCE)
@@ -99,7 +99,8 @@ def scenery(run: Run) -> tuple[Figure, Update]:
     force.text(MICRO * run.t_max, 1.03, r"$t_\mathrm{max}$", **middle)
 
     def update(now: float, before: float) -> list[Artist]:
-        return [artist for move in updates for artist in move(now, before)]
+        image.set_data(maps.painted(run, now, before))
+        return [image, *(artist for move in curves for artist in move(now))]
 
     return picture, update
 
@@ -110,38 +111,7 @@ def _place(picture: Figure, left: float, bottom: float, width: float, height: fl
     return picture.add_axes((left / across, bottom / up, width / across, height / up))
 
 
-def _blocks(ax: Axes, run: Run) -> Update:
-    """Map the blocks that have detached so far."""
-    image = maps.draw_times(ax, run, until=0.0)
-    image.set_animated(True)
-    others = [] if run.contact.all() else ["not in contact"]
-    maps.draw_key(ax, "not detached", "detaching now", *others)
-
-    def update(now: float, before: float) -> list[Artist]:
-        image.set_data(maps.painted(run, now, before))
-        return [image]
-
-    return update
-
-
-def _displacement(ax: Axes, run: Run) -> Update:
-    """Map the latest snapshot so far; before the first there is none."""
-    fields = maps.displacements(run.snapshots)
-    nothing = np.full_like(fields[0], np.nan)
-    image = maps.draw_map(ax, nothing, animated=True, **maps.sequential(fields))
-    title = ax.set_title("", animated=True)
-    style.color_bar(ax, image, maps.DISPLACEMENT, orientation="horizontal")
-
-    def update(now: float, before: float) -> list[Artist]:
-        latest = int(np.searchsorted(run.snapshot_times, now, side="right")) - 1
-        image.set_data(fields[latest] if latest >= 0 else nothing)
-        title.set_text(f"at {MICRO * run.snapshot_times[latest]:.4g} µs" if latest >= 0 else "")
-        return [image, title]
-
-    return update
-
-
-def _curve(ax: Axes, run: Run, values: Array) -> Update:
+def _curve(ax: Axes, run: Run, values: Array) -> Callable[[float], list[Artist]]:
     """Draw a curve against time, its past in black, with a cursor and t_max."""
     time = MICRO * run.time
     ax.plot(time, values, color="0.75", linewidth=0.8)  # faint: still to come
@@ -150,7 +120,7 @@ def _curve(ax: Axes, run: Run, values: Array) -> Update:
     ax.axvline(MICRO * run.t_max, color=style.GREY, linestyle=":", linewidth=0.8, zorder=0.5)
     ax.set_xlabel("time (µs)")
 
-    def update(now: float, before: float) -> list[Artist]:
+    def update(now: float) -> list[Artist]:
         count = int(np.searchsorted(run.time, now, side="right"))
         so_far.set_data(time[:count], values[:count])
         cursor.set_xdata([MICRO * now] * 2)

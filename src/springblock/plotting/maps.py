@@ -14,7 +14,6 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.direction import heading, normalised
-from springblock.plotting import style
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT, Look, color_bar
 from springblock.simulation.run import Array, Run
 
@@ -30,9 +29,6 @@ _KEY = {
     "detaching now": BLACK,
     "not in contact": NO_CONTACT,
 }
-DISPLACEMENT = r"displacement $|u|$ (nm)"
-STRESS = r"shear stress $|\tau|$ (kPa)"
-SLIP = "slip (nm)"
 _LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
 
 
@@ -121,11 +117,6 @@ def draw_key(ax: Axes, *names: str) -> None:
     handles = [Patch(color=_KEY[name], label=name) for name in names]
     look: Look = {"columnspacing": 1.0, "handlelength": 1.0, "bbox_to_anchor": (1.0, 1.0)}
     ax.legend(handles=handles, loc="lower right", ncols=3, **look)
-
-
-def displacements(snapshots: Array) -> Array:
-    """Return |u| in nm of snapshots, (k, 2, N, N) m."""
-    return style.NANO * np.hypot(snapshots[:, 0], snapshots[:, 1])
 
 
 def sequential(values: Array) -> Look:

@@ -28,6 +28,9 @@ SURFACE_CAPTION = """Blocks in contact with the substrate (dark) and out of cont
 the mask used by the solver: a) the whole surface; b) single blocks from the first corner of the
 contact on. Arrow: sliding direction."""
 
+_DISPLACEMENT = r"displacement $|u|$ (nm)"
+_STRESS = r"shear stress $|\tau|$ (kPa)"
+_SLIP = "slip (nm)"
 _SHOWN = 4  #: largest number of times shown: the first, the last, and others evenly between them
 _HEIGHT, _ROW = 97.0, 55.0  #: mm, and of the row of snapshots
 #: Width in mm of maps of stress and slip at so many times.
@@ -66,8 +69,8 @@ def plot(run: Run) -> Figure:
         row = parts[1].subplots(1, _SHOWN, sharey=True)
         for ax in row[len(chosen) :]:
             ax.remove()
-        sizes = maps.displacements(run.snapshots[chosen])
-        _draw_maps(row[: len(chosen)], sizes, maps.DISPLACEMENT, run.snapshot_times[chosen])
+        sizes = style.NANO * np.hypot(*run.snapshots[chosen].swapaxes(0, 1))
+        _draw_maps(row[: len(chosen)], sizes, _DISPLACEMENT, run.snapshot_times[chosen])
     return picture
 
 
@@ -102,8 +105,8 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
         fill(name.replace(" = ", "\xa0=\xa0"), int(width / _LETTER)), fontsize="medium"
     )
     stress, slip = style.KILO * fields.shear_stress[chosen], style.NANO * fields.slip[chosen]
-    _draw_maps(panels[:count], stress, maps.STRESS, fields.time[chosen])
-    _draw_maps(panels[count:], slip, maps.SLIP)
+    _draw_maps(panels[:count], stress, _STRESS, fields.time[chosen])
+    _draw_maps(panels[count:], slip, _SLIP)
     return picture
 
 

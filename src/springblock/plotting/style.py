@@ -31,7 +31,7 @@ COLUMN, ONE_AND_A_HALF, DOUBLE = 90.0, 140.0, 190.0  #: widths of the journal's 
 
 # Colour-blind safe (Okabe & Ito 2008, https://jfly.uni-koeln.de/color/). In figures of surfaces
 # black is flat; blue is along x, vermilion along y and green oblique, for sides as for sliding
-# directions; purple is a third level. Pillars have the colours of `pillar_looks`.
+# directions. Pillars have the colours of `pillar_looks`, and lines of sweeps all colours in turn.
 BLACK = "#000000"
 GREEN = "#009E73"
 BLUE = "#0072B2"
