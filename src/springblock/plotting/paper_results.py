@@ -13,16 +13,7 @@ from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
-from springblock.plotting.style import (
-    BLACK,
-    BLUE,
-    FORCE,
-    GREY,
-    MICRO,
-    PERCENT,
-    VERMILION,
-    Look,
-)
+from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
 from springblock.simulation.run import Array, Run, friction
 
 if TYPE_CHECKING:  # read by the command, and only then
@@ -299,9 +290,9 @@ def _pattern_name(lengths: Sequence[int]) -> str:
 
 
 def _lesser_peak(runs: Sequence[Run]) -> str:
-    """Return the mean prominence of the lesser load peaks, % of the largest force, with its CI."""
+    """Return the mean prominence of the lesser load peaks, % of the largest force, and its CI."""
     prominences = [statistics.prominence(friction(run)) for run in runs]
-    mean, low, high = statistics.mean_interval(PERCENT * np.array(prominences))
+    mean, low, high = statistics.mean_interval(style.PERCENT * np.array(prominences))
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
