@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from springblock import Setup, simulate
-from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
+from springblock.accuracy.stability.cases import UNDAMPED
 from springblock.accuracy.stability.one_block import slip
 from springblock.model.defaults import STEP
 

@@ -66,7 +66,7 @@ _PANELS = {
         "path of a column,\ndotted: first detachment",
         ("displacement", "first detachment"),
     ),
-    "strain": (r"strain $F_n/(K_s\,l)$", "path of a column", ("displacement",)),
+    "strain": (r"strain $u/l$", "path of a column", ("displacement",)),
     "damping": (r"damping $\gamma/\omega$", "force in the slip", ("spring force",)),
     "speed": (r"speed $v\,K_s/(F_n\,\omega)$", "force after the slip", ("spring force",)),
 }
