@@ -109,6 +109,13 @@ def finest_bias(rows: Iterable[Row]) -> float:
     return Bias.of(following).high / (following["step"] / finest["step"] - 1.0)
 
 
+def largest_bias(rows: Iterable[Row]) -> float:
+    """Far end of the interval of the default's bias plus the finest step's, as a share."""
+    rows = list(rows)
+    (default,) = select(rows, step=STEP)
+    return Bias.of(default).high + finest_bias(rows)
+
+
 def best(steps: Sequence[Choice], budget: float) -> Choice:
     """Choose the step of the smallest total error for so much CPU time, s."""
     return min(steps, key=lambda step: step.error(budget))
