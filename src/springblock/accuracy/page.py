@@ -41,7 +41,7 @@ number of blocks in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
+{biases} on three surfaces of 120 x 120 blocks. Each of these bounds
 is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
 {length_ensemble} for the decay length, is up to
 {errors}. It exceeds the estimated bias in {larger} of {n} cases.
@@ -102,9 +102,6 @@ def page(
     return _PAGE.read_text(encoding="utf-8").format(
         **_KNOWN,
         opening=_opening(production, select(paired, step=STEP)),
-        smallest=min(row["n_blocks"] for row in single),
-        largest=max(row["n_blocks"] for row in single),
-        fewest=min(row["realisations"] for row in single),
         singles=_by_scene("relative error", _SINGLE, default, _error),
         orders=_by_scene("order", ORDERED, select(precision, comparison="order"), _orders),
         finest=finest[0]["step"],
@@ -113,8 +110,6 @@ def page(
         plain_finest=min(row["step"] for row in plain),
         plains=_by_scene("relative error", _SINGLE, plain, _plain),
         **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
-        n_paired=min(row["realisations"] for row in paired),
-        n_ensemble=paired[0]["n_blocks"],
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
         full_size=_full_size(production, select(leapfrog, scene="flat")),
@@ -122,7 +117,6 @@ def page(
         worst_energy=max(residuals),
         median_energy=median(residuals),
         n_cases=len(stability),
-        n_agree=sum(row["outcome"] == row["expected"] for row in stability),
         families=", ".join(sorted({row["family"] for row in stability})),
         coarsest=coarsest,
         coarse_bias=max(abs(row["error"]) for row in select(paired, step=coarsest)),
@@ -141,7 +135,6 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
         errors=_largest(_scatter, cases),
         larger=sum(larger),
         n=len(larger),
-        n_blocks=rows[0]["n_blocks"],
         **_KNOWN,
     )
 
@@ -168,12 +161,8 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _FULL_SIZE.read_text(encoding="utf-8").format(
         **_KNOWN,
-        n_blocks=rows[0]["n_blocks"],
-        fewest=min(row["realisations"] for row in rows),
-        most=max(row["realisations"] for row in rows),
         finest=finest,
         following=following,
-        n_flat=flat[0]["n_blocks"],
         flat_friction=missed["static_friction"],
         flat_t_avg=missed["t_avg"],
         values=_by_scene("value", _QUANTITIES, rows, _value),

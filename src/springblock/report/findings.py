@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.budget import largest_bias, measured
+from springblock.accuracy.budget import Bias, finest_bias, measured
 from springblock.accuracy.conventions import ENSEMBLE
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
@@ -157,7 +157,7 @@ def _errors(cases: Mapping[tuple[str, str], list[Row]]) -> dict[str, Any]:
     biases, scatter = {}, {}
     for (_, scene), rows in cases.items():
         (row,) = select(rows, step=STEP)
-        biases[scene] = largest_bias(rows)
+        biases[scene] = Bias.of(row).high + finest_bias(rows)
         scatter[scene] = row["deviation"] / row["scale"] / np.sqrt(ENSEMBLE)
     return {
         "title": f"The time step biases t_avg by at most {max(biases.values()):.2%}",
