@@ -9,18 +9,13 @@ import pytest
 
 from precision import production_rows
 from springblock import Setup
-from springblock.accuracy import production
-from springblock.accuracy.budget import Bias, choices, study_budget
 from springblock.accuracy.conventions import (
-    DELAY,
     ENSEMBLE,
-    LENGTH,
     PAPER_STEP,
     PLAIN,
     SCENES,
     half_width,
 )
-from springblock.model.defaults import STEP
 from springblock.plotting import drawing
 
 STEPS = np.array([8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9])
@@ -65,11 +60,6 @@ def table():
     return pd.DataFrame(rows).sample(frac=1.0, random_state=1)
 
 
-#: Panels of total errors, and what they are of.
-CASES = [*product(("static_friction", DELAY), SCENES), (LENGTH, "pillared")]
-ERRORS = dict(zip("defghij", CASES, strict=True))
-
-
 @cache
 def production_table():
     """A bias of order two; in no order of rows."""
@@ -79,7 +69,6 @@ def production_table():
 DRAWINGS = {
     "work_precision": lambda: drawing("work_precision")(table()),
     "work_precision at full size": lambda: drawing("work_precision")(table(), production_table()),
-    "total_error": lambda: drawing("total_error")(production_table()),
 }
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
 
@@ -159,60 +148,3 @@ def test_biases_at_full_size_are_shown_where_a_study_has_them(letter, scene):
     assert np.array(full.lines[0].get_ydata()) == pytest.approx(100.0 * shown.bias[1:] / 50.0)
     half = 100.0 * half_width(10.0 / 50.0, ENSEMBLE)
     assert ax.patches[1].get_height() == pytest.approx(2.0 * half)
-
-
-def rows(quantity, scene):
-    return chosen(production_table(), quantity=quantity, scene=scene).to_dict("records")
-
-
-def error_panel(letter):
-    return panel(letter, "total_error")
-
-
-@pytest.mark.parametrize(("letter", "scene"), list(zip("abc", SCENES, strict=True)))
-def test_every_bias_but_that_of_the_finest_step_is_shown_with_its_interval(letter, scene):
-    shown = chosen(production_table(), scene=scene)
-    shown = shown[shown.step > min(production.STEPS)]
-    shown = shown[shown.quantity.isin(["static_friction", DELAY, LENGTH])]
-    bars = np.vstack([bar for c in error_panel(letter).collections for bar in c.get_segments()])
-    ends = 100.0 * pd.concat([shown.ci_low, shown.ci_high]) / 50.0
-    assert sorted(bars[:, 1]) == pytest.approx(sorted(ends))
-    low, high = error_panel(letter).get_ylim()
-    assert low < ends.min() < ends.max() < high
-
-
-@pytest.mark.parametrize("letter", ERRORS)
-def test_errors_are_those_of_as_many_seeds_as_the_time_allows(letter):
-    steps = choices(rows(*ERRORS[letter]))
-    dots = [line.get_xydata() for line in error_panel(letter).lines if line.get_marker() == "."]
-    assert len(dots) == len(steps)
-    for step, shown in zip(steps, dots, strict=True):
-        wanted = [(step.bias**2 + step.deviation**2 / k) ** 0.5 for k in (1, 10, 100, 1000)]
-        assert shown[:, 0] == pytest.approx([step.spent(k) for k in (1, 10, 100, 1000)])
-        assert shown[:, 1] == pytest.approx([100.0 * error for error in wanted])
-
-
-@pytest.mark.parametrize("letter", ERRORS)
-def test_a_ring_marks_the_default_at_the_study_s_budget_and_no_line_passes_below_the_least(letter):
-    lines = error_panel(letter).lines
-    (ring,) = (line.get_xydata()[0] for line in lines if line.get_fillstyle() == "none")
-    (default,) = (s for s in choices(rows(*ERRORS[letter])) if s.step == STEP)
-    budget = study_budget(rows(*ERRORS[letter]))
-    assert ring == pytest.approx([budget, 100.0 * default.error(budget)])
-    (least,) = (line.get_ydata() for line in lines if line.get_linewidth() == 4.0)
-    curves = [line.get_ydata() for line in lines if len(line.get_ydata()) == len(least)]
-    assert np.nanmin(curves, axis=0) == pytest.approx(least)
-
-
-def test_words_name_the_best_step_and_what_half_its_error_costs():
-    """In 10 s, 20 % over the root of 40 seeds is what 40 ns leave; 80 ns have a bias of 4 %."""
-    (words,) = (t.get_text() for t in error_panel("d").texts if "best" in t.get_text())
-    assert words.startswith("best at 10 s: 40 ns, 40 seeds;\nhalf its error: 5.")
-
-
-def test_shades_hold_the_ends_of_the_bias_s_interval():
-    band = error_panel("e").collections[-1].get_paths()[0].vertices
-    at_end = band[np.isclose(band[:, 0], band[:, 0].max())][:, 1]
-    ends = [choices(rows("static_friction", "pillared"), bias)[-1] for bias in Bias._fields[1:]]
-    wanted = [100.0 * step.error(band[:, 0].max()) for step in ends]
-    assert (at_end.min(), at_end.max()) == pytest.approx(tuple(wanted))

@@ -14,7 +14,7 @@ ROWS = [
     ("step", 0.99, "stable", "static friction", 4e-2, NAN, NAN),
     ("step", 1.01, "refused", "largest step", NAN, 1e-4, 1e-3),
     ("stiffness", 1e-4, "agrees", "displacement, l", -1e-6, 1e-15, 1e-12),
-    ("stiffness", 1e4, "agrees", "first detachment, s", -1e-6, -2e-4, 1e-3),
+    ("stiffness", 1e4, "agrees", "displacement, l", -1e-6, -2e-4, 1e-3),
     ("strain", 1e-9, "agrees", "displacement, l", 1e-7, 2e-11, 1e-10),
     ("strain", 1e-1, "agrees", "displacement, l", 1e-7, 0.0, 1e-2),
     ("damping", 0.0, "agrees", "spring force, F_n", 1e-4, 2e-4, 1e-3),

@@ -53,7 +53,7 @@ def test_a_dry_run_loads_nothing_that_draws():
 def test_figures_whose_groups_are_left_out_are_no_part_of_a_study():
     present = {name for name, figure in FIGURES.items() if figure.is_part_of(QUICK[1])}
     assert {*(f"figure_{number}" for number in range(1, 10)), "stability"} <= present
-    assert not {f"supplement_{name}" for name in ("angle", "levels", "size", "spacing")} & present
+    assert "supplement_levels" not in present
     alone = {name for name, figure in FIGURES.items() if not figure.is_part_of(FULL[1])}
     assert alone == {"surfaces"}  # whose files a user brings
 
@@ -63,15 +63,12 @@ SMALL, LARGE, WIDE = Scene(120, 2, 2), Scene(120, 20, 20), Scene(120, 20, 40)
 ALONG, OTHER = Scene(120, 58, 62, 8, 2), Scene(120, 58, 62, 10, 2)
 ACROSS, ASKEW = replace(ALONG, direction="y"), replace(OTHER, direction="45")
 CUT = replace(ALONG, n_p3=18, n_s3=2)
+CUT_ASKEW = replace(CUT, direction="45")
 GROUPS = {
     "flat": [FLAT, UPWARDS],
     "pillars": [SMALL, LARGE, WIDE],
     "grooves": [ALONG, ACROSS, OTHER],
-    "spacing": [Scene(120, 20, 4), LARGE],
-    "size_flat": [Scene(240)],
-    "size_pillars": [Scene(240, 20, 20), Scene(240, 2, 2)],
-    "angles": [ASKEW, replace(ALONG, direction="45")],
-    "third_level": [CUT, replace(CUT, direction="45")],
+    "third_level": [CUT, CUT_ASKEW],
 }
 
 
@@ -82,35 +79,26 @@ GROUPS = {
         ("figure_5", [LARGE]),
         ("figure_6", [FLAT, SMALL, LARGE]),
         ("figure_9", [ALONG, ACROSS, OTHER]),
-        ("supplement_spacing", [LARGE, WIDE, Scene(120, 20, 4)]),
-        ("supplement_size", [FLAT, Scene(240), LARGE, Scene(240, 20, 20)]),
-        ("supplement_angle", [OTHER, ASKEW]),
-        ("supplement_levels", [ALONG, ACROSS, CUT]),
-        ("supplement_restick", [FLAT, UPWARDS, SMALL, LARGE, ALONG, ACROSS]),
+        ("supplement_levels", [CUT, CUT_ASKEW]),
     ],
 )
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):
     lengths = {"n_p": 20} if name == "figure_5" else {}
-    assert FIGURES[name].source.needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
+    assert FIGURES[name].needs(GROUPS, lengths) == [Need("realisations", s) for s in scenes]
 
 
 def test_a_group_that_a_study_may_have_is_drawn_where_it_has_it():
-    """Grooved surfaces of other sizes, and with them the one that they are compared with."""
-    large = Scene(240, 58, 62, 10, 2)
-    source = FIGURES["supplement_size"].source
-    needs = source.needs(GROUPS | {"size_grooves": [large]}, {})
-    assert [need.scene for need in needs][-2:] == [OTHER, large]
     few = [Scene(126, 7, 7), Scene(120, 4, 4)]  # sizes that need another N
-    needs = FIGURES["figure_6"].source.needs(GROUPS | {"small_pillars": few}, {})
+    needs = FIGURES["figure_6"].needs(GROUPS | {"small_pillars": few}, {})
     assert [need.scene for need in needs] == [FLAT, SMALL, LARGE, *few]
 
 
 def test_figures_need_no_more_tables_than_they_show():
-    assert FIGURES["figure_3"].source.needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
-    tables = FIGURES["figure_7"].source.needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
+    assert FIGURES["figure_3"].needs(GROUPS, {}) == [Need("realisations", FLAT, batches=1)]
+    tables = FIGURES["figure_7"].needs(GROUPS, {"n_p": 20})  # smaller ones have no sides
     assert tables == [Need("correlation", LARGE), Need("correlation_length", LARGE)]
-    assert FIGURES["stability"].source.needs(GROUPS, {}) == [Need("stability")]
-    both = FIGURES["work_precision"].source.needs(GROUPS, {})
+    assert FIGURES["stability"].needs(GROUPS, {}) == [Need("stability")]
+    both = FIGURES["work_precision"].needs(GROUPS, {})
     assert both == [Need("work_precision"), Need("production")]
 
 
@@ -121,14 +109,14 @@ def test_captions_say_what_a_study_draws(config, groups):
     for name, declared in FIGURES.items():
         if not declared.is_part_of(groups):
             continue
-        source, lengths = declared.source, config["figures"].get(name, {})
-        given = source.needs(groups, lengths) or source.options(config["n_blocks"], lengths)
+        lengths = config["figures"].get(name, {})
+        given = declared.needs(groups, lengths) or declared.options(config["n_blocks"], lengths)
         assert given or not signature(drawing(name)).parameters
         caption = declared.caption_in(known, lengths, material)
         assert caption.startswith(declared.caption)
         assert caption.endswith(declared.marks or ".")
         assert not set("{}") & set(declared.title + caption)  # wildcards for the workflow
-        for need in source.needs(groups, lengths):
+        for need in declared.needs(groups, lengths):
             for key, length in need.scene.lengths.items() if need.scene else ():
                 assert re.search(rf"{key}\b[^.;(]*\b{length}\b", caption), (name, key, length)
             if need.scene:
@@ -143,19 +131,19 @@ def test_a_caption_follows_the_grid():
         "flat": [study.Ensemble(FLAT, range(7, 8), None)],
         "pillars": [study.Ensemble(scene, range(20), None) for scene in (LARGE, SMALL)],
     }
-    source = FIGURES["figure_6"].source
-    assert source.in_words(ensembles, {}, Material(pressure=1e5)) == (
+    figure = FIGURES["figure_6"]
+    assert figure.data_in_words(ensembles, {}, Material(pressure=1e5)) == (
         "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
         "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
-    assert source.in_words(ensembles, {}, weak).endswith(
+    assert figure.data_in_words(ensembles, {}, weak).endswith(
         "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
     )
-    one = FIGURES["figure_3"].source.in_words(ensembles, {}, Material())
+    one = FIGURES["figure_3"].data_in_words(ensembles, {}, Material())
     assert one == "N = 120, sliding direction x. Flat surface (seed 7). Material of the paper."
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
-    assert FIGURES["figure_9"].source.in_words(ensembles, {}, Material()) == (
+    assert FIGURES["figure_9"].data_in_words(ensembles, {}, Material()) == (
         "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
         "(4 realisations, seeds 0 to 3). Material of the paper."
     )
@@ -222,6 +210,6 @@ def test_a_pattern_is_drawn_from_options(tmp_path):
 
 def test_a_drawn_pattern_is_the_study_s_surface_or_one_pillar_and_its_gap():
     lengths = {"n_p": 58, "n_s": 62, "n_p2": 8, "n_s2": 2}
-    assert FIGURES["figure_8"].source.options(120, lengths).startswith("--n-blocks 120 --n-p 58")
-    assert FIGURES["figure_8"].source.options(60, lengths).startswith("--n-blocks 120")
-    assert FIGURES["figure_8"].source.options(360, lengths).startswith("--n-blocks 360")
+    assert FIGURES["figure_8"].options(120, lengths).startswith("--n-blocks 120 --n-p 58")
+    assert FIGURES["figure_8"].options(60, lengths).startswith("--n-blocks 120")
+    assert FIGURES["figure_8"].options(360, lengths).startswith("--n-blocks 360")

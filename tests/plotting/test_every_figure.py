@@ -68,7 +68,7 @@ def test_nothing_leaves_the_page_and_panels_do_not_overlap(name):
 @pytest.mark.parametrize(
     ("name", "suffix"),
     [  # the largest layout, random positions, the formats of print and of the web
-        *(("total_error", ".png"), ("beyond_precursors", ".png")),
+        *(("stability", ".png"), ("beyond_precursors", ".png")),
         *(("figure_3", ".pdf"), ("figure_8", ".svg")),
     ],
 )

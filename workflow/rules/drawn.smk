@@ -1,6 +1,6 @@
 # What is drawn: figures, sweeps and films, what each needs, and what its caption says.
 
-from springblock.plotting import figures as declared
+from springblock.plotting import figures
 from springblock.plotting.caption import file_name
 from springblock.plotting.declaration import having
 from springblock.plotting.lines import axes
@@ -14,13 +14,12 @@ GROUPS_BEYOND = [group for group in GROUPS_BEYOND if SHOWN.get(group)]
 #: What figures declare whose groups of scenes and tables the study has.
 FIGURES = {
     name: figure
-    for name, figure in declared.FIGURES.items()
+    for name, figure in figures.FIGURES.items()
     if figure.is_part_of(SCENES)
     and (figure.category != "Figures" or not OWN)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
     and (figure.category != "Beyond" or GROUPS_BEYOND)
-    and (not figure.upon_request or config["production"])
 }
 #: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
 SWEPT = {
@@ -49,15 +48,15 @@ def needed(figure):
     if figure in SWEEPS:
         yield from batches(ensembles(SWEEPS[figure]["groups"]))
         return
-    lengths, source = config["figures"].get(figure, {}), FIGURES[figure].source
-    shown = lengths.items() if source.groups else ()
-    scenes = chain.from_iterable(SCENES[group] for group in source.groups)
+    lengths, declared = config["figures"].get(figure, {}), FIGURES[figure]
+    shown = lengths.items() if declared.groups else ()
+    scenes = chain.from_iterable(SCENES[group] for group in declared.groups)
     if shown and not any(shown <= scene.lengths.items() for scene in scenes):
         wanted = ", ".join(f"{name} = {length}" for name, length in shown)
         raise WorkflowError(
-            f"figures.{figure}: no scene of {' or '.join(source.groups)} has {wanted}."
+            f"figures.{figure}: no scene of {' or '.join(declared.groups)} has {wanted}."
         )
-    for table, scene, number in source.needs(SCENES, lengths):
+    for table, scene, number in declared.needs(SCENES, lengths):
         if scene is None:
             if config["production"] or table != "production":
                 yield f"{RESULTS}/tables/{table}.parquet"
@@ -73,7 +72,7 @@ def command(figure):
         of = [f"--of {observable}" for observable in SWEEPS[figure].get("of", [])]
         return " ".join(["plot", "--over", SWEEPS[figure]["over"], *of])
     lengths = config["figures"].get(figure, {})
-    return f"figure {figure} {FIGURES[figure].source.options(config['n_blocks'], lengths)}"
+    return f"figure {figure} {FIGURES[figure].options(config['n_blocks'], lengths)}"
 
 
 def caption(figure):

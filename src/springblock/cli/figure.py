@@ -13,13 +13,7 @@ from springblock.io.parquet import load, read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 from springblock.plotting import drawing
-from springblock.plotting.declaration import (
-    CorrelationsSource,
-    PatternSource,
-    RealisationsSource,
-    Source,
-    TableSource,
-)
+from springblock.plotting.declaration import Declaration
 from springblock.plotting.figures import FIGURES
 from springblock.plotting.style import save
 
@@ -39,16 +33,16 @@ def ensembles(batches: Paths, *keys: str) -> dict[Any, list[Record]]:
     return found
 
 
-def _realisations(source: RealisationsSource, batches: Paths) -> list[Any]:
-    if source.keys:
-        return [ensembles(batches, *source.keys)]
+def _realisations(declared: Declaration, batches: Paths) -> list[Any]:
+    if declared.keys:
+        return [ensembles(batches, *declared.keys)]
     scenes = ensembles(batches, "folder")
     if len(scenes) > 1:
         raise ValueError(f"several scenes: {', '.join(sorted(scenes))}; give batches of one")
     return list(scenes.values())
 
 
-def _correlations(source: CorrelationsSource, correlation: Path, lengths: Paths) -> list[Any]:
+def _correlations(declared: Declaration, correlation: Path, lengths: Paths) -> list[Any]:
     tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
     refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
     return [table.to_pandas() for table in tables]
@@ -56,13 +50,13 @@ def _correlations(source: CorrelationsSource, correlation: Path, lengths: Paths)
 
 _one = partial(click.argument, type=INPUT)
 _many = partial(_one, nargs=-1, required=True)
-#: Arguments of a figure's command, and the function that reads them for `draw`, by kind of source.
-_SOURCES: dict[type[Source], tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
-    Source: ([], lambda source: []),
-    PatternSource: ([scene_options], lambda source, scene: [scene.pattern]),
-    TableSource: ([_many("tables")], lambda source, tables: [load(t).to_pandas() for t in tables]),
-    RealisationsSource: ([_many("batches")], _realisations),
-    CorrelationsSource: ([_one("correlation"), _many("lengths")], _correlations),
+#: Arguments of a figure's command, and the function that reads them, by what it draws.
+_DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
+    "nothing": ([], lambda declared: []),
+    "pattern": ([scene_options], lambda declared, scene: [scene.pattern]),
+    "tables": ([_many("tables")], lambda declared, tables: [load(t).to_pandas() for t in tables]),
+    "realisations": ([_many("batches")], _realisations),
+    "correlations": ([_one("correlation"), _many("lengths")], _correlations),
 }
 _OUTPUTS = click.option(
     "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG file."
@@ -83,10 +77,10 @@ class _Figures(click.Group):
             known = ", ".join(sorted(FIGURES))
             raise click.UsageError(f"unknown figure {cmd_name!r}; choose one of {known}")
         declared = FIGURES[cmd_name]
-        takes, given = _SOURCES[type(declared.source)]
+        takes, given = _DATA[declared.draws]
 
         def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
-            picture = drawing(cmd_name)(*given(declared.source, **inputs))
+            picture = drawing(cmd_name)(*given(declared, **inputs))
             for output in outputs:
                 save(picture, output, caption or declared.usual_caption)
 

@@ -1,12 +1,10 @@
 """Curves over time, and means of ensembles with intervals over a varied parameter."""
 
 from collections.abc import Mapping, Sequence
-from string import ascii_lowercase
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
@@ -14,7 +12,7 @@ from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
 from springblock.plotting import style
 from springblock.plotting.figures import SINGLE
-from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, PERCENT, Look
+from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
 from springblock.simulation.run import Array, Run, friction, percent
 
 Span = tuple[float, float]  #: of times in µs
@@ -25,7 +23,6 @@ _BIN = 2e-6  #: s, width of the bins of detachments
 _PERCENTILES = (5.0, 95.0)  #: of an ensemble
 _MEAN: Look = {"color": GREY, "linewidth": 0.8, "linestyle": (0, (4, 2))}  #: of that ensemble
 
-T = TypeVar("T")
 Samples = dict[Any, Array]  #: a number of each of k realisations, (k,), by ensemble
 
 #: Bars over intervals.
@@ -96,30 +93,6 @@ def draw_load_peaks(ax: Axes, curve: Curve, color: Any, name: str) -> None:
     triangle: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
     for time, height in zip(MICRO * curve.time[peaks], heights, strict=True):
         ax.annotate("▼", (time, height), (0.0, 2.0), color=color, **triangle)
-
-
-def lesser_peaks(runs: Sequence[Run]) -> Array:
-    """Return the prominence of the lesser load peak of each run, % of the largest force."""
-    return PERCENT * np.array([statistics.prominence(friction(run)) for run in runs])
-
-
-def lesser_peak(runs: Sequence[Run]) -> str:
-    """Return the mean prominence of the lesser load peaks with its 95 % interval."""
-    mean, low, high = statistics.mean_interval(lesser_peaks(runs))
-    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
-
-
-def fit_forces(ax: Axes, curves: Sequence[Curve], share: float) -> None:
-    """Fit axes to the ends of mean forces, with room for triangles.
-
-    They begin where the first force reaches a `share` of its maximum.
-    """
-    means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in curves]
-    start = min(time[np.argmax(mean >= share * np.nanmax(mean))] for time, mean in means)
-    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
-    shown = np.concatenate([mean[(time >= start) & (time <= end)] for time, mean in means])
-    low, high = np.nanmin(shown), np.nanmax(shown)
-    ax.set(xlim=(start, end), ylim=(low - 0.1 * (high - low), high + 0.25 * (high - low)))
 
 
 def draw_run(force: Axes, blocks: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
@@ -223,52 +196,6 @@ def name_places(ax: Axes, places: ArrayLike, scale: str = "log") -> None:
     ax.margins(x=0.1, y=0.1)
 
 
-def highest_and_lag(ensembles: Mapping[Any, Sequence[Run]]) -> tuple[Samples, Samples]:
-    """Return static friction, 1, and t_max - t_avg, µs, of the realisations of each ensemble."""
-    highest = {k: np.array([r.static_friction for r in runs]) for k, runs in ensembles.items()}
-    lag = {k: MICRO * np.array([r.t_max - r.t_avg for r in runs]) for k, runs in ensembles.items()}
-    return highest, lag
-
-
-def stacked(
-    xlabel: str, labels: Sequence[str] = (FRICTION, LAG), room: float = 12.0
-) -> tuple[Figure, list[Axes]]:
-    """Make a column of panels, one per quantity, with `room` in mm for labels and legend."""
-    letters = ";".join(ascii_lowercase[: len(labels)])
-    height = room + 43.0 * len(labels)
-    picture, panels = style.panels(style.COLUMN, height, letters, sharex=True)
-    for ax, label in zip(panels, labels, strict=True):
-        ax.set_ylabel(label)
-        if label == LAG:
-            ax.axhline(0.0, **ZERO)
-    panels[-1].set_xlabel(xlabel)
-    return picture, panels
-
-
 def span(ax: Axes) -> float:
     """Return the length in pt from the first place of a horizontal axis to the last."""
     return 0.8 * float(ax.bbox.width) * 72.0 / ax.figure.dpi  # margins take the rest
-
-
-def apart(every: Sequence[float], lines: int, log: bool) -> float:
-    """Return how far lines stand apart at one place, as a share of the axis.
-
-    That is 3 %, or less where lines of neighbouring places would meet.
-    """
-    even = np.unique(np.log(every) if log else every)
-    gaps = np.diff(even) / np.ptp(even)
-    return float(min([0.03, *(0.7 * gaps / lines)]))
-
-
-def aside(
-    samples: Mapping[Any, T], every: Sequence[float], line: int, lines: int, log: bool
-) -> dict[float, T]:
-    """Offset the samples of one of several lines, so that their bars do not overlap.
-
-    The offset is a share of the axis, logarithmic or linear, through `every` place.
-    """
-    low, high = min(every), max(every)
-    share = apart(every, lines, log) * (line - 0.5 * (lines - 1))
-    if log:
-        return {x * (high / low) ** share: sample for x, sample in samples.items()}
-    return {x + share * (high - low): sample for x, sample in samples.items()}

@@ -1,12 +1,12 @@
-"""Declarations of figures: title, caption and data source.
+"""Declarations of figures: title, caption and data.
 
 The command line and the workflow read these declarations alone.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from springblock.model.material import Material
 from springblock.model.scene import Scene
@@ -17,8 +17,7 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
 
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
-Scenes = Sequence[Scene]
-Groups = Mapping[str, Scenes]  #: scenes of a study by group; one without scenes is left out
+Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; one without is left out
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
 
 
@@ -31,96 +30,30 @@ class Need(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Source:
-    """Data source of a figure; this one needs no data."""
-
-    groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
-    also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
-
-    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        """Return the tables that `draw` is given, in the order in which the command takes them."""
-        return []
-
-    def options(self, n_blocks: int, lengths: Lengths) -> str:
-        """Return further options of the command."""
-        return ""
-
-    def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Describe it in a study, in whole sentences: surfaces, seeds and material."""
-        groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
-        known = {e.scene: e.seeds for members in ensembles.values() for e in members}
-        sample = {
-            need.scene: known[need.scene] if need.batches is None else known[need.scene][:1]
-            for need in self.needs(groups, lengths)
-            if need.scene
-        }
-        return f"{sample_in_words(sample)} {material_in_words(material)}" if sample else ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PatternSource(Source):
-    """A pattern with the lengths that the configuration gives under the figure's name.
-
-    It is as large as the study's surfaces, or large enough for one pillar and its gap.
-    """
-
-    def options(self, n_blocks: int, lengths: Lengths) -> str:
-        needed = lengths["n_p"] + lengths["n_s"]
-        return Scene(max(n_blocks, needed), **lengths).arguments
-
-    def in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        return f"Drawn with {surface_in_words(lengths)}."
-
-
-@dataclass(frozen=True)
-class TableSource(Source):
-    """Tables of the whole study; those that it does not make are left out."""
-
-    tables: tuple[str, ...]
-
-    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        return [Need(table) for table in self.tables]
-
-
-@dataclass(frozen=True, kw_only=True)
-class RealisationsSource(Source):
-    """Realisations of scenes, which `draw` takes by the values of `keys`.
-
-    Of several scenes with equal values the first is drawn. Without keys there is one scene, and
-    `draw` takes its realisations.
-    """
-
-    keys: tuple[str, ...] = ()
-    pick: Callable[..., Iterable[Scene]] = chain  #: given the scenes of each group
-    batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
-
-    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        picked = self.pick(*(groups.get(group, []) for group in self.groups + self.also))
-        scenes = first_of_each(self.keys, having(lengths, picked))
-        return [Need("realisations", scene, self.batches) for scene in scenes]
-
-
-@dataclass(frozen=True, kw_only=True)
-class CorrelationsSource(Source):
-    """Correlations of the scene that has the configuration's lengths, and l_c for each n_p."""
-
-    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
-        scenes = [scene for group in self.groups for scene in groups[group] if scene.sides]
-        shown, sizes = first_of_each((), having(lengths, scenes)), first_of_each(("n_p",), scenes)
-        curves = [Need("correlation", scene) for scene in shown]
-        return curves + [Need("correlation_length", scene) for scene in sizes]
-
-
-@dataclass(frozen=True)
 class Declaration:
-    """Title, caption and data source of a figure."""
+    """Title, caption and data of a figure.
+
+    What its function takes is named by `draws`:
+
+    - nothing;
+    - pattern: the one that the configuration gives under the figure's name, as large as the study's
+      surfaces, or large enough for one pillar and its gap;
+    - tables: those of the whole study; one that it does not make is left out;
+    - realisations: of scenes, by the values of `keys`. Of several scenes with equal values the
+      first is drawn. Without keys there is one scene, and the function takes its realisations;
+    - correlations: of the scene that has the configuration's lengths, and l_c for each n_p.
+    """
 
     title: str
     module: str  #: of `plotting`, whose function of the figure's name draws it
     caption: str  #: what is plotted, for which surfaces; lines may break anywhere
-    source: Source
     marks: str = ""  #: meaning of bands, bars and symbols; follows surfaces and realisations
-    upon_request: bool = False  #: drawn in studies with `production: true` alone
+    draws: Literal["nothing", "pattern", "tables", "realisations", "correlations"] = "realisations"
+    groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
+    also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
+    keys: tuple[str, ...] = ()
+    batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
+    tables: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("caption", "marks"):
@@ -131,19 +64,52 @@ class Declaration:
         """Return the heading of the figure in the report: Figures, or the name of its module."""
         return "Figures" if self.module.startswith("paper_") else self.module.capitalize()
 
-    def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
-        """Return the caption with the surfaces, seeds and material of a study."""
-        drawn = self.source.in_words(ensembles, lengths, material)
-        return " ".join(filter(None, (self.caption, drawn, self.marks)))
-
     @property
     def usual_caption(self) -> str:
         """Return the caption without a study."""
         return f"{self.caption} {self.marks}".strip()
 
+    def caption_in(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
+        """Return the caption with the surfaces, seeds and material of a study."""
+        drawn = self.data_in_words(ensembles, lengths, material)
+        return " ".join(filter(None, (self.caption, drawn, self.marks)))
+
+    def data_in_words(self, ensembles: "Ensembles", lengths: Lengths, material: Material) -> str:
+        """Describe the data in a study, in whole sentences: surfaces, seeds and material."""
+        if self.draws == "pattern":
+            return f"Drawn with {surface_in_words(lengths)}."
+        groups = {name: [e.scene for e in members] for name, members in ensembles.items()}
+        known = {e.scene: e.seeds for members in ensembles.values() for e in members}
+        sample = {
+            need.scene: known[need.scene] if need.batches is None else known[need.scene][:1]
+            for need in self.needs(groups, lengths)
+            if need.scene
+        }
+        return f"{sample_in_words(sample)} {material_in_words(material)}" if sample else ""
+
     def is_part_of(self, groups: Groups) -> bool:
         """Return whether a study has all groups of scenes that the figure needs."""
-        return all(groups.get(group) for group in self.source.groups)
+        return all(groups.get(group) for group in self.groups)
+
+    def needs(self, groups: Groups, lengths: Lengths) -> list[Need]:
+        """Return the tables that are drawn, in the order in which the command takes them."""
+        every = chain.from_iterable(groups.get(group, []) for group in self.groups + self.also)
+        if self.draws == "correlations":
+            scenes = [scene for scene in every if scene.sides]
+            shown = first_of_each((), having(lengths, scenes))
+            curves = [Need("correlation", scene) for scene in shown]
+            sizes = first_of_each(("n_p",), scenes)
+            return curves + [Need("correlation_length", scene) for scene in sizes]
+        if self.draws == "realisations":
+            drawn = first_of_each(self.keys, having(lengths, every))
+            return [Need("realisations", scene, self.batches) for scene in drawn]
+        return [Need(table) for table in self.tables]
+
+    def options(self, n_blocks: int, lengths: Lengths) -> str:
+        """Return further options of the command."""
+        if self.draws != "pattern":
+            return ""
+        return Scene(max(n_blocks, lengths["n_p"] + lengths["n_s"]), **lengths).arguments
 
 
 def having(lengths: Lengths, scenes: Iterable[Scene]) -> list[Scene]:

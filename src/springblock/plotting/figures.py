@@ -5,19 +5,7 @@ This module loads neither matplotlib nor pandas: a dry run of the study starts q
 doi:10.1016/j.ijsolstr.2022.111525.
 """
 
-from dataclasses import replace
-from itertools import chain
-
-from springblock.model.scene import Scene
-from springblock.plotting.declaration import (
-    CorrelationsSource,
-    Declaration,
-    PatternSource,
-    RealisationsSource,
-    Scenes,
-    Source,
-    TableSource,
-)
+from springblock.plotting.declaration import Declaration
 
 #: Names that captions give to the intervals of `statistics.mean_interval` and of `correlation`.
 INTERVALS = "95 % t intervals over realisations"
@@ -29,46 +17,8 @@ ENDS = """Realisations end after a set time, or after the first minimum that fol
     maximum; the mean force is dotted once the first of them has ended, and stops when half of them
     have."""
 
-
-def main_surfaces(flat: Scenes, pillars: Scenes, grooves: Scenes) -> list[Scene]:
-    """Return flat surfaces, pillars, and of the grooved ones those with the first's pattern."""
-    return [*flat, *pillars, *one_pattern(grooves)]
-
-
-def one_pattern(*groups: Scenes) -> list[Scene]:
-    """Return the scenes of all groups with the pattern of the last group's first one."""
-    last = groups[-1][0]
-    size, direction = last.n_blocks, last.direction
-    return [s for s in chain(*groups) if replace(s, n_blocks=size, direction=direction) == last]
-
-
-def one_of_each(*groups: Scenes) -> list[Scene]:
-    """Return a flat, a pillared and a grooved surface, each in all its sizes N, if varied."""
-    found = []
-    for group, varied in zip(groups[::2], groups[1::2], strict=True):
-        directions = {scene.direction for scene in varied}
-        scenes = one_pattern(group, varied) if varied else []
-        found += [scene for scene in scenes if scene.direction in directions]
-    return found
-
-
-def sizes_varied(pillars: Scenes, spacing: Scenes) -> list[Scene]:
-    """Return pillars of the sizes n_p whose distance n_s is varied."""
-    sizes = {scene.n_p for scene in spacing}
-    return [scene for scene in (*pillars, *spacing) if scene.n_p in sizes]
-
-
-def with_and_without(grooves: Scenes, third_level: Scenes) -> list[Scene]:
-    """Return the first pattern of three levels along x and y, with and without its third level."""
-    cut = third_level[0]
-    whole = replace(cut, n_p3=0, n_s3=0, along_3="")
-    wanted = {replace(pattern, direction=way) for pattern in (cut, whole) for way in ("x", "y")}
-    return [scene for scene in (*grooves, *third_level) if scene in wanted]
-
-
-_MAIN_SURFACES = RealisationsSource(
-    groups=("flat", "pillars", "grooves"), keys=("n_p", "n_p2", "direction"), pick=main_surfaces
-)
+#: Keys of grooved pillars.
+PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "direction")
 
 #: By name, in the order of names in the report: `springblock figure NAME` draws one.
 FIGURES: dict[str, Declaration] = {
@@ -77,7 +27,7 @@ FIGURES: dict[str, Declaration] = {
         module="paper_surfaces",
         caption="""The model: a) the mesh of internal springs; b) side view of the slider, moving at
         constant velocity v, and of the shear springs K_s. Figure 1 of the paper.""",
-        source=Source(),
+        draws="nothing",
     ),
     "figure_2": Declaration(
         title="Force and detachments, flat surface",
@@ -85,7 +35,7 @@ FIGURES: dict[str, Declaration] = {
         caption="""a), b) Friction force over the normal force and c), d) share of blocks that
         detach in each sample interval, against time, on a flat surface; b) and d) enlarge the time
         around the force maximum. Figure 2 of the paper.""",
-        source=RealisationsSource(groups=("flat",)),
+        groups=("flat",),
         marks="""Black: the realisation with the first seed; grey band: 5th to 95th percentile of
         the others. Dotted line: t_max, the time of the force maximum; solid line: t_avg, the mean
         first detachment time.""",
@@ -95,7 +45,8 @@ FIGURES: dict[str, Declaration] = {
         module="paper_results",
         caption="""First detachment time t_det over t_max of each block, in the realisation of
         figure 2. Figure 3 of the paper.""",
-        source=RealisationsSource(groups=("flat",), batches=1),
+        groups=("flat",),
+        batches=1,
         marks="""Blue blocks detach before the force maximum, red ones after it, on separate scales
         that cover all times.""",
     ),
@@ -105,7 +56,7 @@ FIGURES: dict[str, Declaration] = {
         caption="""Square pillars, from the mask used by the solver: a) a corner of the surface; b)
         one pillar with its coordinates (x_p, y_p) and the sides along which c_x and c_y are
         measured. Figure 4 of the paper.""",
-        source=PatternSource(),
+        draws="pattern",
     ),
     "figure_5": Declaration(
         title="First detachment times on one pillar",
@@ -113,7 +64,7 @@ FIGURES: dict[str, Declaration] = {
         caption="""Mean first detachment time t_det over t_max on a pillar, over all pillars and
         realisations: a) of each block; b) of the parts of each ring of blocks, from the edge to the
         centre. Figure 5 of the paper; b) is an addition.""",
-        source=RealisationsSource(groups=("pillars",)),
+        groups=("pillars",),
         marks=f"""a) Blue: before the force maximum, red: after it, on separate scales. b) The
         {INTERVALS} are too narrow to be drawn; the legend gives half the widest.""",
     ),
@@ -123,9 +74,9 @@ FIGURES: dict[str, Declaration] = {
         caption="""a) Friction force over the normal force and b) share of first detachments per
         bin, against time; c) static friction and d) t_max - t_avg against pillar size; on a flat
         surface and on pillars. Figure 6 of the paper; c), d) and further sizes are additions.""",
-        source=RealisationsSource(
-            groups=("flat", "pillars"), also=("small_pillars",), keys=("n_p",)
-        ),
+        groups=("flat", "pillars"),
+        also=("small_pillars",),
+        keys=("n_p",),
         marks=f"""a) Lines: means; bands: 5th to 95th percentile of the realisations; filled
         symbols: t_max, open ones: t_avg. b) Lines: means; bands: {INTERVALS}; symbols: the largest
         share. c) Symbols: means; bars: {INTERVALS}. d) Dots: realisations; dashes: medians. Dashed
@@ -139,7 +90,8 @@ FIGURES: dict[str, Declaration] = {
         sliding along x: a) on a linear and b) on a logarithmic scale, up to the first interval that
         includes zero, with fits of exp(-r/l_c) and A exp(-r/l). c) Decay lengths l_c and l of c_x
         against pillar size. Figure 7 of the paper; fits with A free are an addition.""",
-        source=CorrelationsSource(groups=("pillars",)),
+        draws="correlations",
+        groups=("pillars",),
         marks=f"""Symbols: means over all pillars and realisations; bands and bars:
         {CORRELATION_INTERVALS}. b) exp(-r/l_c): solid over the range of the fit, dotted beyond; A
         exp(-r/l): dashed, where the range has three distances or more.""",
@@ -150,7 +102,7 @@ FIGURES: dict[str, Declaration] = {
         caption="""Pillars with grooves along x, from the mask used by the solver: a) the whole
         surface; b) one pillar with its coordinates. A single pillar has margins of n_s/2. Figure 8
         of the paper.""",
-        source=PatternSource(),
+        draws="pattern",
     ),
     "figure_9": Declaration(
         title="Force and detachments, grooved pillars",
@@ -159,7 +111,8 @@ FIGURES: dict[str, Declaration] = {
         bin; against time, once a force has reached 80 % of its maximum. Grooved pillars, sliding
         along and across the grooves; a row for each width of pawls and grooves, n_p2/n_s2. Figure 9
         of the paper, which does not give its sizes.""",
-        source=RealisationsSource(groups=("grooves",), keys=("n_p2", "n_s2", "direction")),
+        groups=("grooves",),
+        keys=PATTERN,
         marks=f"""Thin lines: the first {SINGLE} realisations; thick lines: means; bands:
         {INTERVALS}. Triangles: peaks of the mean force that reach 90 % of its maximum, with a
         prominence of more than two standard errors and 1 % of the maximum; peaks of realisations at
@@ -167,65 +120,14 @@ FIGURES: dict[str, Declaration] = {
         each realisation's second most prominent peak over its largest force (0 with one peak).
         {ENDS}""",
     ),
-    "supplement_spacing": Declaration(
-        title="Distance between pillars",
-        module="supplement",
-        caption="""a) Static friction and b) t_max - t_avg against the distance n_s between pillars,
-        which the paper leaves open, for each pillar size n_p.""",
-        source=RealisationsSource(
-            groups=("pillars", "spacing"), keys=("n_p", "n_s"), pick=sizes_varied
-        ),
-        marks=f"""a) Symbols: means; bars: {INTERVALS}. b) Dots: realisations; dashes: medians.""",
-    ),
-    "supplement_size": Declaration(
-        title="Size of the surface",
-        module="supplement",
-        caption="""a) Static friction over its mean at the largest N and b) t_max - t_avg, against
-        the side N of the surface, for a flat, a pillared and, where the study varies its size, a
-        grooved surface. Figures of the paper are at N = 120.""",
-        source=RealisationsSource(
-            groups=("flat", "size_flat", "pillars", "size_pillars"),
-            also=("grooves", "size_grooves"),
-            keys=("n_p", "n_p2", "direction", "n_blocks"),
-            pick=one_of_each,
-        ),
-        marks=f"""a) Symbols: means; bars: {INTERVALS}. b) Dots: realisations; dashes: medians.
-        Surfaces of equal N are slightly offset.""",
-    ),
-    "supplement_angle": Declaration(
-        title="Sliding at an angle to grooves",
-        module="supplement",
-        caption="""a) Static friction, b) t_max - t_avg and c) prominence of the lesser load peak
-        against the angle between sliding direction and grooves, 0 or 90 degrees in the paper. The
-        lesser peak is the second most prominent one of a realisation; its prominence is given over
-        the largest force, and is 0 with one peak.""",
-        source=RealisationsSource(
-            groups=("grooves", "angles"), keys=("direction",), pick=one_pattern
-        ),
-        marks=f"""Small dots: realisations, slightly offset; large dots in a), c): means; bars:
-        {INTERVALS}. b) has no means, since realisations may form two clusters.""",
-    ),
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""Friction force over the normal force against time, towards the end of the run,
-        sliding a) along and b) across the grooves, on patterns of two and of three levels. The
-        paper expects its effects to remain with further levels.""",
-        source=RealisationsSource(
-            groups=("grooves", "third_level"), keys=("direction", "level"), pick=with_and_without
-        ),
-        marks=f"""Lines: means; bands: {INTERVALS}. Legends: size and gap of each level in blocks,
-        and the lesser peak; it and triangles are defined as in figure 9. {ENDS}""",
-    ),
-    "supplement_restick": Declaration(
-        title="Blocks that detach again",
-        module="supplement",
-        caption="""Share of the contact blocks that have come to rest and detached again by 80 %,
-        90 % and 100 % of t_max, for each surface: an upper bound on the effect of the rule for
-        re-sticking, which the paper does not give. With `rk4` a block sticks whenever it reverses
-        its motion, with `leapfrog` only if static friction can hold it.""",
-        source=_MAIN_SURFACES,
-        marks="""Dots: realisations; dashes: medians.""",
+        caption="""As figure 9, with pawls and grooves of a third level, n_p3/n_s3, within those of
+        the second. The paper expects its effects to remain with further levels.""",
+        groups=("third_level",),
+        keys=PATTERN,
+        marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",
     ),
     "surfaces": Declaration(
         title="Surfaces of one's own",
@@ -233,7 +135,8 @@ FIGURES: dict[str, Declaration] = {
         caption="""One surface per row. Left: blocks in contact; middle: first detachment time t_det
         over t_max, mean over realisations; right: friction force over the normal force against
         time.""",
-        source=RealisationsSource(groups=("surfaces",), keys=("folder",)),
+        groups=("surfaces",),
+        keys=("folder",),
         marks=f"""Middle: blue before the force maximum and red after it, on separate scales; grey
         without contact, or where the block has not detached in every realisation. Right: thick
         line: mean; band: {INTERVALS}; thin lines: up to {SINGLE} realisations; dotted line: mean
@@ -248,22 +151,10 @@ FIGURES: dict[str, Declaration] = {
         to the same seeds at a fine step. Small surfaces and, where the study has `production:
         true`, 120 × 120 blocks; both integrators, and Runge-Kutta with friction evaluated in each
         stage.""",
-        source=TableSource(("work_precision", "production")),
+        draws="tables",
+        tables=("work_precision", "production"),
         marks="""Blue areas: range of 95 % of the means over 20 seeds. Bars: 95 % t intervals. The
         axis of biases is linear within ±1 % and logarithmic beyond.""",
-    ),
-    "total_error": Declaration(
-        title="Error against CPU time at full size",
-        module="accuracy",
-        caption="""Errors of ensembles against CPU time, with 120 × 120 blocks. a-c) Bias of the
-        mean relative to the same seeds at the finest step, against the CPU time of a realisation;
-        the numbers above are steps in ns. d-j) Total error of k seeds, the square root of bias² +
-        variance/k, against the CPU time of all, including the prelude.""",
-        source=TableSource(("production",)),
-        marks="""a-c) Bars: 95 % t intervals. d-j) Dots: 1, 10, 100 and 1000 seeds; rings: those of
-        the study at the default step; lines: with the estimated bias; bands: with the ends of its
-        interval; grey: the smallest error at any step.""",
-        upon_request=True,
     ),
     "stability": Declaration(
         title="Stiff and extreme cases",
@@ -271,7 +162,8 @@ FIGURES: dict[str, Declaration] = {
         caption="""Stiff and extreme cases: a) energy residual against the step over the largest
         stable one; b) error over the accepted error of each case; c-f) error against stiffness,
         strain, damping and speed.""",
-        source=TableSource(("stability",)),
+        draws="tables",
+        tables=("stability",),
         marks="""Refused cases are beyond the stability limit; failed ones end in an exception.""",
     ),
     "mechanism_friction": Declaration(
@@ -283,7 +175,8 @@ FIGURES: dict[str, Declaration] = {
         them, with blocks that overshoot and stick again, and of the full model. e), f) Against
         pillar size, on surfaces of 40 to 48 blocks a side with n_s = n_p; the same 10 seeds for
         each.""",
-        source=TableSource(("mechanism",)),
+        draws="tables",
+        tables=("mechanism",),
         marks=f"""e) Exact values. f) Symbols: means; bars:
         {INTERVALS.replace("realisations", "seeds")}.""",
     ),
@@ -294,7 +187,8 @@ FIGURES: dict[str, Declaration] = {
         blocks beside one out of contact) and on the core (the other contact blocks), for pawls of 8
         blocks between grooves of 2 on a pillar of 58 (N = 120), sliding a) along the grooves and b)
         across them; 5 seeds.""",
-        source=TableSource(("mechanism_budget",)),
+        draws="tables",
+        tables=("mechanism_budget",),
         marks=f"""Lines: means; bands: {INTERVALS.replace("realisations", "seeds")}. Solid: full
         model; dashed: blocks that overshoot and stick again, until each has detached once; there,
         time is the slider's displacement over its velocity.""",
@@ -307,7 +201,8 @@ FIGURES: dict[str, Declaration] = {
         metres. b) Decay length of A exp(-r/l) on these pillars against the spacing, against the
         spacing at equal disorder per area, and against l_z. Static friction against pillar size for
         c) different l and d) different l_z.""",
-        source=RealisationsSource(groups=("lattice", "disorder", "layer"), keys=("folder",)),
+        groups=("lattice", "disorder", "layer"),
+        keys=("folder",),
         marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines: slopes 0 and 1.
         c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes that do not differ
         significantly from it.""",
@@ -319,9 +214,8 @@ FIGURES: dict[str, Declaration] = {
         coefficients, for pillar sizes n_p. b) Static friction against n_p for each standard
         deviation. c) Variance of static friction between realisations against the number of blocks
         of the surface.""",
-        source=RealisationsSource(
-            groups=("flat", "pillars", "scatter", "variance"), keys=("folder",)
-        ),
+        groups=("flat", "pillars", "scatter", "variance"),
+        keys=("folder",),
         marks="""Bars: 95 % intervals over realisations. c) Grey lines: independent blocks.""",
     ),
     "beyond_friction": Declaration(
@@ -329,7 +223,8 @@ FIGURES: dict[str, Declaration] = {
         module="beyond",
         caption="""Static friction at constant total load: a) by size n_p and distance n_s of
         pillars; b) against n_p for each contact fraction.""",
-        source=RealisationsSource(groups=("friction",), keys=("folder",)),
+        groups=("friction",),
+        keys=("folder",),
         marks=f"""a) Colours: means; grey lines: constant contact fraction. b) Symbols: means; bars:
         {INTERVALS}; dashes: additive model with a term for each size and one for each contact
         fraction.""",
@@ -340,7 +235,8 @@ FIGURES: dict[str, Declaration] = {
         caption="""Mean prominence of the second most prominent load peak in percent of the largest
         force, by angle between sliding direction and grooves and by pawl width n_p2; grooves on
         pillars (left) and over the whole surface (right), narrow (above) and wide (below).""",
-        source=RealisationsSource(groups=("peaks",), keys=("folder",)),
+        groups=("peaks",),
+        keys=("folder",),
         marks="""A prominence cannot be negative: the values of light cells are due to scatter.""",
     ),
     "beyond_precursors": Declaration(
@@ -349,9 +245,8 @@ FIGURES: dict[str, Declaration] = {
         caption="""a) Share of the precursors in clusters of at least a given size, connected over 4
         neighbours, against this size. b) Correlation of detachment times along the edges of grooves
         on pillars against distance, for angles between sliding direction and grooves.""",
-        source=RealisationsSource(
-            groups=("flat", "pillars", "grooves", "angles"), keys=("folder",)
-        ),
+        groups=("flat", "pillars", "grooves", "angles"),
+        keys=("folder",),
         marks="""a) Solid: observed; dashed: as many contact blocks at random positions; dotted: the
         same positions, each from another realisation. b) Bands: 95 % intervals over
         realisations.""",

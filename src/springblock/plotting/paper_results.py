@@ -10,16 +10,26 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from springblock.analysis import statistics
-from springblock.analysis.statistics import Interval
+from springblock.analysis.statistics import Curve, Interval
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
-from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
-from springblock.simulation.run import Array, Run
+from springblock.plotting.style import (
+    BLACK,
+    BLUE,
+    FORCE,
+    GREY,
+    MICRO,
+    PERCENT,
+    VERMILION,
+    Look,
+)
+from springblock.simulation.run import Array, Run, friction
 
 if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd
 
 BySize = Mapping[int, Sequence[Run]]  #: by n_p, 0 for the flat surface
+Grooves = tuple[int, int, int, int, str]  #: n_p2, n_s2, n_p3, n_s3 and sliding direction
 
 _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that figure 2 enlarges
 _TIME = r"mean first detachment $t_\mathrm{det}/t_\mathrm{max}$"
@@ -117,21 +127,23 @@ def figure_6(ensembles: BySize) -> Figure:
     ensembles = dict(sorted(ensembles.items()))
     ratios: Look = {"width_ratios": (90, 61), "height_ratios": (46, 40)}
     picture, panels = style.panels(style.DOUBLE, 118.0, "ac;bd", **ratios)
-    force, blocks, friction, lag = panels
+    force, blocks, static, lag = panels
     _draw_time(force, blocks, ensembles)
-    highest, lags = curves.highest_and_lag(ensembles)
     looks = style.pillar_looks(ensembles)
-    for n_p in filter(None, ensembles):
-        look = looks[n_p]
-        curves.draw_means(friction, {n_p: highest[n_p]}, linestyle="none", **look)
-        curves.draw_realisations(lag, {n_p: lags[n_p]}, look["color"])
-    for ax, samples in ((friction, highest), (lag, lags)):
-        if 0 in samples:
-            _draw_flat(ax, samples[0])
-        curves.name_places(ax, [n_p for n_p in samples if n_p])
+    for n_p, runs in ensembles.items():
+        highest = np.array([run.static_friction for run in runs])
+        lags = MICRO * np.array([run.t_max - run.t_avg for run in runs])
+        if n_p:
+            curves.draw_means(static, {n_p: highest}, linestyle="none", **looks[n_p])
+            curves.draw_realisations(lag, {n_p: lags}, looks[n_p]["color"])
+        else:
+            _draw_flat(static, highest)
+            _draw_flat(lag, lags)
+    for ax in (static, lag):
+        curves.name_places(ax, [n_p for n_p in ensembles if n_p])
     lag.axhline(0.0, **curves.ZERO)
-    friction.set_ylabel(curves.FRICTION)
-    friction.tick_params(labelbottom=False)
+    static.set_ylabel(curves.FRICTION)
+    static.tick_params(labelbottom=False)
     lag.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel=curves.LAG)
     style.legend_above(picture, force, ncols=8)
     return picture
@@ -241,31 +253,30 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     ax.legend(loc="lower right")
 
 
-def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
-    """Draw force and detachments by (n_p2, n_s2, direction), a row for each pair of widths.
+def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
+    """Draw force and detachments on grooved pillars, a row for each pattern.
 
     All rows have the same axes; triangles stand above load peaks.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    rows = sorted({key[:2] for key in found})
+    rows = list(dict.fromkeys(key[:4] for key in found))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
-        peaks = [f"$n_p^{{(2)}}/n_s^{{(2)}}$ = {row[0]}/{row[1]}, lesser peak:"]
-        for direction, curve in [(key[2], found[key]) for key in found if key[:2] == row]:
+        peaks = [f"{_pattern_name(row)}, lesser peak:"]
+        for direction, curve in [(key[4], found[key]) for key in found if key[:4] == row]:
             color, name = style.direction_color(direction), style.direction_name(direction)
             curves.draw_single_forces(force, curve, color)
             curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)
-            peaks.append(f"{name} {curves.lesser_peak(ensembles[*row, direction])}")
+            peaks.append(f"{name} {_lesser_peak(ensembles[*row, direction])}")
         force.set_ylabel(FORCE)
         force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
         force.sharey(panels[0])
         blocks.sharey(panels[1])
-    curves.fit_forces(panels[0], list(found.values()), _SHOWN)
-    panels[0].set_ylim(0.0, 1.05 * panels[0].get_ylim()[1])
+    _fit_forces(panels[0], list(found.values()))
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
@@ -274,3 +285,30 @@ def figure_9(ensembles: Mapping[tuple[int, int, str], Sequence[Run]]) -> Figure:
     panels[-2].plot([], [], color=GREY, **curves.REST, label="fewer runs")
     style.legend_above(picture, *panels[::2], ncols=4)
     return picture
+
+
+def _pattern_name(lengths: Sequence[int]) -> str:
+    """Name size and gap of the levels above the pillars: n_p2, n_s2, n_p3, n_s3."""
+    pairs = zip(lengths[::2], lengths[1::2], strict=True)
+    levels = [
+        f"$n_p^{{({level})}}/n_s^{{({level})}}$ = {size}/{gap}"
+        for level, (size, gap) in enumerate(pairs, 2)
+        if size
+    ]
+    return ", ".join(levels)
+
+
+def _lesser_peak(runs: Sequence[Run]) -> str:
+    """Return the mean prominence of the lesser load peaks, % of the largest force, with its CI."""
+    prominences = [statistics.prominence(friction(run)) for run in runs]
+    mean, low, high = statistics.mean_interval(PERCENT * np.array(prominences))
+    return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
+
+
+def _fit_forces(ax: Axes, every: Sequence[Curve]) -> None:
+    """Fit an axis to mean forces from `_SHOWN` of the maximum on, with room for triangles."""
+    means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in every]
+    start = min(time[np.argmax(mean >= _SHOWN * np.nanmax(mean))] for time, mean in means)
+    end = max(time[np.isfinite(mean)][-1] for time, mean in means)
+    highest = max(np.nanmax(mean) for _, mean in means)
+    ax.set(xlim=(start, end), ylim=(0.0, 1.15 * highest))

@@ -49,8 +49,6 @@ BEFORE_AFTER = LinearSegmentedColormap.from_list(
     [(0.0, "#08306B"), (0.5, "#7FB2DB"), (0.5, "#FCEAE2"), (0.8, "#F2AD95"), (1.0, "#DC6B55")],
 ).with_extremes(bad=NO_CONTACT)
 
-Key = tuple[int, int, str]  #: n_p, n_p2 and sliding direction, which identify the main surfaces
-
 #: Integrators by name. Symbols of Runge-Kutta are open, as some cover those of the leapfrog.
 METHODS: dict[str, Look] = {
     "leapfrog": {"label": "leapfrog", "color": BLUE, "marker": "o"},
@@ -58,7 +56,6 @@ METHODS: dict[str, Look] = {
     | {"markersize": 3.8, "markerfacecolor": "none"},
 }
 _DIRECTIONS = {"x": BLUE, "y": VERMILION}
-_STRIPS: dict[str, Look] = {"x": {"marker": "*", "markersize": 4.5}, "y": {"marker": "h"}}
 #: By n_p.
 _MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
 _MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
@@ -197,20 +194,6 @@ def direction_name(direction: str) -> str:
     """Return the name of a sliding direction on grooves along x."""
     named = {"x": "along grooves", "y": "across grooves"}
     return named.get(direction, f"at {direction}° to grooves")
-
-
-def surface_look(key: Key) -> Look:
-    """Return the name, colour and marker of a surface."""
-    n_p, n_p2, direction = key
-    if not n_p2:
-        return {"label": pillar_name(n_p), **pillar_look(n_p)}
-    look = {"label": direction_name(direction), "color": direction_color(direction)}
-    return look | _STRIPS.get(direction, {"marker": "d"})
-
-
-def in_order(keys: Iterable[Key]) -> list[Key]:
-    """Sort surfaces: flat, pillars by size, grooved."""
-    return sorted(keys, key=lambda key: (key[1] > 0, key))
 
 
 @journal

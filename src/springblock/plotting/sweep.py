@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from string import ascii_lowercase
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,6 +19,8 @@ from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
 from springblock.plotting.lines import Lines, in_math
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
+
+T = TypeVar("T")
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
@@ -69,10 +71,10 @@ def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
     picture, grid = _panels(observables, directions, room)
     every = sorted({place for places in found.values() for place in places})
     log = 0.0 < _DECADE * every[0] <= every[-1]
-    cap = 0.4 * curves.apart(every, len(names), log) * curves.span(grid[0, 0])
+    cap = 0.4 * _apart(every, len(names), log) * curves.span(grid[0, 0])
     for line, runs in found.items():
         i, column = names.index(line.name), grid[:, directions.index(line.direction)]
-        moved = curves.aside(runs, every, i, len(names), log)
+        moved = _aside(runs, every, i, len(names), log)
         look: Look = {"marker": _MARKERS[i % len(_MARKERS)], "label": line.name}
         look |= {"capsize": min(cap, curves.BAR["capsize"])}
         for ax, observable in zip(column, observables, strict=True):
@@ -84,6 +86,30 @@ def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
     if is_named:
         style.legend_above(picture, *grid[0], loc="outside upper left", ncols=columns)
     return picture
+
+
+def _apart(every: Sequence[float], lines: int, log: bool) -> float:
+    """Return how far lines stand apart at one place, as a share of the axis.
+
+    That is 3 %, or less where lines of neighbouring places would meet.
+    """
+    even = np.unique(np.log(every) if log else every)
+    gaps = np.diff(even) / np.ptp(even)
+    return float(min([0.03, *(0.7 * gaps / lines)]))
+
+
+def _aside(
+    runs: Mapping[float, T], every: Sequence[float], line: int, lines: int, log: bool
+) -> dict[float, T]:
+    """Offset the runs of one of several lines, so that their bars do not overlap.
+
+    The offset is a share of the axis, logarithmic or linear, through `every` place.
+    """
+    low, high = min(every), max(every)
+    share = _apart(every, lines, log) * (line - 0.5 * (lines - 1))
+    if log:
+        return {x * (high / low) ** share: of_place for x, of_place in runs.items()}
+    return {x + share * (high - low): of_place for x, of_place in runs.items()}
 
 
 def _panels(
