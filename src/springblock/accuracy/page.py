@@ -6,7 +6,7 @@ from pathlib import Path
 from statistics import median
 
 from springblock.accuracy import budget
-from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, choices, finest_bias, largest_bias
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, finest_bias, largest_bias
 from springblock.accuracy.conventions import (
     DELAY,
     ENERGY_TOLERANCE,
@@ -157,7 +157,7 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         return _WITHOUT
     finest, following = sorted({row["step"] for row in rows})[:2]
     pillars = select(rows, quantity="t_avg", scene="pillared")
-    seconds = {choice.step: choice.spent(10) for choice in choices(pillars)}
+    default, fine = _at(STEP, pillars), _at(_FINE, pillars)
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _FULL_SIZE.read_text(encoding="utf-8").format(
         **_KNOWN,
@@ -167,9 +167,9 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         flat_t_avg=missed["t_avg"],
         values=_by_scene("value", _QUANTITIES, rows, _value),
         biases=_by_scene("bias", _QUANTITIES, rows, _bias),
-        fine_seconds=seconds[_FINE],
-        seconds=seconds[STEP],
-        change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
+        fine_seconds=budget.spent(fine, 10),
+        seconds=budget.spent(default, 10),
+        change=abs(default["value"] / fine["value"] - 1.0),
         excess=_excesses(rows),
     )
 
@@ -260,7 +260,7 @@ def _excesses(rows: Sequence[Row]) -> str:
     for name, quantities in groups.items():
         cases = budget.measured(rows, quantities).values()
         for fold in (1, _FOLD):
-            found = [budget.excess(choices(c), budget.study_budget(c, fold)) for c in cases]
+            found = [budget.excess(case, fold) for case in cases]
             label = name if fold == 1 else f"{name}, {fold} times the seeds"
             lines.append([label, *(f"{max(each[h] for each in found):.2f}" for h in found[0])])
-    return markdown_table(["step (s)", *(f"{h:.0e}" for h in sorted(found[0]))], lines)
+    return markdown_table(["step (s)", *(f"{h:.0e}" for h in found[0])], lines)
