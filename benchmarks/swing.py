@@ -19,7 +19,6 @@ def swing(
     steps: int,
     step: float,
     integrator: str = "leapfrog",
-    material: Material = UNDAMPED,
     periodic: bool = False,
 ) -> Array:
     """Let a frictionless lattice go from `displacement` (2, N_y, N_x), in l, the slider at rest.
@@ -28,7 +27,7 @@ def swing(
     """
     method, shape = INTEGRATORS[integrator], displacement.shape[1:]
     surface = Surface(np.ones(shape, bool), 0.0, 0.0, periodic)
-    state, constants = prepare(surface, material, (0.0, 0.0), method, step)
+    state, constants = prepare(surface, UNDAMPED, (0.0, 0.0), method, step)
     blocks, grid = state.blocks, constants.grid
     blocks.static[:] = 0.0
     for field, u in zip((blocks.ux, blocks.uy), displacement, strict=True):

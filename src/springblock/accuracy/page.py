@@ -93,8 +93,6 @@ def page(
     default = select(leapfrog, step=STEP)
     finest = select(leapfrog, step=min(row["step"] for row in leapfrog))
     plain = select(single, integrator=PLAIN)
-    mistaken = [row for row in select(plain, step=PAPER_STEP) if row["quantity"] in MEANS]
-    worst = {scene: max(row["error"] for row in select(mistaken, scene=scene)) for scene in SCENES}
     paired = select(precision, comparison="paired", integrator="leapfrog")
     scatter = select(precision, comparison="scatter")
     coarsest = max(row["step"] for row in paired)
@@ -106,9 +104,8 @@ def page(
         orders=_by_scene("order", ORDERED, select(precision, comparison="order"), _orders),
         finest=finest[0]["step"],
         floor=max(row["error"] for row in finest if row["quantity"] in ORDERED),
-        plain=", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items()),
-        plain_finest=min(row["step"] for row in plain),
-        plains=_by_scene("relative error", _SINGLE, plain, _plain),
+        plain=_worst(select(plain, step=PAPER_STEP)),
+        plain_half=_worst(select(plain, step=PAPER_STEP / 2.0)),
         **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
@@ -207,10 +204,11 @@ def _orders(*rows: Row) -> str:
     return "; ".join(f"{r['error']:.1f} [{r['ci_low']:.1f}, {r['ci_high']:.1f}]" for r in each)
 
 
-def _plain(*rows: Row) -> str:
-    """Return the errors at the paper's step, and in brackets at the finest."""
-    finest = min(rows, key=lambda row: row["step"])
-    return f"{_at(PAPER_STEP, rows)['error']:.1%} ({finest['error']:.1%})"
+def _worst(rows: Sequence[Row]) -> str:
+    """Return the largest error of a mean on each scene."""
+    means = [row for row in rows if row["quantity"] in MEANS]
+    worst = {scene: max(row["error"] for row in select(means, scene=scene)) for scene in SCENES}
+    return ", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items())
 
 
 def _paired_bias(bias: Row, scatter: Row) -> str:
