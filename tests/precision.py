@@ -6,12 +6,11 @@ from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, PAPER_STEP, P
 from springblock.accuracy.production import STEPS, UNITS
 from springblock.model.defaults import STEP
 
-QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "order", "horizon"]
-QUANTITIES += ["t_det before horizon", "resolution"]
+QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "t_det before horizon", "horizon"]
 #: Integrators and steps of each comparison.
 COMPARISONS = {
     "reference": (["leapfrog", "rk4", PLAIN], [1e-9, min(STEPS), PAPER_STEP, STEP]),
-    "order": (["leapfrog", "rk4"], [PAPER_STEP, STEP]),
+    "order": (["leapfrog", "rk4"], [PAPER_STEP]),
     "paired": (["leapfrog"], [STEP]),
     "scatter": (["leapfrog"], [STEP]),
 }
@@ -43,6 +42,5 @@ def production_rows():
 
 
 def realisation_rows():
-    """Rows of the table `realisations`: the friction of pillars, and energy that is missing."""
-    row = {"level": 1, "direction": "x", "varied": "", "n_blocks": 120, "n_p": 6, "n_s": 6}
-    return [row | {"static_friction": 0.6 + 1e-3 * k, "energy_error": 1e-5} for k in range(22)]
+    """Rows of the table `realisations`, whose energy balance nearly closes."""
+    return [{"energy_error": 1e-5}]

@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.swing import UNDAMPED, swing
 from benchmarks.timing import Missing
-from springblock.accuracy.kernels import UNDAMPED, swing
 
 _ROOT = Path(__file__).parents[2]
 #: N/m; a bond of LAMMPS has the energy K (r - L)², without the factor one half.

@@ -1,4 +1,4 @@
-"""The best step for a budget, against closed forms."""
+"""Biases of ensembles, and the best step for a budget, against closed forms."""
 
 from math import inf
 from pathlib import Path
@@ -10,24 +10,16 @@ import yaml
 from springblock.accuracy.budget import (
     STUDY_SEEDS,
     Bias,
-    Choice,
-    best,
-    choices,
+    excess,
     finest_bias,
-    halving,
-    study_budget,
+    spent,
+    total_error,
 )
 from springblock.accuracy.conventions import DELAY, LENGTH
 from springblock.model.defaults import STEP
 
 CONFIG = Path(__file__).parents[2] / "config/config.yaml"
 CURVATURE, DEVIATION, COST = 2e12, 5e-3, 1.6e-8  #: bias/h² in 1/s², of a run, CPU time x h in s²
-STEPS = np.geomspace(1e-9, 1e-6, 3001)  #: 0.2 % apart
-
-
-def second_order(step, prelude=0.0, bias=CURVATURE):
-    """A step whose bias falls with its square, and whose cost rises with its inverse."""
-    return Choice(float(step), bias * step**2, DEVIATION, COST / step, prelude)
 
 
 def row(bias, error=0.0, scale=1.0, **columns):
@@ -35,35 +27,33 @@ def row(bias, error=0.0, scale=1.0, **columns):
     return {"bias": bias, "bias_error": error, "scale": scale, **ends, **columns}
 
 
-@pytest.mark.parametrize("budget", [2.0, 20.0, 2000.0])
-def test_at_the_best_step_the_bias_is_half_the_standard_error(budget):
-    """dE²/dh = 4 c² h³ - σ² a/(B h²) = 0."""
-    chosen = best([second_order(step) for step in STEPS], budget)
-    exact = (DEVIATION**2 * COST / (4.0 * CURVATURE**2 * budget)) ** 0.2
-    assert chosen.step == pytest.approx(exact, rel=2e-3)
-    standard_error = DEVIATION / chosen.seeds(budget) ** 0.5
-    assert chosen.bias == pytest.approx(standard_error / 2.0, rel=1e-2)
-    assert chosen.error(budget) == pytest.approx(5.0**0.5 * CURVATURE * exact**2, rel=1e-4)
+def second_order(step, prelude=0.0):
+    """A step whose bias falls with its square, and whose cost rises with its inverse."""
+    costs = {"cpu_seconds": COST / step, "prelude_seconds": prelude}
+    return row(CURVATURE * step**2, step=step, deviation=DEVIATION, quantity=LENGTH, **costs)
 
 
-def test_half_the_error_costs_4_times_the_time_or_with_a_bias_of_order_two_5_7_times():
-    assert halving([second_order(STEP, bias=0.0)], 20.0) == pytest.approx(4.0)
-    assert halving([second_order(step) for step in STEPS], 20.0) == pytest.approx(2**2.5, rel=1e-3)
+@pytest.mark.parametrize("seconds", [2.0, 20.0, 2000.0])
+def test_at_the_best_step_the_bias_is_half_the_standard_error(seconds):
+    """dE²/dh = 4 c² h³ - σ² a/(B h²) = 0, so that E = √5 c h²."""
+    best = (DEVIATION**2 * COST / (4.0 * CURVATURE**2 * seconds)) ** 0.2
+    errors = [
+        total_error(second_order(step), seconds) for step in np.array([0.99, 1.0, 1.01]) * best
+    ]
+    assert errors[1] == min(errors) == pytest.approx(5.0**0.5 * CURVATURE * best**2)
 
 
-def test_a_prelude_is_paid_once():
-    """Four times the seeds, but no second prelude."""
-    alone, started = second_order(STEP, bias=0.0), second_order(STEP, prelude=3.0, bias=0.0)
-    assert started.error(23.0) == pytest.approx(alone.error(20.0))
-    assert halving([started], 23.0) == pytest.approx((3.0 + 4.0 * 20.0) / 23.0)
+def test_a_prelude_is_paid_once_and_a_realisation_at_least():
+    alone, started = second_order(STEP), second_order(STEP, prelude=3.0)
+    assert total_error(started, 23.0) == pytest.approx(total_error(alone, 20.0))
+    assert total_error(started, 0.9 * spent(started, 1.0)) == inf
 
 
-def test_a_cost_is_that_of_the_error_and_infinite_below_the_bias():
-    step = second_order(4e-8, prelude=1.0)
-    assert step.cost(step.error(30.0)) == pytest.approx(30.0)
-    assert step.cost(step.bias) == inf
-    assert step.error(0.9 * step.spent(1.0)) == inf
-    assert step.cost(1.0) == step.spent(1.0)  # no less than a realisation
+def test_errors_are_compared_for_the_cpu_time_of_the_study_at_the_default_step():
+    rows = [second_order(step, prelude=1.0) for step in (STEP / 2.0, STEP, 2.0 * STEP)]
+    seconds = 1.0 + 3.0 * STUDY_SEEDS[LENGTH] * COST / STEP
+    errors = [total_error(each, seconds) for each in rows]
+    assert list(excess(rows, fold=3.0).values()) == pytest.approx(np.divide(errors, min(errors)))
 
 
 def test_a_bias_is_freed_of_its_own_scatter(rng):
@@ -71,24 +61,7 @@ def test_a_bias_is_freed_of_its_own_scatter(rng):
     bias, error = 3e-3, 1e-3
     found = [Bias.of(row(b, error)).estimate ** 2 for b in rng.normal(bias, error, 4000)]
     assert np.mean(found) == pytest.approx(bias**2, rel=0.04)  # four standard errors
-
-
-def test_a_bias_that_is_not_told_from_zero_has_an_upper_limit_alone():
-    assert Bias.of(row(0.5, error=1.0)) == Bias(0.0, 0.0, 2.5)
-    estimate, low, high = Bias.of(row(-4.0, error=1.0, scale=2.0))
-    assert (low, high) == (1.0, 3.0)
-    assert low < estimate < 2.0
-
-
-def test_choices_are_shares_of_the_scale_finest_first():
-    costs = {"cpu_seconds": 0.5, "prelude_seconds": 1.0, "deviation": 4.0}
-    rows = [
-        row(b, scale=8.0, step=h, quantity=LENGTH, **costs) for h, b in ((STEP, 2.0), (5e-9, 0))
-    ]
-    finest, default = choices(rows)
-    assert (finest.step, finest.bias) == (5e-9, 0.0)
-    assert default == Choice(STEP, 0.25, 0.5, 0.5, 1.0)
-    assert study_budget(rows) == 1.0 + STUDY_SEEDS[LENGTH] * 0.5
+    assert Bias.of(row(-0.5, error=1.0, scale=2.0)) == Bias(0.0, 1.25)
 
 
 def test_the_bias_of_the_finest_step_is_told_at_first_order_and_covered_at_second():

@@ -27,21 +27,21 @@ def rows():
 def test_the_bias_of_a_mean_is_what_was_added(rng):
     exact = rng.normal(7.0, 2.0, 50)
     found = of_mean(exact + 0.25, exact)
-    assert found.bias == pytest.approx(0.25)
-    assert found.bias_error == pytest.approx(0.0, abs=1e-12)
-    assert found.deviation == pytest.approx(exact.std(ddof=1))
-    assert found.value == pytest.approx(exact.mean() + 0.25)
+    assert found["bias"] == pytest.approx(0.25)
+    assert found["bias_error"] == pytest.approx(0.0, abs=1e-12)
+    assert found["deviation"] == pytest.approx(exact.std(ddof=1))
+    assert found["value"] == pytest.approx(exact.mean() + 0.25)
 
 
 def test_the_bias_of_a_length_is_told_where_sides_correlate_further():
     """The same noise at both steps, which is remembered further at one of them."""
     fine, coarse = (times(np.random.default_rng(3), 60, 9, 20, l_c) for l_c in (2.0, 3.0))
     found = of_length({5e-9: fine, STEP: coarse, 4e-8: fine})
-    assert found[5e-9].bias == found[4e-8].bias == found[4e-8].ci_high == 0.0
-    assert found[STEP].ci_low > 0.0
-    assert found[STEP].value - found[5e-9].value == pytest.approx(found[STEP].bias)
-    unpaired = found[STEP].deviation / 60**0.5
-    assert found[STEP].bias_error < 0.7 * unpaired
+    assert found[5e-9]["bias"] == found[4e-8]["bias"] == found[4e-8]["ci_high"] == 0.0
+    assert found[STEP]["ci_low"] > 0.0
+    assert found[STEP]["value"] - found[5e-9]["value"] == pytest.approx(found[STEP]["bias"])
+    unpaired = found[STEP]["deviation"] / 60**0.5
+    assert found[STEP]["bias_error"] < 0.7 * unpaired
 
 
 def test_rows_are_those_of_the_table_without_a_bias_at_the_finest_step(rows):

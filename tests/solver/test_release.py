@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from springblock.accuracy.kernels import SPRINGS, STIFFNESS, spring_forces
 from springblock.solver.release import force_in_patch, make_releases, release_share
 from springblock.solver.springs import Springs
+from springs import SPRINGS, STIFFNESS, spring_forces
 
 #: A block that is coupled only to the slider, by a spring of stiffness one.
 ALONE = Springs.of(0.0, 1.0)

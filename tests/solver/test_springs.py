@@ -4,9 +4,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from springblock.accuracy.kernels import spring_forces
 from springblock.simulation.simulate import SimulationError
 from springblock.solver.springs import Q_MAX, Q_MIN, SERIES_ERROR, SERIES_RANGE, g, series
+from springs import spring_forces
 
 EPS = np.finfo(float).eps
 N = 5

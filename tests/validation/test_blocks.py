@@ -5,16 +5,14 @@ force rises evenly before it. A sample at the end of that step does not know of 
 up to (omega h)²/2 of the drop.
 """
 
-import itertools
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from springblock import Setup, simulate
-from springblock.accuracy.kernels import UNDAMPED
 from springblock.accuracy.specimens import flat, uniform
+from springblock.accuracy.stability.cases import UNDAMPED
 from springblock.accuracy.stability.one_block import slip
 from springblock.model.defaults import STEP
 
@@ -67,32 +65,6 @@ def test_the_slip_follows_an_accurate_integration(mu_static, mu_dynamic, gamma, 
     missed = 0.5 * (OMEGA * step) ** 2 * (mu_static - mu_dynamic) * LOAD
     exact = np.abs(RATE * run.time - LOAD * path(OMEGA * tau))[sliding]
     np.testing.assert_allclose(run.force[sliding], exact, rtol=0, atol=missed)
-
-
-def test_slips_follow_each_other_at_equal_drops(integrator):
-    """From 2 mu_d - mu_s the force rises to mu_s again, while the block is at rest.
-
-    The release overshoots mu_s F_n by K_s v h at most, and a step holds the stop, at which the
-    block would go on or back by (mu_s - mu_d) F_n h²/m, which takes time to be made up for.
-    """
-    mu_static, mu_dynamic, step = 0.8, 0.7, 1e-8
-    drop = (mu_static - mu_dynamic) * LOAD
-    lasts = 2.0 * (math.pi - math.atan(drop * OMEGA / RATE)) / OMEGA
-    period = 2.0 * drop / RATE + lasts
-    run = pull(mu_static, mu_dynamic, integrator, after=3.5 * period, step=step)
-    slips, missed = np.flatnonzero(run.switches), drop * (OMEGA * step) ** 2
-    assert len(slips) == 4
-    np.testing.assert_allclose(
-        np.diff(run.time[slips]), period, rtol=0, atol=missed / RATE + 3 * step
-    )
-    for first, following in itertools.pairwise(slips):
-        lowest = first + int(np.argmin(run.force[first:following]))
-        expected = (2 * mu_dynamic - mu_static) * LOAD
-        assert run.force[lowest] == pytest.approx(expected, abs=2 * RATE * step + missed)
-        # late by a step at its start, and found to a step at its end
-        assert run.time[lowest] - run.time[first] == pytest.approx(lasts, abs=2 * step)
-        rising = np.diff(run.force[lowest + 2 : following])
-        np.testing.assert_allclose(rising, RATE * step, rtol=1e-9)  # differences of 1e-6 N
 
 
 def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):

@@ -29,21 +29,13 @@ rule compare_scene:
         "--output {output:q} > {log:q} 2>&1"
 
 
-rule compare:
+rule precision_table:
     input:
         expand(
             rules.compare_scene.output,
             comparison=conventions.COMPARISONS,
             scene=conventions.SCENES,
         ),
-    localrule: True
-    message:
-        "All errors are measured"
-
-
-rule precision_table:
-    input:
-        rules.compare.input,
     output:
         f"{RESULTS}/tables/work_precision.parquet",
     log:

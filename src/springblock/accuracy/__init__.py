@@ -8,7 +8,6 @@ work_precision    error against work, in two comparisons
 production        bias, scatter and cost of the study's own ensembles
 budget            what an ensemble misses for so much CPU time
 consistency       whether the physics is the same where bits differ
-kernels           springs and a lattice without friction: compiled, and exactly
 stability         stiff and extreme cases
 page              what to trust, in words
 """

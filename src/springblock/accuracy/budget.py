@@ -1,4 +1,4 @@
-"""What an ensemble misses and what it costs: which step is best for so much CPU time.
+"""Bias of ensembles, and which step is best for so much CPU time.
 
 The mean over k seeds is off by its bias, which the step leaves, and by its scatter, which falls
 with k. Their root mean square is the total error,
@@ -10,7 +10,6 @@ bias of half the standard error, and E falls with CPU time to the power 2/5.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import inf, sqrt
 from typing import NamedTuple
@@ -25,10 +24,9 @@ STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
 
 class Bias(NamedTuple):
-    """Modulus of a bias, as a share of the quantity, and the ends of its 95 % interval."""
+    """Modulus of a bias, as a share of the quantity, and the far end of its 95 % interval."""
 
     estimate: float
-    low: float
     high: float
 
     @classmethod
@@ -36,67 +34,19 @@ class Bias(NamedTuple):
         """Take it from a row of the table `production`.
 
         A measured bias is too large by its own scatter, E[b²] = bias² + error²: what that adds is
-        taken off. An interval that holds 0 leaves an upper limit alone.
+        taken off.
         """
         squared = max(row["bias"] ** 2 - row["bias_error"] ** 2, 0.0)
-        ends = sorted((abs(row["ci_low"]), abs(row["ci_high"])))
-        low = 0.0 if row["ci_low"] <= 0.0 <= row["ci_high"] else ends[0]
-        return cls(*(number / row["scale"] for number in (sqrt(squared), low, ends[1])))
-
-
-@dataclass(frozen=True)
-class Choice:
-    """A step to compute ensembles with; errors are shares of the quantity."""
-
-    step: float  #: s
-    bias: float
-    deviation: float  #: standard deviation of a realisation
-    cpu_seconds: float  #: of a realisation
-    prelude_seconds: float = 0.0  #: shared by all realisations
-
-    def spent(self, seeds: float) -> float:
-        """CPU time of so many seeds, s."""
-        return self.prelude_seconds + seeds * self.cpu_seconds
-
-    def seeds(self, budget: float) -> float:
-        """How many seeds so much CPU time, s, allows; not rounded."""
-        return (budget - self.prelude_seconds) / self.cpu_seconds
-
-    def error(self, budget: float) -> float:
-        """Total error for so much CPU time, s; infinite where that is less than a realisation's."""
-        seeds = self.seeds(budget)
-        return sqrt(self.bias**2 + self.deviation**2 / seeds) if seeds >= 1.0 else inf
-
-    def cost(self, error: float) -> float:
-        """CPU time of such a total error, s; infinite where the bias alone is as large."""
-        left = error**2 - self.bias**2
-        return self.spent(max(self.deviation**2 / left, 1.0)) if left > 0.0 else inf
+        high = max(abs(row["ci_low"]), abs(row["ci_high"]))
+        return cls(sqrt(squared) / row["scale"], high / row["scale"])
 
 
 def measured(rows: Iterable[Row], quantities: Iterable[str]) -> Cases:
-    """Return the rows of each quantity and scene that has any, finest step first."""
+    """Rows of the table `production` by quantity and scene, where there are any, finest first."""
     ordered = sorted(rows, key=lambda row: row["step"])
     keys = product(quantities, SCENES)
     found = {key: select(ordered, quantity=key[0], scene=key[1]) for key in keys}
     return {key: rows for key, rows in found.items() if rows}
-
-
-def choices(rows: Iterable[Row], bias: str = "estimate") -> list[Choice]:
-    """Steps of one scene and quantity, finest first; biases are estimates or ends of intervals.
-
-    `rows` are those of the table `production`, `bias` names a field of `Bias`. The bias of the
-    finest step, which `finest_bias` bounds, is neglected.
-    """
-    return [
-        Choice(
-            step=row["step"],
-            bias=getattr(Bias.of(row), bias),
-            deviation=row["deviation"] / row["scale"],
-            cpu_seconds=row["cpu_seconds"],
-            prelude_seconds=row["prelude_seconds"],
-        )
-        for row in sorted(rows, key=lambda row: row["step"])
-    ]
 
 
 def finest_bias(rows: Iterable[Row]) -> float:
@@ -109,27 +59,31 @@ def finest_bias(rows: Iterable[Row]) -> float:
     return Bias.of(following).high / (following["step"] / finest["step"] - 1.0)
 
 
-def best(steps: Sequence[Choice], budget: float) -> Choice:
-    """Choose the step of the smallest total error for so much CPU time, s."""
-    return min(steps, key=lambda step: step.error(budget))
+def largest_bias(rows: Sequence[Row]) -> float:
+    """Far end of the interval of the default's bias plus the finest step's, as a share."""
+    (default,) = select(rows, step=STEP)
+    return Bias.of(default).high + finest_bias(rows)
 
 
-def halving(steps: Sequence[Choice], budget: float) -> float:
-    """How many times the CPU time, s, half the total error costs, always at the best step.
+def spent(row: Row, seeds: float) -> float:
+    """CPU time of so many seeds at the step of this row, s."""
+    return float(row["prelude_seconds"] + seeds * row["cpu_seconds"])
 
-    Four, where nothing but scatter is left.
+
+def total_error(row: Row, seconds: float) -> float:
+    """Total error for so much CPU time, s; infinite where that is less than a realisation's."""
+    seeds = (seconds - row["prelude_seconds"]) / row["cpu_seconds"]
+    scatter = row["deviation"] / row["scale"]
+    return sqrt(Bias.of(row).estimate ** 2 + scatter**2 / seeds) if seeds >= 1.0 else inf
+
+
+def excess(rows: Sequence[Row], fold: float = 1.0) -> dict[float, float]:
+    """Total error at each step over that at the best one, of one scene and quantity.
+
+    For the CPU time of `fold` times the study's seeds at the default step. The bias of the finest
+    step, which `finest_bias` bounds, is neglected.
     """
-    error = best(steps, budget).error(budget) / 2.0
-    return min(step.cost(error) for step in steps) / budget
-
-
-def study_budget(rows: Sequence[Row], fold: float = 1.0) -> float:
-    """CPU time of `fold` times the study's seeds at the default step, s; `rows` as of `choices`."""
-    (default,) = (choice for choice in choices(rows) if choice.step == STEP)
-    return default.spent(fold * STUDY_SEEDS.get(rows[0]["quantity"], ENSEMBLE))
-
-
-def excess(steps: Sequence[Choice], budget: float) -> dict[float, float]:
-    """Total error at each step over that at the best one, for so much CPU time, s."""
-    least = best(steps, budget).error(budget)
-    return {step.step: step.error(budget) / least for step in steps}
+    (default,) = select(rows, step=STEP)
+    seconds = spent(default, fold * STUDY_SEEDS.get(default["quantity"], ENSEMBLE))
+    errors = {row["step"]: total_error(row, seconds) for row in rows}
+    return {step: error / min(errors.values()) for step, error in errors.items()}

@@ -22,6 +22,7 @@ DELAY = "t_max - t_avg"  #: by how much the force peak comes after the mean deta
 LENGTH = "decay length"  #: l of A exp(-r/l), along the sides of pillars
 PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
 PAPER_STEP = 1e-8  #: s
+SAMPLE_INTERVAL = 8e-8  #: s, of runs on small surfaces
 #: Realisations per scene behind the paper's figures; errors must stay under their scatter.
 ENSEMBLE = 20
 #: Relative change of the thresholds that sets the horizon; the largest that is small against any

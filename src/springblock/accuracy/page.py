@@ -1,13 +1,12 @@
 """The page on numerical errors, from its templates and the tables."""
 
 from collections.abc import Callable, Iterable, Sequence
-from itertools import product
-from math import floor, isfinite, log10, sqrt
+from math import floor, log10, sqrt
 from pathlib import Path
-from statistics import median, stdev
+from statistics import median
 
 from springblock.accuracy import budget
-from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, choices, finest_bias, measured
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, finest_bias, largest_bias
 from springblock.accuracy.conventions import (
     DELAY,
     ENERGY_TOLERANCE,
@@ -19,6 +18,7 @@ from springblock.accuracy.conventions import (
     OUT_OF_LINE,
     PAPER_STEP,
     PLAIN,
+    SAMPLE_INTERVAL,
     SCENES,
     ensemble_error,
     half_width,
@@ -41,18 +41,12 @@ number of blocks in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
+{biases} on three surfaces of 120 x 120 blocks. Each of these bounds
 is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
 {length_ensemble} for the decay length, is up to
 {errors}. It exceeds the estimated bias in {larger} of {n} cases.
-{pooled}Quote means with their intervals over seeds, and add the bias where hundreds of realisations
+Quote means with their intervals over seeds, and add the bias where hundreds of realisations
 are pooled. Compare ensembles only: single runs on patterned surfaces diverge at any step.
-"""
-
-_POOLED = """Where more seeds are pooled, the possible error of the step is the {larger} of the two.
-The most precise mean, static friction on pillars of {n_p} blocks, has a statistical error of
-{statistical:.5f} over {count} realisations. The numerical error, measured on pillars of 20 blocks
-only, is up to {numerical:.5f}.
 """
 
 #: Names of quantities that are not called by their symbol.
@@ -60,24 +54,31 @@ _NAMES = {
     "force": "force before t_max, largest",
     "static_friction": "static friction",
     "t_det before horizon": "t_det before the horizon",
-    "order": "1 - rank correlation of t_det",
-    "resolution": "sample interval over t_max",
 }
 _UNITS = {"1": ("", 1.0), "s": (" (µs)", 1e6), "blocks": (" (blocks)", 1.0)}
 _QUANTITIES = (*MEANS, DELAY, LENGTH)
-_PLAIN = ("force", *MEANS, "t_det before horizon")
-_SINGLE = (*_PLAIN, "order", "resolution")
+_SINGLE = ("force", *MEANS, "t_det before horizon")
 _LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
 _COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: alternatives to the default
-_SPANS = {PAPER_STEP: f"{PAPER_STEP:.0e} s and finer", STEP: f"{STEP:.0e} to {_FINE:.0e} s"}
 _FOLD = 20  #: largest number of pooled ensembles, over the study's seeds
 #: Fields of the templates that do not depend on the tables.
-_KNOWN = {"step": STEP, "coarse": _COARSE, "fine": _FINE, "paper": PAPER_STEP, "limit": _LIMIT}
-_KNOWN |= {"coarse_margin": _LIMIT / _COARSE, "margin": _LIMIT / STEP, "nudge": HORIZON_NUDGE}
-_KNOWN |= {"ensemble": ENSEMBLE, "length_ensemble": STUDY_SEEDS[LENGTH], "fold": _FOLD}
-_KNOWN |= {"tolerance": ENERGY_TOLERANCE, "out_of_line": OUT_OF_LINE}
+_KNOWN = {
+    "step": STEP,
+    "coarse": _COARSE,
+    "fine": _FINE,
+    "paper": PAPER_STEP,
+    "limit": _LIMIT,
+    "coarse_margin": _LIMIT / _COARSE,
+    "margin": _LIMIT / STEP,
+    "nudge": HORIZON_NUDGE,
+    "ensemble": ENSEMBLE,
+    "length_ensemble": STUDY_SEEDS[LENGTH],
+    "fold": _FOLD,
+    "tolerance": ENERGY_TOLERANCE,
+    "out_of_line": OUT_OF_LINE,
+    "sample_interval": SAMPLE_INTERVAL,
+}
 _PERCENT = 100.0
-_BUDGETS = ["", "scene", "CPU time (s)", "error, default", "best step (s) x seeds", "error, best"]
 
 
 def page(
@@ -92,31 +93,20 @@ def page(
     default = select(leapfrog, step=STEP)
     finest = select(leapfrog, step=min(row["step"] for row in leapfrog))
     plain = select(single, integrator=PLAIN)
-    mistaken = [row for row in select(plain, step=PAPER_STEP) if row["quantity"] in MEANS]
-    worst = {scene: max(row["error"] for row in select(mistaken, scene=scene)) for scene in SCENES}
     paired = select(precision, comparison="paired", integrator="leapfrog")
     scatter = select(precision, comparison="scatter")
     coarsest = max(row["step"] for row in paired)
     residuals = [abs(row["energy_error"]) for row in realisations]
     return _PAGE.read_text(encoding="utf-8").format(
         **_KNOWN,
-        opening=_opening(production, select(paired, step=STEP), realisations),
-        smallest=min(row["n_blocks"] for row in single),
-        largest=max(row["n_blocks"] for row in single),
-        fewest=min(row["realisations"] for row in single),
+        opening=_opening(production, select(paired, step=STEP)),
         singles=_by_scene("relative error", _SINGLE, default, _error),
-        orders="\n\n".join(
-            _by_scene(span, ORDERED, select(precision, comparison="order", step=step), _orders)
-            for step, span in _SPANS.items()
-        ),
+        orders=_by_scene("order", ORDERED, select(precision, comparison="order"), _orders),
         finest=finest[0]["step"],
         floor=max(row["error"] for row in finest if row["quantity"] in ORDERED),
-        plain=", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items()),
-        plain_finest=min(row["step"] for row in plain),
-        plains=_by_scene("relative error", _PLAIN, plain, _plain),
+        plain=_worst(select(plain, step=PAPER_STEP)),
+        plain_half=_worst(select(plain, step=PAPER_STEP / 2.0)),
         **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
-        n_paired=min(row["realisations"] for row in paired),
-        n_ensemble=paired[0]["n_blocks"],
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
         full_size=_full_size(production, select(leapfrog, scene="flat")),
@@ -124,57 +114,25 @@ def page(
         worst_energy=max(residuals),
         median_energy=median(residuals),
         n_cases=len(stability),
-        n_agree=sum(row["outcome"] == row["expected"] for row in stability),
         families=", ".join(sorted({row["family"] for row in stability})),
         coarsest=coarsest,
         coarse_bias=max(abs(row["error"]) for row in select(paired, step=coarsest)),
     )
 
 
-def _opening(rows: Sequence[Row], small: Sequence[Row], realisations: Iterable[Row]) -> str:
+def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     """Summarise bias and scatter at the default: at full size, or else on small surfaces."""
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=most, **_KNOWN)
-    cases = measured(rows, (*MEANS, LENGTH))
+    cases = budget.measured(rows, (*MEANS, LENGTH))
     larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
-    biases, errors = (_largest(share, cases) for share in (_largest_bias, _scatter))
     return _OPENING.format(
-        biases=biases,
-        errors=errors,
+        biases=_largest(largest_bias, cases),
+        errors=_largest(_scatter, cases),
         larger=sum(larger),
         n=len(larger),
-        n_blocks=rows[0]["n_blocks"],
-        pooled=_pooled(cases["static_friction", "pillared"], realisations),
         **_KNOWN,
-    )
-
-
-def _pooled(rows: list[Row], realisations: Iterable[Row]) -> str:
-    """Compare both errors of static friction, on the pillars where its mean is known best.
-
-    `rows` are those of the table `production` for pillars; empty without a larger ensemble.
-    """
-    same = {"level": 1, "direction": "x", "varied": "", "n_blocks": rows[0]["n_blocks"]}
-    pillars: dict[int, list[float]] = {}
-    for row in select(realisations, **same):
-        if row["n_p"] == row["n_s"]:
-            pillars.setdefault(row["n_p"], []).append(row["static_friction"])
-    errors = {
-        n_p: half_width(stdev(values), len(values))
-        for n_p, values in pillars.items()
-        if len(values) > ENSEMBLE
-    }
-    if not errors:
-        return ""
-    n_p = min(errors, key=errors.__getitem__)
-    numerical = _at(STEP, rows)["scale"] * _largest_bias(rows)
-    return _POOLED.format(
-        larger="larger" if numerical > errors[n_p] else "smaller",
-        count=len(pillars[n_p]),
-        n_p=n_p,
-        statistical=errors[n_p],
-        numerical=numerical,
     )
 
 
@@ -188,41 +146,28 @@ def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
 
 
 def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
-    """Fill in the section from the rows of the table `production`, or state their absence."""
+    """Fill in the section from the rows of the table `production`, or state their absence.
+
+    `flat` are those of single runs of the leapfrog on flat surfaces.
+    """
     if not rows:
         return _WITHOUT
-    cases = list(measured(rows, STUDY_SEEDS).values())
-    means = measured(rows, ("t_max", "t_avg"))
     finest, following = sorted({row["step"] for row in rows})[:2]
-    pooled, alone = _worst(cases, _FOLD), _worst(means.values())
-    pillars = means["t_avg", "pillared"]
-    seconds = {choice.step: choice.spent(10) for choice in choices(pillars)}
+    pillars = select(rows, quantity="t_avg", scene="pillared")
+    default, fine = _at(STEP, pillars), _at(_FINE, pillars)
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _FULL_SIZE.read_text(encoding="utf-8").format(
         **_KNOWN,
-        n_blocks=rows[0]["n_blocks"],
-        fewest=min(row["realisations"] for row in rows),
-        most=max(row["realisations"] for row in rows),
         finest=finest,
         following=following,
-        n_flat=flat[0]["n_blocks"],
         flat_friction=missed["static_friction"],
         flat_t_avg=missed["t_avg"],
         values=_by_scene("value", _QUANTITIES, rows, _value),
         biases=_by_scene("bias", _QUANTITIES, rows, _bias),
-        wins=sum(
-            budget.best(choices(case), budget.study_budget(case)).step == _COARSE for case in cases
-        ),
-        cases=len(cases),
-        coarse_pooled=pooled[_COARSE],
-        pooled=pooled[STEP],
-        coarse_means=alone[_COARSE],
-        means=alone[STEP],
-        fine_seconds=seconds[_FINE],
-        seconds=seconds[STEP],
-        change=abs(_at(STEP, pillars)["value"] / _at(_FINE, pillars)["value"] - 1.0),
-        budgets=markdown_table([*_BUDGETS, "CPU time to halve"], map(_budget, cases)),
-        excess=_excesses({"cases above": cases, "t_max and t_avg": means.values()}),
+        fine_seconds=budget.spent(fine, 10),
+        seconds=budget.spent(default, 10),
+        change=abs(default["value"] / fine["value"] - 1.0),
+        excess=_excesses(rows),
     )
 
 
@@ -259,10 +204,11 @@ def _orders(*rows: Row) -> str:
     return "; ".join(f"{r['error']:.1f} [{r['ci_low']:.1f}, {r['ci_high']:.1f}]" for r in each)
 
 
-def _plain(*rows: Row) -> str:
-    """Return the errors at the paper's step, and in brackets at the finest."""
-    finest = min(rows, key=lambda row: row["step"])
-    return f"{_at(PAPER_STEP, rows)['error']:.1%} ({finest['error']:.1%})"
+def _worst(rows: Sequence[Row]) -> str:
+    """Return the largest error of a mean on each scene."""
+    means = [row for row in rows if row["quantity"] in MEANS]
+    worst = {scene: max(row["error"] for row in select(means, scene=scene)) for scene in SCENES}
+    return ", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items())
 
 
 def _paired_bias(bias: Row, scatter: Row) -> str:
@@ -270,11 +216,6 @@ def _paired_bias(bias: Row, scatter: Row) -> str:
     half = _PERCENT / 2.0 * (bias["ci_high"] - bias["ci_low"])
     error = _PERCENT * ensemble_error(scatter)
     return f"{_PERCENT * bias['error']:+.3f} ± {half:.3f} ({error:.2f})"
-
-
-def _largest_bias(rows: Sequence[Row]) -> float:
-    """Far end of the interval of the default's bias plus that of the finest step, as a share."""
-    return Bias.of(_at(STEP, rows)).high + finest_bias(rows)
 
 
 def _scatter(rows: Sequence[Row]) -> float:
@@ -291,7 +232,7 @@ def _value(*rows: Row) -> str:
     value, scale = factor * row["value"], factor * row["scale"]
     statistical = factor * half_width(row["deviation"], row["realisations"])
     places = max(0, 1 - floor(log10(statistical)))
-    numbers = (value, statistical, scale * _largest_bias(rows))
+    numbers = (value, statistical, scale * largest_bias(rows))
     return " ± ".join(f"{number:.{places}f}" for number in numbers) + unit
 
 
@@ -304,44 +245,20 @@ def _bias(*rows: Row) -> str:
     return f"{bias:+.3f} [{low:+.3f}, {high:+.3f}] ± {finest:.3f} ({error:.2f})"
 
 
-def _budget(rows: list[Row]) -> list[str]:
-    """Return a row: errors for the study's CPU time, at the default step and at the best."""
-    seconds, cases = budget.study_budget(rows), [choices(rows, bias) for bias in Bias._fields]
-    chosen = budget.best(cases[0], seconds)
+def _excesses(rows: Sequence[Row]) -> str:
+    """Return a table of the total error at each step over that at the best step, in the worst case.
 
-    def error(wanted: float) -> str:
-        steps = [step for case in cases for step in case if step.step == wanted]
-        return _between(".3f", [_PERCENT * step.error(seconds) for step in steps])
-
-    return [
-        _name(rows[0]["quantity"]),
-        rows[0]["scene"],
-        f"{seconds:.1f}",
-        error(STEP),
-        f"{chosen.step:.0e} x {chosen.seeds(seconds):.0f}",
-        error(chosen.step),
-        _between(".1f", [budget.halving(case, seconds) for case in cases]),
-    ]
-
-
-def _worst(cases: Iterable[list[Row]], fold: int = 1, bias: str = "estimate") -> dict[float, float]:
-    """Return the largest excess of each step, for `fold` times the study's seeds."""
-    found = [budget.excess(choices(rows, bias), budget.study_budget(rows, fold)) for rows in cases]
-    return {step: max(each[step] for each in found) for step in found[0]}
-
-
-def _excesses(groups: dict[str, Iterable[list[Row]]]) -> str:
-    """Return a table of the largest excess of each step in each group of cases."""
+    For the CPU time of the study's seeds, and of `_FOLD` times as many.
+    """
+    groups = {
+        "static friction, t_max - t_avg, decay length": STUDY_SEEDS,
+        "t_max and t_avg": ("t_max", "t_avg"),
+    }
     lines = []
-    for (name, cases), fold in product(groups.items(), (1, _FOLD)):
-        found = [_worst(cases, fold, bias) for bias in Bias._fields]
-        label = name if fold == 1 else f"{name}, {fold} times the seeds"
-        lines.append([label, *(_between(".2f", [each[h] for each in found]) for h in found[0])])
-    return markdown_table(["step (s)", *(f"{step:.0e}" for step in found[0])], lines)
-
-
-def _between(digits: str, numbers: Sequence[float]) -> str:
-    """Format the first number, and in brackets the smallest and the largest."""
-    if not isfinite(numbers[0]):
-        return "no seed"
-    return f"{numbers[0]:{digits}} [{min(numbers):{digits}}, {max(numbers):{digits}}]"
+    for name, quantities in groups.items():
+        cases = budget.measured(rows, quantities).values()
+        for fold in (1, _FOLD):
+            found = [budget.excess(case, fold) for case in cases]
+            label = name if fold == 1 else f"{name}, {fold} times the seeds"
+            lines.append([label, *(f"{max(each[h] for each in found):.2f}" for h in found[0])])
+    return markdown_table(["step (s)", *(f"{h:.0e}" for h in found[0])], lines)

@@ -5,10 +5,8 @@ of them with the same seeds. Pairing takes most of the scatter from seed to seed
 difference, which is the bias; the scatter itself says what so many seeds are worth.
 """
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -16,6 +14,7 @@ from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
 from springblock.accuracy.specimens import Array, drawn
+from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import mean_interval, standard_error
 from springblock.io.rows import Row
@@ -69,43 +68,26 @@ STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
 #: A multiple of all steps, near the study's 2e-7 s.
 SAMPLE_INTERVAL = 1.6e-7
 QUANTITIES = (*MEANS, DELAY)  #: of every realisation
-Result = TypeVar("Result")
+#: Of one run, or of k stacked, (k, ...) each: the quantities, the times along sides as of
+#: `side_times`, s (none where pillars are not whole), and the CPU time, s.
+Kept = tuple[Array, ...]
 UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of what is no time
-
-
-class PairedBias(NamedTuple):
-    """A quantity at one step, and its bias from that of the finest: columns of the table."""
-
-    value: float
-    deviation: float
-    bias: float
-    bias_error: float
-    ci_low: float
-    ci_high: float
-
-
-class Kept(NamedTuple):
-    """What is kept of one realisation, or of k stacked: (k, ...) each."""
-
-    means: Array  #: by quantity, in the order of `QUANTITIES`
-    sides: Array  #: s, as of `side_times`; (0,) where nothing correlates
-    seconds: Array  #: CPU time
 
 
 def production_rows(scene: str) -> Iterator[Row]:
     """Compare ensembles of one scene at all steps; a row per quantity and step."""
     pattern, seeds = PATTERNS[scene], SEEDS[scene]
     preludes, ensembles = simulate_ensembles(pattern, seeds)
-    finest = ensembles[min(STEPS)].means
+    finest = ensembles[min(STEPS)][0]
     found = {
-        (quantity, step): of_mean(ensemble.means[:, i], finest[:, i])
+        (quantity, step): of_mean(values[:, i], finest[:, i])
         for i, quantity in enumerate(QUANTITIES)
-        for step, ensemble in ensembles.items()
+        for step, (values, _, _) in ensembles.items()
     }
-    if ensembles[STEP].sides.size:
-        lengths = of_length({step: ensemble.sides for step, ensemble in ensembles.items()})
-        found |= {(LENGTH, step): estimate for step, estimate in lengths.items()}
-    for (quantity, step), estimate in found.items():
+    sides = {step: sides for step, (_, sides, _) in ensembles.items()}
+    if sides[STEP].size:
+        found |= {(LENGTH, step): biased for step, biased in of_length(sides).items()}
+    for (quantity, step), biased in found.items():
         against = "t_max" if quantity == DELAY else quantity
         yield {
             "scene": scene,
@@ -113,10 +95,10 @@ def production_rows(scene: str) -> Iterator[Row]:
             "quantity": quantity,
             "unit": UNITS.get(quantity, "s"),
             "step": step,
-            **estimate._asdict(),
-            "scale": found[against, min(STEPS)].value,
+            **biased,
+            "scale": found[against, min(STEPS)]["value"],
             "realisations": seeds,
-            "cpu_seconds": float(np.median(ensembles[step].seconds)),
+            "cpu_seconds": float(np.median(ensembles[step][2])),
             "prelude_seconds": preludes[step],
         }
 
@@ -137,13 +119,7 @@ def simulate_ensembles(
             pull = partial(simulate, drawn(pattern, seed), setups[h], prelude=prelude)
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
-    return seconds, {h: Kept(*map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
-
-
-def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
-    """Return what `solve` returns, and the CPU seconds that it took."""
-    start = time.process_time()
-    return solve(), time.process_time() - start
+    return seconds, {h: tuple(map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
 
 
 def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
@@ -151,19 +127,25 @@ def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
     means = [*(getattr(run, name) for name in MEANS), run.t_max - run.t_avg]
     whole = len(pattern.levels) == 1
     sides = side_times([run], pattern, "x")[0] if whole else np.empty(0)
-    return Kept(np.array(means), sides, np.array(seconds))
+    return np.array(means), sides, np.array(seconds)
 
 
-def of_mean(values: Array, exact: Array) -> PairedBias:
-    """Return the bias of a mean over k seeds, (k,), from that of the same seeds."""
+def of_mean(values: Array, exact: Array) -> Row:
+    """Return a mean over k seeds, (k,), and its bias from that of the same seeds, as columns."""
     differences = values - exact
-    bias, *limits = mean_interval(differences)
-    error = standard_error(differences)
-    return PairedBias(*map(float, (values.mean(), values.std(ddof=1), bias, error, *limits)))
+    bias, low, high = mean_interval(differences)
+    return {
+        "value": float(values.mean()),
+        "deviation": float(values.std(ddof=1)),
+        "bias": float(bias),
+        "bias_error": float(standard_error(differences)),
+        "ci_low": float(low),
+        "ci_high": float(high),
+    }
 
 
-def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
-    """Bias of the decay length by step, from the times along the sides of the same k seeds.
+def of_length(sides: dict[float, Array]) -> dict[float, Row]:
+    """Decay length and its bias by step, from the times along the sides of the same k seeds.
 
     The same resamples of seeds at every step; range of r and weights of the fit are those at the
     default step, so that nothing but the times differs.
@@ -171,18 +153,18 @@ def of_length(sides: dict[float, Array]) -> dict[float, PairedBias]:
     curves = {step: Correlation(times) for step, times in sides.items()}
     span = slice(1, curves[STEP].last + 1)
     errors = curves[STEP].resampled[:, span].std(axis=0)
-
-    def fits(step: float) -> tuple[Array, Array]:
-        """Length of all seeds, and of resamples."""
-        alone = fit_tail(curves[step].mean[None, span], errors)[0]
-        return alone, fit_tail(curves[step].resampled[:, span], errors)
-
-    exact, exact_resampled = fits(min(sides))
+    alone = {h: fit_tail(curve.mean[None, span], errors)[0] for h, curve in curves.items()}
+    resampled = {h: fit_tail(curve.resampled[:, span], errors) for h, curve in curves.items()}
     found = {}
     for step, times in sides.items():
-        value, resampled = fits(step)
-        deviation, differences = np.sqrt(len(times)) * resampled.std(), resampled - exact_resampled
-        limits = np.percentile(differences, (2.5, 97.5))
-        numbers = (value, deviation, value - exact, differences.std(), *limits)
-        found[step] = PairedBias(*map(float, numbers))
+        differences = resampled[step] - resampled[min(sides)]
+        low, high = np.percentile(differences, (2.5, 97.5))
+        found[step] = {
+            "value": float(alone[step]),
+            "deviation": float(np.sqrt(len(times)) * resampled[step].std()),
+            "bias": float(alone[step] - alone[min(sides)]),
+            "bias_error": float(differences.std()),
+            "ci_low": float(low),
+            "ci_high": float(high),
+        }
     return found

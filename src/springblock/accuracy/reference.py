@@ -68,6 +68,7 @@ class Reference:
     time: Array  #: (n,) s, multiples of the sample interval
     force: Array  #: (n,) N, |sum of F_s| at these times
     t_det: Array  #: (N_y, N_x) s, first detachment; NaN where never or not in contact
+    displacement: Array  #: (2, N_y, N_x) m, components x and y, at the end
     static_friction: float  #: greatest sampled force over P l² N_y N_x
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
@@ -357,7 +358,7 @@ def solve(
     """
     if material.law != "coulomb":
         raise ValueError(f"law must be coulomb for the reference solution, not {material.law}")
-    force_unit, _, time_unit = _units(material)
+    force_unit, length_unit, time_unit = _units(material)
     # a millionth of an interval keeps the last sample where the quotient is rounded down
     samples = np.arange(int(duration / sample_interval + 1e-6) + 1.0) * sample_interval
     times = np.minimum(samples, duration) / time_unit
@@ -375,6 +376,7 @@ def solve(
         time=samples,
         force=force * force_unit,
         t_det=t_det.reshape(surface.contact.shape),
+        displacement=length_unit * y[: 2 * system.n].reshape(2, *surface.contact.shape),
         static_friction=float(force[peak]) / system.n,
         t_max=float(samples[peak]),
         t_avg=float(np.nanmean(t_det)) if np.isfinite(t_det).any() else float("nan"),

@@ -9,13 +9,13 @@ paired     ensembles against the leapfrog at a fine step with the same seeds: wh
            mean where single runs no longer agree; and `scatter`, the spread from seed to seed.
 """
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pyarrow as pa
-from scipy.stats import spearmanr
 from tqdm import tqdm
 
 from springblock.accuracy import plain_rk4, reference
@@ -25,12 +25,12 @@ from springblock.accuracy.conventions import (
     ORDERED,
     PAPER_STEP,
     PLAIN,
+    SAMPLE_INTERVAL,
     half_width,
 )
 from springblock.accuracy.specimens import Array, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
-from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
@@ -52,14 +52,14 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             error="reference: root mean square over the realisations of the relative error; "
-            "t_det, t_avg and resolution, the sample interval, relative to t_max; order: "
-            "1 - rank correlation. paired: relative bias. order: mean slope of log error over log "
-            "step, from the step to the finest; of the default, to half of it",
+            "t_det and t_avg relative to t_max. paired: relative bias. order: mean slope of log "
+            "error over log step, from the step to the finest",
             ci_low="order, paired: lower end of the 95 % t interval; else error",
             ci_high="order, paired: upper end; else error",
         ),
         column("realisations", pa.int32(), "1", "number of seeds"),
-        *numbers("1", force_evaluations="mean number per realisation"),
+        *numbers("s", cpu_seconds="median CPU time of one realisation; 0 in order, scatter"),
+        *numbers("1", force_evaluations="mean number per realisation; likewise"),
     ]
 )
 
@@ -87,13 +87,15 @@ PLAIN_STEPS = STEPS[:-2]  # enough to see that its errors hardly decrease
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
-SAMPLE_INTERVAL = 8e-8
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
 Errors = dict[str, Array]  #: by what they are of, one for each realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
+Timed = tuple[Computed, float]  #: a run and its CPU time, s
+Cost = tuple[float, float]  #: median CPU time, s, and mean force evaluations of a realisation
+Result = TypeVar("Result")
 
 
 def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
@@ -112,8 +114,6 @@ def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
         "t_avg": (run.t_avg - exact.t_avg) / exact.t_max,
         "t_det before horizon": root_mean_square(shift[both & (exact.t_det < until)]),
         "horizon": until / exact.t_max,
-        "order": 1.0 - float(spearmanr(run.t_det[both], exact.t_det[both]).statistic),
-        "resolution": float(exact.time[1] / exact.t_max),
     }
 
 
@@ -126,6 +126,12 @@ def stacked(errors: Iterable[dict[str, float]]) -> Errors:
 def root_mean_square(values: Array) -> float:
     """Return the root of the mean square, zero for no values at all."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+
+
+def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
+    """Return what `solve` returns, and the CPU seconds that it took."""
+    start = time.process_time()
+    return solve(), time.process_time() - start
 
 
 def solve_with(
@@ -142,9 +148,11 @@ def solve_with(
     return simulate(surface, setup, duration=duration)
 
 
-def evaluations(integrator: str, runs: Sequence[Computed]) -> float:
-    """Return the mean number of force evaluations of these runs."""
-    return FORCE_EVALUATIONS[integrator] * float(np.mean([run.steps for run in runs]))
+def cost_of(integrator: str, runs: Sequence[Timed]) -> Cost:
+    """Return the cost of a realisation by this integrator."""
+    steps = float(np.mean([run.steps for run, _ in runs]))
+    seconds = float(np.median([seconds for _, seconds in runs]))
+    return seconds, FORCE_EVALUATIONS[integrator] * steps
 
 
 def single_rows(scene: str) -> Iterator[Row]:
@@ -157,14 +165,14 @@ def single_rows(scene: str) -> Iterator[Row]:
     for integrator in FORCE_EVALUATIONS:
         found: dict[float, Errors] = {}
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
-            runs = [solve_with(integrator, step, surface, duration) for surface in surfaces]
-            found[step] = stacked(map(run_errors, runs, exact, horizons))
-            spent = evaluations(integrator, runs)
-            yield from rows_of("reference", scene, integrator, step, found[step], spent)
+            runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
+            computed = [run for run, _ in runs]
+            found[step] = stacked(map(run_errors, computed, exact, horizons))
+            cost = cost_of(integrator, runs)
+            yield from rows_of("reference", scene, integrator, step, found[step], cost)
         if integrator != PLAIN:
-            for steps in (SETTLED_STEPS, (STEP, STEP / 2.0)):
-                orders = {name: orders_of(steps, found, name) for name in ORDERED}
-                yield from rows_of("order", scene, integrator, steps[0], orders)
+            orders = {name: orders_of(SETTLED_STEPS, found, name) for name in ORDERED}
+            yield from rows_of("order", scene, integrator, SETTLED_STEPS[0], orders)
 
 
 def orders_of(steps: Sequence[float], found: dict[float, Errors], quantity: str) -> Array:
@@ -178,21 +186,21 @@ def paired_rows(scene: str) -> Iterator[Row]:
     """Ensembles of every method against the leapfrog at the fine step, seed by seed."""
     seeds = _SURFACES[scene].seeds
     fine = ensemble(scene, "leapfrog", FINE_STEP, seeds)
-    exact, longest = means_of(fine), max(float(run.time[-1]) for run in fine)
+    exact, longest = means_of(fine), max(float(run.time[-1]) for run, _ in fine)
     for integrator, steps in PAIRED_STEPS.items():
         few = min(seeds, PAIRED_SEEDS.get(integrator, seeds))
         for step in steps:
             runs = ensemble(scene, integrator, step, few, longest)
-            means, spent = means_of(runs), evaluations(integrator, runs)
+            means, cost = means_of(runs), cost_of(integrator, runs)
             errors = {name: means[name] / exact[name][:few] - 1.0 for name in MEANS}
-            yield from rows_of("paired", scene, integrator, step, errors, spent)
+            yield from rows_of("paired", scene, integrator, step, errors, cost)
     spread = {name: values / values.mean() - 1.0 for name, values in exact.items()}
     yield from rows_of("scatter", scene, "leapfrog", FINE_STEP, spread)
 
 
 def ensemble(
     scene: str, integrator: str, step: float, seeds: int, duration: float = 0.0
-) -> list[Computed]:
+) -> list[Timed]:
     """Return one run per seed.
 
     `duration`, s, is for the plain method; the integrators stop once the surface slides.
@@ -205,12 +213,13 @@ def ensemble(
         setup = Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
         solve = partial(simulate, setup=setup, prelude=compute_prelude(pattern.contact, setup))
     described = f"{integrator} {step:g}"
-    return [solve(drawn(pattern, seed)) for seed in tqdm(range(seeds), desc=described)]
+    surfaces = (drawn(pattern, seed) for seed in tqdm(range(seeds), desc=described))
+    return [timed(partial(solve, surface)) for surface in surfaces]
 
 
-def means_of(runs: Sequence[Computed]) -> Errors:
+def means_of(runs: Sequence[Timed]) -> Errors:
     """Return what ensembles are used for, each (seeds,)."""
-    return {name: np.array([getattr(run, name) for run in runs]) for name in MEANS}
+    return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
 
 
 def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
@@ -237,12 +246,9 @@ def rows_of(
     integrator: str,
     step: float,
     errors: Errors,
-    spent: float = 0.0,
+    cost: Cost = (0.0, 0.0),
 ) -> Iterator[Row]:
-    """Summarise the errors of several realisations, a row per quantity.
-
-    `spent` is the mean number of force evaluations of a realisation.
-    """
+    """Summarise the errors of several realisations, a row per quantity, with their cost."""
     single = comparison in ("reference", "order")
     pattern = _SURFACES[scene].single if single else _SURFACES[scene].ensemble
     for quantity, values in errors.items():
@@ -262,7 +268,8 @@ def rows_of(
             "ci_low": error - half,
             "ci_high": error + half,
             "realisations": count,
-            "force_evaluations": spent,
+            "cpu_seconds": cost[0],
+            "force_evaluations": cost[1],
         }
 
 

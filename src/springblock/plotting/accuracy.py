@@ -44,7 +44,7 @@ _ACCEPTED |= {"linestyle": ""}
 #: Families over a parameter: name of the axis, what is compared, and how its quantity begins.
 _PANELS = {
     "stiffness": (r"$K_s/K_\mathrm{int}$", "path of a column", "displacement"),
-    "strain": (r"strain $F_n/(K_s\,l)$", "path of a column", "displacement"),
+    "strain": (r"strain $u/l$", "path of a column", "displacement"),
     "damping": (r"damping $\gamma/\omega$", "force in the slip", "spring force"),
     "speed": (r"speed $v\,K_s/(F_n\,\omega)$", "force after the slip", "spring force"),
 }

@@ -2,15 +2,10 @@
 
 Every case says what it expects, in a word, and measures what comes out. Most compare a number with
 its closed form or with an accurate integration; how far it may be off follows from the order of the
-scheme, or from rounding:
-
-- A release is placed within its step: exactly where the force rises evenly, as it does before the
-  first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
-  damping that is stiff within a step, may be wrong by what changes in one step.
-- While a block slides one way, or has no friction, both schemes are linear at small strains, and
-  their own solution is known exactly (`kernels`). What is left is the strain, and rounding.
-
-Each of these also bounds what may be missing from the energy balance (`Pull.keeps_energy`).
+scheme. A release is placed within its step: exactly where the force rises evenly, as it does before
+the first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
+damping that is stiff within a step, may be wrong by what changes in one step. Each of these also
+bounds what may be missing from the energy balance (`Pull.keeps_energy`).
 
 Units in the code: forces in F_n, lengths in F_n/K_s, times in 1/omega with omega² = K_s/m, and so
 speeds in F_n omega/K_s, unless they are said to be SI.
@@ -22,7 +17,7 @@ from collections.abc import Iterator
 import pyarrow as pa
 from tqdm import tqdm
 
-from springblock.accuracy.stability import limits, one_block, surfaces
+from springblock.accuracy.stability import one_block, surfaces
 from springblock.accuracy.stability.cases import Case
 from springblock.io.rows import Row
 from springblock.io.schemas import numbers, texts
@@ -38,7 +33,7 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             parameter="what varies within the family. step: h over the stability limit; stiffness: "
-            "K_s/K_int; strain: F_n/(K_s l), how far a block slips over l; damping: gamma/omega, "
+            "K_s/K_int; strain: displacement of a column over l; damping: gamma/omega, "
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
@@ -59,7 +54,7 @@ SCHEMA = pa.schema(
 
 #: In the order of the table.
 FAMILIES = (
-    limits.steps,
+    surfaces.steps,
     one_block.frictions,
     surfaces.stiffnesses,
     one_block.weakenings,
