@@ -9,7 +9,6 @@ import numpy as np
 
 from springblock.analysis.lowest import Lowest, are_apart, lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.clusters import precursors
 from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
@@ -148,7 +147,7 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Qua
         stress = Quantity(f"the stress concentration {name}")
         found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
         found[Quantity(f"static friction {name}")] = mean_interval(force[best])
-        shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
+        shares = [100.0 * (run.t_det < run.t_max)[run.scene.contact].mean() for run in runs]
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
         found[Quantity(f"the share of precursors {name}", "%")] = possible
         if broad in sizes:
