@@ -47,22 +47,21 @@ def together(n_p, ratio):
 def test_size_and_contact_that_add_up_leave_nothing():
     found = friction.friction_map(sizes_and_distances(added))
     shares = friction.explained(found)
-    assert shares["both"].mean == pytest.approx(1.0, abs=1e-4)
+    assert shares["interaction"].mean == pytest.approx(0.0, abs=1e-4)
     assert shares["size"].low > shares["contact"].high > 0.001
     assert max(map(abs, friction.residuals(found).values())) < 3e-4
 
 
 def test_what_size_and_contact_do_only_together_is_left():
     found = friction.friction_map(sizes_and_distances(together))
-    assert friction.explained(found)["both"].high < 0.99
+    assert friction.explained(found)["interaction"].low > 0.01
     assert max(map(abs, friction.residuals(found).values())) > 1e-2
 
 
 def test_the_page_has_the_lowest_friction_of_each_contact_fraction():
     """3, 6 and 12, or the nearest of the sizes that there are, over their logarithm."""
-    conclusion, both, table = friction.answers(sizes_and_distances(together))
+    conclusion, table = friction.answers(sizes_and_distances(together))
     assert "on the size of pillars more than on contact fraction" in conclusion
-    assert "The sum of both factors explains" in both
     places = [line.split("|")[4].strip() for line in table.splitlines()[2:]]
     assert places == ["4", "6", "16"]
 
