@@ -7,7 +7,6 @@ from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
     Comparison,
     Lattice,
-    Quantity,
     answers,
     by_lattice,
     changes,
@@ -90,7 +89,7 @@ def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
 def test_changes_are_those_from_the_first_lattice_finer_than_the_layer_to_the_last():
     part = comparisons(surfaces())
     values = {20: (0.1, 0.0, 0.2), 10: (2.0, 1.5, 2.5), 5: (1.0, 0.5, 1.5)}
-    way = Quantity("way", "µm")
+    way = ("way", "µm")
     found = {at: {way: Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
     changed = changes(part, found, way)
     assert changed["block"] == (
@@ -109,7 +108,7 @@ def test_a_value_beyond_both_ends_is_named():
         40: (0.63, 0.6281, 0.6319),
     }
     layers = {Lattice(10.0, float(l_z), 0.1, 0.0): {} for l_z in values}
-    friction = Quantity("friction")
+    friction = ("friction", "")
     found = {at: {friction: Interval(*map(np.array, values[at.thickness]))} for at in layers}
     (_, said) = changes({"layer": Comparison("Layers", "thickness", layers)}, found, friction)[
         "layer"

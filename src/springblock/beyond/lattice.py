@@ -40,18 +40,7 @@ class Lattice(NamedTuple):
     length: float  #: over which coefficients are alike, µm; 0 where each block has its own
 
 
-class Quantity(NamedTuple):
-    """What is compared."""
-
-    name: str
-    unit: str = ""
-
-    def __str__(self) -> str:
-        """Write the heading of a column."""
-        bare = self.name.removeprefix("the ")
-        return f"{bare} ({self.unit})" if self.unit else bare
-
-
+Quantity = tuple[str, str]  #: what is compared, and its unit
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
 Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb and sentence
@@ -143,23 +132,23 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Qua
     """Return the quantities compared, on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
-        runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
-        stress = Quantity(f"the stress concentration {name}")
-        found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
-        found[Quantity(f"static friction {name}")] = mean_interval(force[best])
+        runs, where, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
+        exact = mean_interval([stress_ratio(runs)] * 2)
+        found[f"the stress concentration {where}", ""] = exact
+        found[f"static friction {where}", ""] = mean_interval(force[best])
         shares = [100.0 * (run.t_det < run.t_max)[run.scene.contact].mean() for run in runs]
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
-        found[Quantity(f"the share of precursors {name}", "%")] = possible
+        found[f"the share of precursors {where}", "%"] = possible
         if broad in sizes:
-            more = Quantity(f"static friction on pillars of {broad:g} µm minus that of {best:g} µm")
-            found[more] = difference_interval(force[broad], force[best])
+            more = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
+            found[more, ""] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
             metres = Interval(*(spacing * limit for limit in blocks))
-            found[Quantity(f"the decay length {where}", "µm")] = metres
+            found[f"the decay length {where}", "µm"] = metres
             if size == broad:
-                found[Quantity(f"the decay length in blocks {where}", "blocks")] = blocks
+                found[f"the decay length in blocks {where}", "blocks"] = blocks
     return found
 
 
@@ -178,12 +167,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     changed = {each: changes(compared, found, each) for each in quantities}
     for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
         changed[quantities[0]].pop(kind, None)
-    changed[Quantity("the friction-minimising size")] = _moves(compared)
+    changed["the friction-minimising size", ""] = _moves(compared)
     yield _conclusion(changed, larger[-1])
     for (name, _), by_comparison in changed.items():
         bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
         yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
-    header = ["scatter", "l (µm)", "l_z (µm)", *map(str, quantities)]
+    names = [
+        f"{name.removeprefix('the ')} {unit and f'({unit})'}".rstrip() for name, unit in quantities
+    ]
+    header = ["scatter", "l (µm)", "l_z (µm)", *names]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
@@ -209,7 +201,7 @@ def changes(
     Values between them that lie significantly above both, or below both, are given as well.
     """
     said = {}
-    unit = quantity.unit and f" {quantity.unit}"
+    unit = quantity[1] and f" {quantity[1]}"
     for kind, each in compared.items():
         known = [
             (f" at {_place(at, each.axis)}", found[at][quantity])
@@ -247,7 +239,7 @@ def _conclusion(changed: Mapping[Quantity, Changes], broad: float) -> str:
     """Say how the friction-minimising size, friction and a decay length change."""
     wanted = "static friction", f"the decay length on pillars of {broad:g} µm"
     *others, (_, size) = changed.items()  # the friction-minimising size is the last
-    values = [f"{each.name} {_how(by)}" for each, by in others if each.name.startswith(wanted)]
+    values = [f"{name} {_how(by)}" for (name, _), by in others if name.startswith(wanted)]
     _, moves = size.get("layer", ("", "Layers: is not compared."))
     return (
         "**When the layer is thicker, the friction-minimising size** "

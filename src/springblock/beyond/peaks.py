@@ -72,10 +72,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
-        apart = [_difference(found[on][0.0], found[off][0.0]) for on, off in pairs]
-        least = [min(along[on].mean, along[off].mean) for on, off in pairs]
-        two = [each for each, low in zip(apart, least, strict=True) if low > _TWO]
-        (more, less), (more_of_two, less_of_two) = _significant(apart), _significant(two)
+        apart = {(on, off): _difference(found[on][0.0], found[off][0.0]) for on, off in pairs}
+        two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
+        more, less = _significant(list(apart.values()))
+        more_of_two, less_of_two = _significant(two)
         yield (
             "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
             f"over the whole surface in {more} of {len(pairs)} cases, and less prominent in "
