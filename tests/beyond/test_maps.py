@@ -16,7 +16,7 @@ def test_prominence_is_the_depth_between_two_hills():
     angles = found[Grooves(0, 2, 4)]
     assert list(angles) == [0.0, 30.0, 90.0]
     for angle, expected in ((0.0, 95.0), (30.0, 92.0), (90.0, 0.0)):
-        np.testing.assert_allclose(list(angles[angle].values()), expected, atol=0.1)
+        np.testing.assert_allclose(angles[angle], expected, atol=0.1)
 
 
 def test_the_page_counts_surfaces_with_more_along_than_across():

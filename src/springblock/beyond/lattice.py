@@ -89,30 +89,23 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     """
     common = usual(surfaces)
     product = common.spacing * common.scatter
-    words = {
-        "block": "Same scatter on every lattice",
-        "area": "Same disorder per area",
-        "length": "Disorder of a fixed correlation length",
-        "none": "No disorder",
-        "layer": f"Thicker layers, l = {common.spacing:g} µm",
-    }
     ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
+    layers = [at for at in ordered if at._replace(thickness=common.thickness) == common]
     thick = [at for at in ordered if at.thickness == common.thickness]
-    own = [at for at in thick if not at.length]
+    block = [at for at in thick if at._replace(spacing=common.spacing) == common]
+    area = [at for at in thick if not at.length and np.isclose(at.spacing * at.scatter, product)]
+    length = [at for at in thick if at.length]
+    none = [at for at in thick if not at.scatter]
     parts = {
-        "block": [at for at in thick if at._replace(spacing=common.spacing) == common],
-        "area": [at for at in own if np.isclose(at.spacing * at.scatter, product)],
-        "length": [at for at in thick if at.length],
-        "none": [at for at in thick if not at.scatter],
-        "layer": [at for at in ordered if at._replace(thickness=common.thickness) == common],
+        "block": ("Same scatter on every lattice", "spacing", block),
+        "area": ("Same disorder per area", "spacing", area),
+        "length": ("Disorder of a fixed correlation length", "spacing", length),
+        "none": ("No disorder", "spacing", none),
+        "layer": (f"Thicker layers, l = {common.spacing:g} µm", "thickness", layers),
     }
     return {
-        name: Comparison(
-            words[name],
-            "thickness" if name == "layer" else "spacing",
-            {at: surfaces[at] for at in part},
-        )
-        for name, part in parts.items()
+        name: Comparison(words, axis, {at: surfaces[at] for at in part})
+        for name, (words, axis, part) in parts.items()
         if len(part) >= _FEWEST
     }
 

@@ -9,7 +9,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
-from pandas import DataFrame
+from pandas import DataFrame, Series
 from seaborn import heatmap
 
 from springblock.analysis.correlation import Correlation, side_times
@@ -189,7 +189,7 @@ def beyond_peaks(ensembles: Folders) -> Figure:
     """Draw a map of the lesser peak for each width of grooves, with pillars and without."""
     found = peaks.by_grooves(_by_scene(ensembles))
     every = [each for angles in found.values() for each in angles.values()]
-    largest = max(float(peaks.mean(each).mean) for each in every)
+    largest = max(float(each.mean()) for each in every)
     widths = sorted({key.n_s2 for key in found})
     letters = ";".join(_LETTERS[: len(widths)])
     picture, panels = style.panels(style.ONE_AND_A_HALF, 6.0 + 55.0 * len(widths), letters)
@@ -206,11 +206,11 @@ def beyond_peaks(ensembles: Folders) -> Figure:
 
 
 def _draw_peaks(
-    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, peaks.Prominences]], largest: float
+    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Series]], largest: float
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
     means = {
-        key.n_p2: {angle: float(peaks.mean(each).mean) for angle, each in angles.items()}
+        key.n_p2: {angle: float(each.mean()) for angle, each in angles.items()}
         for key, angles in part.items()
     }
     cells = DataFrame(means).sort_index().T.sort_index(ascending=False)  # by pawl and angle
