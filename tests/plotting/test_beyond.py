@@ -37,9 +37,12 @@ def peaks() -> Figure:
     return drawing("beyond_peaks")(by_folder(*narrow, wide))
 
 
+def two_factors(n_p, ratio):
+    return 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.1 * ratio
+
+
 def friction() -> Figure:
-    made = sizes_and_distances(lambda n_p, ratio: 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.1 * ratio)
-    return drawing("beyond_friction")(by_folder(made))
+    return drawing("beyond_friction")(by_folder(sizes_and_distances(two_factors)))
 
 
 def disorder() -> Figure:
@@ -80,14 +83,11 @@ def test_cells_hold_the_prominence_of_their_surface():
         assert [label.get_text() for label in ax.get_xticklabels()] == ["0", "30", "90"]
 
 
-def test_two_factors_that_add_up_describe_friction():
-    """Dashes lie on the means of sizes that several contact fractions have."""
-    ax = drawn("beyond_friction").axes[1]
-    dashes = [line.get_xydata() for line in ax.get_lines() if line.get_markersize() == 7.0]
-    assert len(dashes) == 3
-    for model, means in zip(dashes, bars(ax).values(), strict=True):
-        shown = np.isin(means[:, 0], model[:, 0])
-        np.testing.assert_allclose(model, means[shown], atol=1e-3)
+def test_each_contact_fraction_has_its_curve():
+    curves = bars(drawn("beyond_friction").axes[1])
+    assert list(curves) == ["44% in contact", "25% in contact", "11% in contact"]
+    for ratio, (n_p, values) in zip((0.5, 1.0, 2.0), (xy.T for xy in curves.values()), strict=True):
+        np.testing.assert_allclose(values, two_factors(n_p, ratio), atol=1e-3)
 
 
 def test_decay_lengths_are_those_of_the_times():

@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -70,27 +69,18 @@ def crossed(found: Map) -> dict[Pillars, Array]:
         kept = fewer
 
 
-def unexplained(found: Map) -> dict[str, Array]:
-    """Projections of mean friction, (pillars, pillars), onto what models leave unexplained.
-
-    The models are a number for each size, one for each contact fraction, and both added.
-    """
-    designs = {}
-    for name, key in (("size", itemgetter(0)), ("contact", distance)):
-        values = np.array([float(key(pillars)) for pillars in found])
-        designs[name] = np.equal.outer(values, np.unique(values)).astype(np.float64)
-    designs["both"] = np.hstack([*designs.values()])
-    return {name: np.eye(len(found)) - a @ np.linalg.pinv(a) for name, a in designs.items()}
-
-
 def explained(found: Map) -> dict[str, Interval]:
     """Fractions of the variance of mean static friction over the map.
 
     They are what "size" explains beyond contact fraction, what "contact" explains beyond size, how
     much more the former is, and what is left for their "interaction". Sizes and contact fractions
-    are unevenly combined, so that both explain less than the sum of what each explains alone.
+    are unevenly combined, so that both explain less than the sum of what each explains alone. The
+    models are a number for each size, one for each contact fraction, and both added.
     """
-    projections = unexplained(found).values()
+    values = np.array([(n_p, float(distance((n_p, n_s)))) for n_p, n_s in found])
+    size, contact = (np.equal.outer(each, np.unique(each)).astype(float) for each in values.T)
+    designs = size, contact, np.hstack([size, contact])
+    projections = [np.eye(len(found)) - a @ np.linalg.pinv(a) for a in designs]
 
     def fractions(*samples: Array, axis: int) -> Array:
         means = np.stack([values.mean(axis=axis) for values in samples], axis=-1)
@@ -104,17 +94,11 @@ def explained(found: Map) -> dict[str, Interval]:
     return {name: Interval(*share) for name, share in zip(_SHARES, shares, strict=True)}
 
 
-def residuals(found: Map) -> dict[Pillars, float]:
-    """Mean static friction minus the model of size and contact added."""
-    left = unexplained(found)["both"] @ [values.mean() for values in found.values()]
-    return dict(zip(found, left.tolist(), strict=True))
-
-
 def answers(ensembles: Ensembles) -> Iterator[str]:
     """A sentence and a table in Markdown; none without what `NEEDS` names."""
     whole = friction_map(ensembles)
     found = crossed(whole)
-    if not found or not round(np.trace(unexplained(found)["both"])):  # no degree of freedom
+    if not found:
         return
     shares = explained(found)
     size, contact, more, _ = (number(share, " %", 100.0) for share in shares.values())

@@ -171,15 +171,10 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
 
 def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
     alike = friction.families(found)
-    left = friction.residuals(friction.crossed(found))
     colors = style.shades(float(kind) for kind in alike)
     for kind, sizes in alike.items():
         color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
         curves.draw_means(ax, sizes, color, marker="o", label=label)
-        here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
-        model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
-        look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
-        ax.plot(list(model), list(model.values()), color=color, **look)
     curves.name_places(ax, sorted({n_p for n_p, _ in found}))
     ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     ax.legend(loc="best")

@@ -328,8 +328,7 @@ FIGURES: dict[str, Declaration] = {
         pillars; b) against n_p for each contact fraction.""",
         source=RealisationsSource(groups=("friction",), keys=("folder",)),
         marks=f"""a) Colours: means; grey lines: constant contact fraction. b) Symbols: means; bars:
-        {INTERVALS}; dashes: additive model with a term for each size and one for each contact
-        fraction.""",
+        {INTERVALS}.""",
     ),
     "beyond_peaks": Declaration(
         title="Load peaks by groove width and direction",
