@@ -10,7 +10,6 @@ from springblock import Pattern
 from springblock.analysis.statistics import (
     bootstrap_interval,
     bootstrap_weights,
-    cluster_sizes,
     cut,
     difference_interval,
     load_peaks,
@@ -237,10 +236,3 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
     half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
     value = found[0, 0]
     assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
-
-
-def test_clusters_hold_neighbours_and_corners_if_asked():
-    blocks = np.array([[1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0], [1, 0, 0, 0]], bool)
-    assert sorted(cluster_sizes(blocks)) == [1, 1, 2]
-    assert sorted(cluster_sizes(blocks, by_corners=True)) == [1, 3]
-    assert not cluster_sizes(np.zeros((3, 3), bool)).size
