@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from beyond.made_up import ensemble
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import UNCHANGED, direction, number
-from springblock.beyond.resampling import interval, side_length
-from springblock.model.scene import Scene
+from springblock.beyond.resampling import interval
 
 
 def test_intervals_cover_as_often_as_they_say():
@@ -34,13 +32,6 @@ def test_every_ensemble_is_resampled_by_itself():
     both = interval(samples, lambda one, other, axis: one.mean(axis) + other.mean(axis))
     alone = interval(samples[1:], np.mean)
     assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
-
-
-def test_a_correlation_length_is_found_again():
-    scene, length = Scene(80, 20, 20), 5.0
-    found = side_length(ensemble(scene, length=length, runs=40), 6)
-    assert found.low < length < found.high
-    assert found.high - found.low < length
 
 
 def test_numbers_are_written_to_what_the_interval_leaves():
