@@ -8,12 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.analysis.lowest import Lowest, are_apart, lowest
-from springblock.analysis.statistics import Interval, difference_interval, mean_interval
+from springblock.analysis.statistics import (
+    Interval,
+    difference_interval,
+    independent_difference,
+    mean_interval,
+)
 from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
-    change,
     direction,
     is_even,
     number,
@@ -43,7 +47,7 @@ class Lattice(NamedTuple):
 Quantity = tuple[str, str]  #: what is compared, and its unit
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb and sentence
+Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb, and more words
 
 
 class Comparison(NamedTuple):
@@ -57,6 +61,9 @@ class Comparison(NamedTuple):
     def fine(self) -> Surfaces:
         """Surfaces whose lattice is no coarser than the layer is thick."""
         return {at: self.surfaces[at] for at in self.surfaces if at.spacing <= at.thickness}
+
+
+Comparisons = Mapping[str, Comparison]
 
 
 def by_lattice(ensembles: Ensembles) -> Surfaces:
@@ -157,17 +164,24 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         at: measures(sizes, best.place, larger[0], larger[-1]) for at, sizes in surfaces.items()
     }
     quantities = list(dict.fromkeys(chain.from_iterable(found.values())))
-    changed = {each: changes(compared, found, each) for each in quantities}
+    changed = {
+        each: changes(compared, {at: own[each] for at, own in found.items() if each in own})
+        for each in quantities
+    }
     for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
         changed[quantities[0]].pop(kind, None)
-    changed["the friction-minimising size", ""] = _moves(compared)
-    yield _conclusion(changed, larger[-1])
-    for (name, _), by_comparison in changed.items():
-        bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
-        yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
+    moves = _moves(compared)
+    yield _conclusion(compared, changed, moves, larger[-1])
     names = [
         f"{name.removeprefix('the ')} {unit and f'({unit})'}".rstrip() for name, unit in quantities
     ]
+    cells = [
+        [name, *(by[kind][1] if kind in by else "" for kind in compared)]
+        for name, by in zip(names, changed.values(), strict=True)
+    ]
+    yield markdown_table(["change of", *(each.words for each in compared.values())], cells)
+    bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
+    yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
     header = ["scatter", "l (µm)", "l_z (µm)", *names]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
@@ -180,40 +194,26 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield markdown_table(header, lines)
 
 
-def _place(at: Lattice, axis: str) -> str:
-    return f"{'l' if axis == 'spacing' else 'l_z'} = {getattr(at, axis):g} µm"
+def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Changes:
+    """Return how a value changes from the first to the last surface of each comparison, l <= l_z.
 
-
-def changes(
-    compared: Mapping[str, Comparison],
-    found: Mapping[Lattice, Mapping[Quantity, Interval]],
-    quantity: Quantity,
-) -> Changes:
-    """Say how a value changes from the first to the last surface of each comparison, l <= l_z.
-
-    Values between them that lie significantly above both, or below both, are given as well.
+    The verb, and the difference; the verb alone between exact values.
     """
-    said = {}
-    unit = quantity[1] and f" {quantity[1]}"
+    changed = {}
     for kind, each in compared.items():
-        known = [
-            (f" at {_place(at, each.axis)}", found[at][quantity])
-            for at in each.fine
-            if quantity in found[at]
-        ]
+        known = [values[at] for at in each.fine if at in values]
         if len(known) >= 2:
-            (first, before), *between, (last, after) = known
-            sentence = f"{each.words}: {change(before, after, unit, (first, last))}"
-            for at, value in between:
-                if UNCHANGED != direction(before, value) == direction(after, value):
-                    sentence += f", but is {number(value, unit)}{at}"
-            said[kind] = direction(before, after), f"{sentence}."
-    return said
+            verb, apart = (
+                direction(known[0], known[-1]),
+                independent_difference(known[-1], known[0]),
+            )
+            changed[kind] = verb, verb if apart.low == apart.high else number(apart)
+    return changed
 
 
-def _moves(compared: Mapping[str, Comparison]) -> Changes:
+def _moves(compared: Comparisons) -> Changes:
     """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
-    said = {}
+    changed = {}
     for kind, each in compared.items():
         fine = {at: sizes for at, sizes in each.fine.items() if len(sizes) >= _SIZES}
         common = sorted(set.intersection(*map(set, fine.values()))) if len(fine) >= 2 else []
@@ -222,32 +222,37 @@ def _moves(compared: Mapping[str, Comparison]) -> Changes:
                 at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
             }
             verb = "changes" if are_apart(best.values()) else UNCHANGED
-            places = ", ".join(f"{size} µm at {_place(at, each.axis)}" for at, size in best.items())
+            axis = "l" if each.axis == "spacing" else "l_z"
+            places = (
+                f"{size} µm at {axis} = {getattr(at, each.axis):g} µm" for at, size in best.items()
+            )
             among = listed([f"{size:g}" for size in common])
-            said[kind] = verb, f"{each.words}: {verb} ({places}; among {among} µm)."
-    return said
+            changed[kind] = verb, f"{verb} ({', '.join(places)}; among {among} µm)"
+    return changed
 
 
-def _conclusion(changed: Mapping[Quantity, Changes], broad: float) -> str:
+def _conclusion(
+    compared: Comparisons, changed: Mapping[Quantity, Changes], moves: Changes, broad: float
+) -> str:
     """Say how the friction-minimising size, friction and a decay length change."""
     wanted = "static friction", f"the decay length on pillars of {broad:g} µm"
-    *others, (_, size) = changed.items()  # the friction-minimising size is the last
-    values = [f"{name} {_how(by)}" for (name, _), by in others if name.startswith(wanted)]
-    _, moves = size.get("layer", ("", "Layers: is not compared."))
+    values = [
+        f"{name} {_refined(compared, by)}"
+        for (name, _), by in changed.items()
+        if name.startswith(wanted)
+    ]
+    _, thicker = moves.get("layer", ("", "is not compared"))
     return (
-        "**When the layer is thicker, the friction-minimising size** "
-        f"{moves.partition(': ')[2]} **When the lattice is refined**, it {_how(size)}; "
-        f"{'; '.join(values)}."
+        f"**When the layer is thicker, the friction-minimising size** {thicker}. "
+        f"**When the lattice is refined**, it {_refined(compared, moves)}; {'; '.join(values)}."
     )
 
 
-def _how(changes: Changes) -> str:
+def _refined(compared: Comparisons, changed: Changes) -> str:
     """Say what most refinements of the lattice do, and in brackets what the others do."""
-    found = {kind: verb for kind, (verb, _) in changes.items() if kind != "layer"}
+    found = {kind: verb for kind, (verb, _) in changed.items() if kind != "layer"}
     usual = mode(found.values()) if found else "is not compared"
     others = [
-        f"{changes[kind][1].partition(':')[0].lower()}: {verb}"
-        for kind, verb in found.items()
-        if verb != usual
+        f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items() if verb != usual
     ]
     return f"{usual} ({'; '.join(others)})" if others else usual
