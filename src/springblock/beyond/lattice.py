@@ -44,7 +44,6 @@ class Lattice(NamedTuple):
     length: float  #: over which coefficients are alike, µm; 0 where each block has its own
 
 
-Quantity = tuple[str, str]  #: what is compared, and its unit
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
 Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb, and more words
@@ -128,27 +127,27 @@ def minimum(sizes: Sizes) -> Lowest | None:
     return lowest(samples(sizes)) if len(sizes) >= _SIZES else None
 
 
-def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Quantity, Interval]:
+def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str, Interval]:
     """Return the quantities compared, on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
         runs, where, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
         exact = mean_interval([stress_ratio(runs)] * 2)
-        found[f"the stress concentration {where}", ""] = exact
-        found[f"static friction {where}", ""] = mean_interval(force[best])
+        found[f"stress concentration {where}"] = exact
+        found[f"static friction {where}"] = mean_interval(force[best])
         shares = [100.0 * (run.t_det < run.t_max)[run.scene.contact].mean() for run in runs]
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
-        found[f"the share of precursors {where}", "%"] = possible
+        found[f"share of precursors {where} (%)"] = possible
         if broad in sizes:
             more = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
-            found[more, ""] = difference_interval(force[broad], force[best])
+            found[more] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
             metres = Interval(*(spacing * limit for limit in blocks))
-            found[f"the decay length {where}", "µm"] = metres
+            found[f"decay length {where} (µm)"] = metres
             if size == broad:
-                found[f"the decay length in blocks {where}", "blocks"] = blocks
+                found[f"decay length in blocks {where} (blocks)"] = blocks
     return found
 
 
@@ -168,21 +167,16 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         each: changes(compared, {at: own[each] for at, own in found.items() if each in own})
         for each in quantities
     }
-    for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
-        changed[quantities[0]].pop(kind, None)
     moves = _moves(compared)
     yield _conclusion(compared, changed, moves, larger[-1])
-    names = [
-        f"{name.removeprefix('the ')} {unit and f'({unit})'}".rstrip() for name, unit in quantities
-    ]
     cells = [
         [name, *(by[kind][1] if kind in by else "" for kind in compared)]
-        for name, by in zip(names, changed.values(), strict=True)
+        for name, by in changed.items()
     ]
     yield markdown_table(["change of", *(each.words for each in compared.values())], cells)
     bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
     yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
-    header = ["scatter", "l (µm)", "l_z (µm)", *names]
+    header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
@@ -232,13 +226,13 @@ def _moves(compared: Comparisons) -> Changes:
 
 
 def _conclusion(
-    compared: Comparisons, changed: Mapping[Quantity, Changes], moves: Changes, broad: float
+    compared: Comparisons, changed: Mapping[str, Changes], moves: Changes, broad: float
 ) -> str:
     """Say how the friction-minimising size, friction and a decay length change."""
-    wanted = "static friction", f"the decay length on pillars of {broad:g} µm"
+    wanted = "static friction", f"decay length on pillars of {broad:g} µm"
     values = [
-        f"{name} {_refined(compared, by)}"
-        for (name, _), by in changed.items()
+        f"{name.removesuffix(' (µm)')} {_refined(compared, by)}"
+        for name, by in changed.items()
         if name.startswith(wanted)
     ]
     _, thicker = moves.get("layer", ("", "is not compared"))
