@@ -1,5 +1,7 @@
 """Maps of load peaks and of static friction."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -54,6 +56,11 @@ def test_size_and_contact_that_add_up_leave_nothing():
 def test_what_size_and_contact_do_only_together_is_left():
     found = friction.friction_map(sizes_and_distances(together))
     assert friction.explained(found)["interaction"].low > 0.01
+
+
+def test_two_realisations_leave_shares_without_intervals():
+    made = {scene: runs[:2] for scene, runs in sizes_and_distances(added).items()}
+    assert re.search(r"size explains [\d.]+ \[no interval\] % beyond", next(friction.answers(made)))
 
 
 def test_the_page_has_the_lowest_friction_of_each_contact_fraction():

@@ -77,16 +77,17 @@ def explained(found: Map) -> dict[str, Interval]:
     are unevenly combined, so that both explain less than the sum of what each explains alone. The
     models are a number for each size, one for each contact fraction, and both added.
     """
-    values = np.array([(n_p, float(distance((n_p, n_s)))) for n_p, n_s in found])
-    size, contact = (np.equal.outer(each, np.unique(each)).astype(float) for each in values.T)
+    factors = np.array([(at[0], float(distance(at))) for at in found]).T
+    size, contact = (np.equal.outer(each, np.unique(each)).astype(float) for each in factors)
     designs = size, contact, np.hstack([size, contact])
     projections = [np.eye(len(found)) - a @ np.linalg.pinv(a) for a in designs]
 
     def fractions(*samples: Array, axis: int) -> Array:
         means = np.stack([values.mean(axis=axis) for values in samples], axis=-1)
+        # what each model leaves unexplained
         by_size, by_contact, by_both = (
             ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1) for left in projections
-        )  # left unexplained
+        )
         own = by_contact - by_both, by_size - by_both, by_contact - by_size
         return np.stack([*own, by_both])
 

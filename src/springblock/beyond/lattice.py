@@ -191,16 +191,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Changes:
     """Return how a value changes from the first to the last surface of each comparison, l <= l_z.
 
-    The verb, and the difference; the verb alone between exact values.
+    The words are the difference or, between values without scatter, the verb.
     """
     changed = {}
     for kind, each in compared.items():
         known = [values[at] for at in each.fine if at in values]
         if len(known) >= 2:
-            verb, apart = (
-                direction(known[0], known[-1]),
-                independent_difference(known[-1], known[0]),
-            )
+            verb = direction(known[0], known[-1])
+            apart = independent_difference(known[-1], known[0])
             changed[kind] = verb, verb if apart.low == apart.high else number(apart)
     return changed
 

@@ -33,7 +33,8 @@ def interval(samples: Sequence[NDArray[Any]], statistic: Callable[..., Any]) -> 
     has fewer than three realisations.
     """
     if min(map(len, samples)) < 3:
-        return Interval(statistic(*samples, axis=-1), *np.full(2, np.nan))
+        value = np.asarray(statistic(*samples, axis=-1))
+        return Interval(value, *np.full((2, *value.shape), np.nan))
     return samples_interval(samples, statistic, _RESAMPLES, batch=100)
 
 
