@@ -10,7 +10,6 @@ from springblock import Pattern
 from springblock.analysis.statistics import (
     bootstrap_interval,
     bootstrap_weights,
-    cluster_sizes,
     cut,
     difference_interval,
     load_peaks,
@@ -114,16 +113,6 @@ def test_a_mean_is_taken_over_the_runs_that_have_not_ended(rng):
     assert np.isnan([mean[4], low[4], high[4]]).all()
 
 
-@pytest.mark.parametrize(
-    ("lesser", "valley", "peaks"),
-    [(0.901, 0.5, [1, 3]), (0.899, 0.5, [1]), (0.95, 0.9399, [1, 3]), (0.95, 0.9401, [1])],
-)
-def test_a_load_peak_reaches_nine_tenths_and_stands_out_by_a_hundredth(lesser, valley, peaks):
-    """Both of the largest force, here 2 N."""
-    curve = 2.0 * np.array([0.0, 1.0, valley, lesser, 0.0])
-    assert load_peaks(curve, 0.0).tolist() == peaks
-
-
 def test_the_lesser_peak_is_measured_from_the_valley():
     assert prominence(np.array([0.0, 10.0, 9.6, 9.8, 0.0])) == pytest.approx(0.02)
     assert prominence(np.array([0.0, 10.0, 0.0])) == 0.0
@@ -169,6 +158,11 @@ def hill(x, place, height, width=4.0):
     return height * np.exp(-(((x - place) / width) ** 2))
 
 
+def two_peaks(lesser, valley):
+    """Five samples of a force of 2 N at most, with peaks at 1 and 3."""
+    return 2.0 * np.array([0.0, 1.0, valley, lesser, 0.0])
+
+
 X = np.arange(100.0)
 
 
@@ -181,6 +175,10 @@ X = np.arange(100.0)
         (X + 1.5 * np.sin(X), 0.0, []),  # small waves of loading
         (1.0 + hill(X, 40, 0.3) + hill(X, 60, 0.2), 0.05, [40, 60]),
         (1.0 + hill(X, 40, 0.3) + hill(X, 60, 0.2), 0.12, [40]),  # the second within the scatter
+        (two_peaks(lesser=0.901, valley=0.5), 0.0, [1, 3]),  # nine tenths of the largest force
+        (two_peaks(lesser=0.899, valley=0.5), 0.0, [1]),
+        (two_peaks(lesser=0.95, valley=0.9399), 0.0, [1, 3]),  # a hundredth above the valley
+        (two_peaks(lesser=0.95, valley=0.9401), 0.0, [1]),
     ],
 )
 def test_load_peaks_are_found_at_the_maxima_of_the_force(curve, scatter, peaks):
@@ -237,10 +235,3 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
     half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
     value = found[0, 0]
     assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
-
-
-def test_clusters_hold_neighbours_and_corners_if_asked():
-    blocks = np.array([[1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0], [1, 0, 0, 0]], bool)
-    assert sorted(cluster_sizes(blocks)) == [1, 1, 2]
-    assert sorted(cluster_sizes(blocks, by_corners=True)) == [1, 3]
-    assert not cluster_sizes(np.zeros((3, 3), bool)).size

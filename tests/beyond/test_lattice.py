@@ -5,9 +5,7 @@ import numpy as np
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
-    Comparison,
     Lattice,
-    Quantity,
     answers,
     by_lattice,
     changes,
@@ -76,48 +74,32 @@ def test_stress_on_the_outermost_blocks_goes_with_one_over_the_spacing():
 def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
     """A minimum at twice the layer's thickness, but at ten blocks without disorder."""
     made = lattices(eighty, lambda x, l_z, s: 8.0 * l_z if s else 8.0 * x, runs=9)  # none of c(r)
-    conclusion, *changed, table = answers(made)
-    (size,) = (each for each in changed if each.startswith("**The friction-minimising size:**"))
+    conclusion, changed, size, table = answers(made)
     assert f"Same scatter on every lattice: {UNCHANGED} (80" in size
     assert "Thicker layers, l = 10 µm: changes (80 µm at l_z = 10" in size
     assert "No disorder: changes (80 µm at l = 10 µm, 40" in size
     assert "layer is thicker, the friction-minimising size** changes (80 µm at l_z" in conclusion
     refined = f"lattice is refined**, it {UNCHANGED} (no disorder: changes); static friction on"
     assert refined in conclusion
+    assert (
+        "| stress concentration on pillars of 80 µm | increases | increases | increases |"
+        in changed
+    )
     assert len(table.splitlines()) == 2 + len(PLACES)
 
 
 def test_changes_are_those_from_the_first_lattice_finer_than_the_layer_to_the_last():
-    part = comparisons(surfaces())
+    """Ways of 2.0 and 1.0 on lattices of 10 and 5 µm; without scatter they have no interval."""
+    made = surfaces()
     values = {20: (0.1, 0.0, 0.2), 10: (2.0, 1.5, 2.5), 5: (1.0, 0.5, 1.5)}
-    way = Quantity("way", "µm")
-    found = {at: {way: Interval(*map(np.array, values[at.spacing]))} for at in surfaces()}
-    changed = changes(part, found, way)
-    assert changed["block"] == (
-        "decreases",
-        "Same scatter on every lattice: decreases from 2.0 [1.5, 2.5] µm at l = 10 µm "
-        "to 1.0 [0.5, 1.5] µm at l = 5 µm (difference: -1.0 [-1.7, -0.3] µm).",
-    )
-    assert changed["layer"][0] == UNCHANGED
-
-
-def test_a_value_beyond_both_ends_is_named():
-    """Static friction on pillars of 60 µm by l_z, from `docs/beyond.md`."""
-    values = {
-        10: (0.6448, 0.6431, 0.6465),
-        20: (0.6506, 0.6484, 0.6528),
-        40: (0.63, 0.6281, 0.6319),
+    way = {
+        at: Interval(*np.array(values[at.spacing] if at.scatter else [values[at.spacing][0]] * 3))
+        for at in made
     }
-    layers = {Lattice(10.0, float(l_z), 0.1, 0.0): {} for l_z in values}
-    friction = Quantity("friction")
-    found = {at: {friction: Interval(*map(np.array, values[at.thickness]))} for at in layers}
-    (_, said) = changes({"layer": Comparison("Layers", "thickness", layers)}, found, friction)[
-        "layer"
-    ]
-    assert said.endswith(
-        "l_z = 40 µm (difference: -0.0148 [-0.0173, -0.0123]), but is "
-        "0.6506 [0.6484, 0.6528] at l_z = 20 µm."
-    )
+    found = changes(comparisons(made), way)
+    assert found["block"] == found["area"] == ("decreases", "-1.0 [-1.7, -0.3]")
+    assert found["none"] == ("decreases", "decreases")
+    assert found["layer"][0] == UNCHANGED
 
 
 def test_values_without_scatter_are_exact():

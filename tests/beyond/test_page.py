@@ -3,7 +3,7 @@
 import pytest
 
 from beyond.made_up import lean
-from springblock.beyond import clusters, friction, lattice, scatter, variance
+from springblock.beyond import friction, lattice, scatter
 from springblock.beyond.page import QUESTIONS, page
 from springblock.beyond.question import by_scene
 from springblock.model.scene import Scene
@@ -19,8 +19,6 @@ def test_questions_without_realisations_say_what_they_need():
         friction.friction_map,
         lattice.by_lattice,
         scatter.by_scatter,
-        variance.by_pattern,
-        clusters.surfaces,
     ],
 )
 def test_grooves_without_pillars_are_neither_pillars_nor_flat(surfaces):

@@ -118,10 +118,11 @@ def test_the_page_shows_the_worst_of_plain_runge_kutta_and_where_it_finds_no_err
 
 
 def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(
-    springblock, batch, pillars, tmp_path
+    springblock, batch, tmp_path
 ):
     page = tmp_path / "beyond.md"
-    springblock("make", "beyond", batch(0, 2), *pillars, "--output", page)
+    grooves = [batch(0, 2, "--n-p2", 4, "--n-s2", 2, "--direction", way) for way in "xy"]
+    springblock("make", "beyond", *grooves, "--output", page)
     text = page.read_text(encoding="utf-8")
     assert "**Not answered**: this needs the groups lattice, disorder and layer." in text
-    assert "| flat | " in text  # clusters of precursors
+    assert "| 0 | 2 | 4 | " in text  # load peaks

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from beyond.made_up import ensemble, grooves, lattices, lean, sizes_and_distances
+from beyond.made_up import ensemble, grooves, lattices, sizes_and_distances
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.plotting import drawing
@@ -37,34 +37,25 @@ def peaks() -> Figure:
     return drawing("beyond_peaks")(by_folder(*narrow, wide))
 
 
+def two_factors(n_p, ratio):
+    return 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.1 * ratio
+
+
 def friction() -> Figure:
-    made = sizes_and_distances(lambda n_p, ratio: 0.6 + 0.05 * np.log(n_p / 6.0) ** 2 - 0.1 * ratio)
-    return drawing("beyond_friction")(by_folder(made))
-
-
-def precursors() -> Figure:
-    angles = {
-        (scene := Scene(60, 28, 32, 8, 2, direction=direction)): ensemble(scene, runs=10)
-        for direction in ("x", "45", "y")
-    }
-    plain = {scene: ensemble(scene, runs=3) for scene in (Scene(60), Scene(60, 6, 6))}
-    return drawing("beyond_precursors")(by_folder(plain, angles))
+    return drawing("beyond_friction")(by_folder(sizes_and_distances(two_factors)))
 
 
 def disorder() -> Figure:
-    """Variance as of independent blocks, 1e-2 / N², and l_c of two blocks."""
+    """Decay lengths of two blocks."""
     scatter = {
         (scene := Scene(60, n_p, n_p, varied=varied)): ensemble(scene, 0.7, 2.0, runs=12)
         for n_p in (3, 6, 10)
         for varied in ((), (("mu_static_std", 0.05),), (("mu_static_std", 0.2),))
     }
-    flat = {(scene := Scene(n)): lean(scene, 0.7, 40, 0.1 / n) for n in (12, 24, 48)}
-    return drawing("beyond_disorder")(by_folder(scatter, flat))
+    return drawing("beyond_disorder")(by_folder(scatter))
 
 
-DRAWINGS = {
-    f"beyond_{make.__name__}": make for make in (lattice, peaks, friction, precursors, disorder)
-}
+DRAWINGS = {f"beyond_{make.__name__}": make for make in (lattice, peaks, friction, disorder)}
 
 
 drawn = cache(lambda name: DRAWINGS[name]())  # for tests that only look at it
@@ -92,30 +83,13 @@ def test_cells_hold_the_prominence_of_their_surface():
         assert [label.get_text() for label in ax.get_xticklabels()] == ["0", "30", "90"]
 
 
-def test_two_factors_that_add_up_describe_friction():
-    """Dashes lie on the means of sizes that several contact fractions have."""
-    ax = drawn("beyond_friction").axes[1]
-    dashes = [line.get_xydata() for line in ax.get_lines() if line.get_markersize() == 7.0]
-    assert len(dashes) == 3
-    for model, means in zip(dashes, bars(ax).values(), strict=True):
-        shown = np.isin(means[:, 0], model[:, 0])
-        np.testing.assert_allclose(model, means[shown], atol=1e-3)
+def test_each_contact_fraction_has_its_curve():
+    curves = bars(drawn("beyond_friction").axes[1])
+    assert list(curves) == ["44% in contact", "25% in contact", "11% in contact"]
+    for ratio, (n_p, values) in zip((0.5, 1.0, 2.0), (xy.T for xy in curves.values()), strict=True):
+        np.testing.assert_allclose(values, two_factors(n_p, ratio), atol=1e-3)
 
 
-def test_clusters_begin_with_all_precursors():
-    ax = drawn("beyond_precursors").axes[0]
-    curves = [line.get_xydata() for line in ax.get_lines() if len(line.get_xdata())]
-    assert len(curves) == 6  # two surfaces and their two kinds of chance
-    for curve in curves:
-        assert tuple(curve[0]) == (1.0, 1.0)
-        assert (np.diff(curve[:, 1]) <= 0.0).all()
-
-
-def test_the_variance_of_independent_blocks_lies_on_the_guide():
-    ax = drawn("beyond_disorder").axes[2]
-    ((label, points),) = bars(ax).items()
-    assert label.startswith("flat: $x$ = ")
-    np.testing.assert_allclose(points[:, 0], (144, 576, 2304))
-    np.testing.assert_allclose(points[:, 1], 1e-2 / points[:, 0], rtol=0.8)
+def test_decay_lengths_are_those_of_the_times():
     lengths = bars(drawn("beyond_disorder").axes[0])["$n_p$ = 10"]
     np.testing.assert_allclose(lengths[:, 1], 2.0, atol=1.2)

@@ -9,7 +9,7 @@ from springblock.plotting.lines import axes
 SHOWN = study.for_figures(config, ENSEMBLES)
 SCENES = {group: [each.scene for each in members] for group, members in SHOWN.items()}
 #: Groups that questions beyond the paper look at.
-GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter", "variance"]
+GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter"]
 GROUPS_BEYOND = [group for group in GROUPS_BEYOND if SHOWN.get(group)]
 #: What figures declare whose groups of scenes and tables the study has.
 FIGURES = {

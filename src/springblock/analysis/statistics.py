@@ -293,17 +293,6 @@ def pillar_ring(size: int, depth: int) -> dict[str, NDArray[np.bool_]]:
     }
 
 
-def cluster_sizes(blocks: NDArray[np.bool_], by_corners: bool = False) -> NDArray[np.intp]:
-    """Sizes, in blocks, of the clusters of a mask, (N, N).
-
-    Clusters are connected by the sides of blocks or, with `by_corners`, also by their corners.
-    """
-    from scipy.ndimage import label  # slow to import, and most jobs do not need it
-
-    places, _ = label(blocks, structure=np.ones((3, 3)) if by_corners else None)
-    return np.bincount(places.ravel())[1:]
-
-
 def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
     """Return the indices of the load peaks of a force curve, (n,). Section 3.3.
 

@@ -1,16 +1,14 @@
 """Static friction over the size of pillars and over their distance, at one total load."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtri
 
 from springblock.analysis.lowest import lowest
-from springblock.analysis.statistics import Interval, mean_interval, standard_error
+from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
 from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
@@ -20,7 +18,7 @@ NEEDS = "group friction"
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
 _FEWEST = 3  #: sizes with a minimum between them
-_LEVEL = 0.05  #: of the test of additive effects
+_SHARES = ("size", "contact", "more by size", "interaction")
 
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
@@ -71,60 +69,40 @@ def crossed(found: Map) -> dict[Pillars, Array]:
         kept = fewer
 
 
-def unexplained(found: Map) -> dict[str, Array]:
-    """Projections of mean friction, (pillars, pillars), onto what models leave unexplained.
-
-    The models are a number for each size, one for each contact fraction, and both added. The rank
-    of a projection is the degrees of freedom that the model leaves.
-    """
-    designs = {}
-    for name, key in (("size", itemgetter(0)), ("contact", distance)):
-        values = np.array([float(key(pillars)) for pillars in found])
-        designs[name] = np.equal.outer(values, np.unique(values)).astype(np.float64)
-    designs["both"] = np.hstack([*designs.values()])
-    return {name: np.eye(len(found)) - a @ np.linalg.pinv(a) for name, a in designs.items()}
-
-
 def explained(found: Map) -> dict[str, Interval]:
     """Fractions of the variance of mean static friction over the map.
 
     They are what "size" explains beyond contact fraction, what "contact" explains beyond size, how
-    much more the former is, and what "both" explain. Sizes and contact fractions are unevenly
-    combined, so that both explain less than the sum of what each explains alone.
+    much more the former is, and what is left for their "interaction". Sizes and contact fractions
+    are unevenly combined, so that both explain less than the sum of what each explains alone. The
+    models are a number for each size, one for each contact fraction, and both added.
     """
-    projections = unexplained(found)
+    factors = np.array([(at[0], float(distance(at))) for at in found]).T
+    size, contact = (np.equal.outer(each, np.unique(each)).astype(float) for each in factors)
+    designs = size, contact, np.hstack([size, contact])
+    projections = [np.eye(len(found)) - a @ np.linalg.pinv(a) for a in designs]
 
-    def left_by(model: str, means: Array) -> Array:
-        return ((means @ projections[model]) ** 2).mean(axis=-1) / means.var(axis=-1)
+    def fractions(*samples: Array, axis: int) -> Array:
+        means = np.stack([values.mean(axis=axis) for values in samples], axis=-1)
+        # what each model leaves unexplained
+        by_size, by_contact, by_both = (
+            ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1) for left in projections
+        )
+        own = by_contact - by_both, by_size - by_both, by_contact - by_size
+        return np.stack([*own, by_both])
 
-    fractions: dict[str, Callable[[Array], Array]] = {
-        "size": lambda means: left_by("contact", means) - left_by("both", means),
-        "contact": lambda means: left_by("size", means) - left_by("both", means),
-        "more by size": lambda means: left_by("contact", means) - left_by("size", means),
-        "both": lambda means: 1.0 - left_by("both", means),
-    }
-    values = list(found.values())
-    return {name: interval(values, np.mean, each) for name, each in fractions.items()}
-
-
-def residuals(found: Map) -> dict[Pillars, float]:
-    """Mean static friction minus the model of size and contact added."""
-    left = unexplained(found)["both"] @ [values.mean() for values in found.values()]
-    return dict(zip(found, left.tolist(), strict=True))
+    shares = np.transpose(interval([*found.values()], fractions))
+    return {name: Interval(*share) for name, share in zip(_SHARES, shares, strict=True)}
 
 
 def answers(ensembles: Ensembles) -> Iterator[str]:
-    """Sentences and a table in Markdown; none without what `NEEDS` names."""
+    """A sentence and a table in Markdown; none without what `NEEDS` names."""
     whole = friction_map(ensembles)
     found = crossed(whole)
-    freedom = round(np.trace(unexplained(found)["both"])) if found else 0
-    if not freedom:
+    if not found:
         return
-    shares, left = explained(found), np.array([*residuals(found).values()])
-    scatter = np.sqrt(np.mean([standard_error(values) ** 2 for values in found.values()]))
-    rms = np.sqrt((left**2).sum() / freedom)
-    rest = 1.0 - shares["both"].mean
-    size, contact, more, both = (number(share, " %", 100.0) for share in shares.values())
+    shares = explained(found)
+    size, contact, more, _ = (number(share, " %", 100.0) for share in shares.values())
     words = "Static friction depends on the size of pillars more than on contact fraction"
     if shares["more by size"].high < 0.0:
         words = "Static friction depends on contact fraction more than on the size of pillars"
@@ -133,15 +111,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield (
         f"**{words}**, among these {len(found)} surfaces: of its variance, size explains {size} "
         f"beyond what contact fraction explains, contact fraction {contact} beyond what size "
-        f"explains (difference: {more}), and their interaction up to {100.0 * rest:.2g} %."
-    )
-    add_up = "the effects are additive within the scatter"
-    if (left**2).sum() / scatter**2 > chdtri(freedom, _LEVEL):
-        add_up = "the effects of size and contact fraction are not additive"
-    yield (
-        f"The sum of both factors explains {both}. Its residuals have a root mean square of "
-        f"{rms:.4f} (over {freedom} degrees of freedom), and the standard error of the means is "
-        f"{scatter:.4f}: {add_up} (chi-squared test at 5 %)."
+        f"explains (difference: {more}), and their interaction up to "
+        f"{100.0 * shares['interaction'].mean:.2g} %."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
     lines = []

@@ -8,13 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from springblock.analysis.lowest import Lowest, are_apart, lowest
-from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.clusters import precursors
+from springblock.analysis.statistics import (
+    Interval,
+    difference_interval,
+    independent_difference,
+    mean_interval,
+)
 from springblock.beyond.friction import samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
-    change,
     direction,
     is_even,
     number,
@@ -41,21 +44,9 @@ class Lattice(NamedTuple):
     length: float  #: over which coefficients are alike, µm; 0 where each block has its own
 
 
-class Quantity(NamedTuple):
-    """What is compared."""
-
-    name: str
-    unit: str = ""
-
-    def __str__(self) -> str:
-        """Write the heading of a column."""
-        bare = self.name.removeprefix("the ")
-        return f"{bare} ({self.unit})" if self.unit else bare
-
-
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb and sentence
+Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb, and more words
 
 
 class Comparison(NamedTuple):
@@ -69,6 +60,9 @@ class Comparison(NamedTuple):
     def fine(self) -> Surfaces:
         """Surfaces whose lattice is no coarser than the layer is thick."""
         return {at: self.surfaces[at] for at in self.surfaces if at.spacing <= at.thickness}
+
+
+Comparisons = Mapping[str, Comparison]
 
 
 def by_lattice(ensembles: Ensembles) -> Surfaces:
@@ -101,30 +95,23 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     """
     common = usual(surfaces)
     product = common.spacing * common.scatter
-    words = {
-        "block": "Same scatter on every lattice",
-        "area": "Same disorder per area",
-        "length": "Disorder of a fixed correlation length",
-        "none": "No disorder",
-        "layer": f"Thicker layers, l = {common.spacing:g} µm",
-    }
     ordered = sorted(surfaces, key=lambda at: (-at.spacing, at.thickness))
+    layers = [at for at in ordered if at._replace(thickness=common.thickness) == common]
     thick = [at for at in ordered if at.thickness == common.thickness]
-    own = [at for at in thick if not at.length]
+    block = [at for at in thick if at._replace(spacing=common.spacing) == common]
+    area = [at for at in thick if not at.length and np.isclose(at.spacing * at.scatter, product)]
+    length = [at for at in thick if at.length]
+    none = [at for at in thick if not at.scatter]
     parts = {
-        "block": [at for at in thick if at._replace(spacing=common.spacing) == common],
-        "area": [at for at in own if np.isclose(at.spacing * at.scatter, product)],
-        "length": [at for at in thick if at.length],
-        "none": [at for at in thick if not at.scatter],
-        "layer": [at for at in ordered if at._replace(thickness=common.thickness) == common],
+        "block": ("Same scatter on every lattice", "spacing", block),
+        "area": ("Same disorder per area", "spacing", area),
+        "length": ("Disorder of a fixed correlation length", "spacing", length),
+        "none": ("No disorder", "spacing", none),
+        "layer": (f"Thicker layers, l = {common.spacing:g} µm", "thickness", layers),
     }
     return {
-        name: Comparison(
-            words[name],
-            "thickness" if name == "layer" else "spacing",
-            {at: surfaces[at] for at in part},
-        )
-        for name, part in parts.items()
+        name: Comparison(words, axis, {at: surfaces[at] for at in part})
+        for name, (words, axis, part) in parts.items()
         if len(part) >= _FEWEST
     }
 
@@ -140,27 +127,27 @@ def minimum(sizes: Sizes) -> Lowest | None:
     return lowest(samples(sizes)) if len(sizes) >= _SIZES else None
 
 
-def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[Quantity, Interval]:
+def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str, Interval]:
     """Return the quantities compared, on pillars of the best size and on larger ones, µm."""
     found = {}
     if best in sizes:
-        runs, name, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
-        stress = Quantity(f"the stress concentration {name}")
-        found[stress] = mean_interval([stress_ratio(runs)] * 2)  # exact
-        found[Quantity(f"static friction {name}")] = mean_interval(force[best])
-        shares = [100.0 * precursors(run)[run.scene.contact].mean() for run in runs]
+        runs, where, force = sizes[best], f"on pillars of {best:g} µm", samples(sizes)
+        exact = mean_interval([stress_ratio(runs)] * 2)
+        found[f"stress concentration {where}"] = exact
+        found[f"static friction {where}"] = mean_interval(force[best])
+        shares = [100.0 * (run.t_det < run.t_max)[run.scene.contact].mean() for run in runs]
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
-        found[Quantity(f"the share of precursors {name}", "%")] = possible
+        found[f"share of precursors {where} (%)"] = possible
         if broad in sizes:
-            more = Quantity(f"static friction on pillars of {broad:g} µm minus that of {best:g} µm")
+            more = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
             found[more] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
             metres = Interval(*(spacing * limit for limit in blocks))
-            found[Quantity(f"the decay length {where}", "µm")] = metres
+            found[f"decay length {where} (µm)"] = metres
             if size == broad:
-                found[Quantity(f"the decay length in blocks {where}", "blocks")] = blocks
+                found[f"decay length in blocks {where} (blocks)"] = blocks
     return found
 
 
@@ -176,15 +163,20 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         at: measures(sizes, best.place, larger[0], larger[-1]) for at, sizes in surfaces.items()
     }
     quantities = list(dict.fromkeys(chain.from_iterable(found.values())))
-    changed = {each: changes(compared, found, each) for each in quantities}
-    for kind in {"area", "length", "none"} & set(compared):  # elastic stress has no disorder
-        changed[quantities[0]].pop(kind, None)
-    changed[Quantity("the friction-minimising size")] = _moves(compared)
-    yield _conclusion(changed, larger[-1])
-    for (name, _), by_comparison in changed.items():
-        bullets = "\n".join(f"- {words}" for _, words in by_comparison.values())
-        yield f"**{name[0].upper()}{name[1:]}:**\n\n{bullets}"
-    header = ["scatter", "l (µm)", "l_z (µm)", *map(str, quantities)]
+    changed = {
+        each: changes(compared, {at: own[each] for at, own in found.items() if each in own})
+        for each in quantities
+    }
+    moves = _moves(compared)
+    yield _conclusion(compared, changed, moves, larger[-1])
+    cells = [
+        [name, *(by[kind][1] if kind in by else "" for kind in compared)]
+        for name, by in changed.items()
+    ]
+    yield markdown_table(["change of", *(each.words for each in compared.values())], cells)
+    bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
+    yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
+    header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
     header += ["friction-minimising size (µm)", "sizes (µm)", "realisations, at least"]
     lines = []
     for at, sizes in surfaces.items():
@@ -196,40 +188,24 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield markdown_table(header, lines)
 
 
-def _place(at: Lattice, axis: str) -> str:
-    return f"{'l' if axis == 'spacing' else 'l_z'} = {getattr(at, axis):g} µm"
+def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Changes:
+    """Return how a value changes from the first to the last surface of each comparison, l <= l_z.
 
-
-def changes(
-    compared: Mapping[str, Comparison],
-    found: Mapping[Lattice, Mapping[Quantity, Interval]],
-    quantity: Quantity,
-) -> Changes:
-    """Say how a value changes from the first to the last surface of each comparison, l <= l_z.
-
-    Values between them that lie significantly above both, or below both, are given as well.
+    The words are the difference or, between values without scatter, the verb.
     """
-    said = {}
-    unit = quantity.unit and f" {quantity.unit}"
+    changed = {}
     for kind, each in compared.items():
-        known = [
-            (f" at {_place(at, each.axis)}", found[at][quantity])
-            for at in each.fine
-            if quantity in found[at]
-        ]
+        known = [values[at] for at in each.fine if at in values]
         if len(known) >= 2:
-            (first, before), *between, (last, after) = known
-            sentence = f"{each.words}: {change(before, after, unit, (first, last))}"
-            for at, value in between:
-                if UNCHANGED != direction(before, value) == direction(after, value):
-                    sentence += f", but is {number(value, unit)}{at}"
-            said[kind] = direction(before, after), f"{sentence}."
-    return said
+            verb = direction(known[0], known[-1])
+            apart = independent_difference(known[-1], known[0])
+            changed[kind] = verb, verb if apart.low == apart.high else number(apart)
+    return changed
 
 
-def _moves(compared: Mapping[str, Comparison]) -> Changes:
+def _moves(compared: Comparisons) -> Changes:
     """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
-    said = {}
+    changed = {}
     for kind, each in compared.items():
         fine = {at: sizes for at, sizes in each.fine.items() if len(sizes) >= _SIZES}
         common = sorted(set.intersection(*map(set, fine.values()))) if len(fine) >= 2 else []
@@ -238,32 +214,37 @@ def _moves(compared: Mapping[str, Comparison]) -> Changes:
                 at: lowest(samples({s: sizes[s] for s in common})) for at, sizes in fine.items()
             }
             verb = "changes" if are_apart(best.values()) else UNCHANGED
-            places = ", ".join(f"{size} µm at {_place(at, each.axis)}" for at, size in best.items())
+            axis = "l" if each.axis == "spacing" else "l_z"
+            places = (
+                f"{size} µm at {axis} = {getattr(at, each.axis):g} µm" for at, size in best.items()
+            )
             among = listed([f"{size:g}" for size in common])
-            said[kind] = verb, f"{each.words}: {verb} ({places}; among {among} µm)."
-    return said
+            changed[kind] = verb, f"{verb} ({', '.join(places)}; among {among} µm)"
+    return changed
 
 
-def _conclusion(changed: Mapping[Quantity, Changes], broad: float) -> str:
+def _conclusion(
+    compared: Comparisons, changed: Mapping[str, Changes], moves: Changes, broad: float
+) -> str:
     """Say how the friction-minimising size, friction and a decay length change."""
-    wanted = "static friction", f"the decay length on pillars of {broad:g} µm"
-    *others, (_, size) = changed.items()  # the friction-minimising size is the last
-    values = [f"{each.name} {_how(by)}" for each, by in others if each.name.startswith(wanted)]
-    _, moves = size.get("layer", ("", "Layers: is not compared."))
+    wanted = "static friction", f"decay length on pillars of {broad:g} µm"
+    values = [
+        f"{name.removesuffix(' (µm)')} {_refined(compared, by)}"
+        for name, by in changed.items()
+        if name.startswith(wanted)
+    ]
+    _, thicker = moves.get("layer", ("", "is not compared"))
     return (
-        "**When the layer is thicker, the friction-minimising size** "
-        f"{moves.partition(': ')[2]} **When the lattice is refined**, it {_how(size)}; "
-        f"{'; '.join(values)}."
+        f"**When the layer is thicker, the friction-minimising size** {thicker}. "
+        f"**When the lattice is refined**, it {_refined(compared, moves)}; {'; '.join(values)}."
     )
 
 
-def _how(changes: Changes) -> str:
+def _refined(compared: Comparisons, changed: Changes) -> str:
     """Say what most refinements of the lattice do, and in brackets what the others do."""
-    found = {kind: verb for kind, (verb, _) in changes.items() if kind != "layer"}
+    found = {kind: verb for kind, (verb, _) in changed.items() if kind != "layer"}
     usual = mode(found.values()) if found else "is not compared"
     others = [
-        f"{changes[kind][1].partition(':')[0].lower()}: {verb}"
-        for kind, verb in found.items()
-        if verb != usual
+        f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items() if verb != usual
     ]
     return f"{usual} ({'; '.join(others)})" if others else usual

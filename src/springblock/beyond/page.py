@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from springblock.analysis.correlation import LAST
-from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
+from springblock.beyond import friction, lattice, peaks, scatter
 from springblock.beyond.question import Ensembles
 
 #: A module per question, in the order of the page's sections.
@@ -11,10 +11,7 @@ QUESTIONS = {
     "lattice": lattice,
     "peaks": peaks,
     "friction": friction,
-    "sliding": sliding,
-    "clusters": clusters,
     "scatter": scatter,
-    "variance": variance,
 }
 _PAGE = Path(__file__).with_name("page.md")
 
@@ -29,5 +26,4 @@ def page(ensembles: Ensembles) -> str:
         answers.append(f"{i}. {answer}")
         values[name] = "\n\n".join(rest)
     text = _PAGE.read_text(encoding="utf-8")
-    constants = {"last": LAST, "shuffles": clusters.SHUFFLES}
-    return text.format(answers="\n".join(answers), **constants, **values)
+    return text.format(answers="\n".join(answers), last=LAST, **values)

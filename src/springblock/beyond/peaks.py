@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from springblock.analysis.statistics import Interval, mean_interval, prominence
 from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
@@ -25,21 +26,12 @@ class Grooves(NamedTuple):
     n_p2: int
 
 
-#: Prominence of the lesser load peak of each realisation, % of its largest force, by seed.
-Prominences = dict[int, float]
+def prominences(runs: Sequence[Record]) -> pd.Series:
+    """Return the prominence of the lesser load peak, % of the largest force, by seed."""
+    return pd.Series({run.seed: 100.0 * prominence(friction(run)) for run in runs})
 
 
-def prominences(runs: Sequence[Record]) -> Prominences:
-    """Return the prominence of the lesser load peak of each realisation."""
-    return {run.seed: 100.0 * prominence(friction(run)) for run in runs}
-
-
-def mean(found: Prominences) -> Interval:
-    """Return the mean prominence, %."""
-    return mean_interval(list(found.values()))
-
-
-def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, Prominences]]:
+def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, pd.Series]]:
     """Prominences by widths and by the angle between sliding and grooves.
 
     Of grooves alone and grooves on pillars, of the study's material; on surfaces of several sizes,
@@ -61,7 +53,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     shown = sorted(set.intersection(*(set(angles) for angles in found.values())))
     contrasts = {key: _difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
     more, less = _significant(list(contrasts.values()))
-    along = {key: mean(angles[0.0]) for key, angles in found.items()}
+    along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     yield (
@@ -72,10 +64,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
-        apart = [_difference(found[on][0.0], found[off][0.0]) for on, off in pairs]
-        least = [min(along[on].mean, along[off].mean) for on, off in pairs]
-        two = [each for each, low in zip(apart, least, strict=True) if low > _TWO]
-        (more, less), (more_of_two, less_of_two) = _significant(apart), _significant(two)
+        apart = {(on, off): _difference(found[on][0.0], found[off][0.0]) for on, off in pairs}
+        two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
+        more, less = _significant(list(apart.values()))
+        more_of_two, less_of_two = _significant(two)
         yield (
             "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
             f"over the whole surface in {more} of {len(pairs)} cases, and less prominent in "
@@ -86,15 +78,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
     for key, angles in found.items():
-        values = [number(mean(angles[angle])) for angle in shown]
+        values = [number(mean_interval(angles[angle])) for angle in shown]
         lines.append([*map(str, key), *values, number(contrasts[key])])
     yield markdown_table(header, lines)
 
 
-def _difference(first: Prominences, second: Prominences) -> Interval:
+def _difference(first: pd.Series, second: pd.Series) -> Interval:
     """Return the mean difference over seeds that both have, with the same friction coefficients."""
-    apart = [first[seed] - second[seed] for seed in first if seed in second]
-    return interval([np.array(apart)], np.mean)
+    return interval([(first - second).dropna().to_numpy()], np.mean)
 
 
 def _significant(differences: Sequence[Interval]) -> tuple[int, int]:

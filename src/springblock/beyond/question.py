@@ -68,14 +68,6 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
-def change(first: Interval, last: Interval, unit: str = "", at: tuple[str, str] = ("", "")) -> str:
-    """Say how a value changes, from the first to the last place, which `at` names."""
-    apart = independent_difference(last, first)
-    values = f"from {number(first, unit)}{at[0]} to {number(last, unit)}{at[1]}"
-    scatter = "" if apart.low == apart.high else f" (difference: {number(apart, unit)})"
-    return f"{direction(first, last)} {values}{scatter}"
-
-
 def direction(first: Interval, last: Interval) -> str:
     """Say whether a value changes: the 95 % interval of the difference excludes zero."""
     apart = independent_difference(last, first)

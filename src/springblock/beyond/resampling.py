@@ -20,52 +20,35 @@ from springblock.analysis.statistics import (
 from springblock.io.records import Record
 from springblock.simulation.run import Array
 
-Sample = NDArray[Any]  #: numbers, one for each realisation, (k,)
 _RESAMPLES = 1000
 #: Realisations that a correlation needs here: no resample of so many is one of them alone.
 FEWEST = 10
 _DISTANCES = 3  #: that a fit of two unknowns needs
 
 
-def interval(
-    samples: Sequence[Sample],
-    statistic: Callable[..., Any],
-    combined: Callable[[Array], Array] = lambda values: values[..., 0],
-) -> Interval:
-    """What independent samples, (k,) each, have together, with its 95 % BCa interval.
+def interval(samples: Sequence[NDArray[Any]], statistic: Callable[..., Any]) -> Interval:
+    """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
 
-    `statistic` takes one sample, (..., k), and its `axis`; `combined` what that gives of all
-    samples, (..., samples), and returns values, (...): by default that of the first. Limits are
-    NaN where a sample has fewer than three realisations.
+    `statistic` takes the samples, (..., k) each, and their `axis`. Limits are NaN where a sample
+    has fewer than three realisations.
     """
-
-    def of_all(*drawn: Sample, axis: int) -> Array:
-        return combined(np.stack([statistic(each, axis=axis) for each in drawn], axis=-1))
-
-    if min(len(sample) for sample in samples) < 3:
-        return Interval(of_all(*samples, axis=-1), *np.full(2, np.nan))
-    return samples_interval(samples, of_all, _RESAMPLES, batch=100)
+    if min(map(len, samples)) < 3:
+        value = np.asarray(statistic(*samples, axis=-1))
+        return Interval(value, *np.full((2, *value.shape), np.nan))
+    return samples_interval(samples, statistic, _RESAMPLES, batch=100)
 
 
 def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
-    """Decay length along the sides of pillars, blocks: from r = 1 to a third of a side.
+    """Decay length along the sides of pillars, blocks: of A exp(-r/l) from r = 1 to n_p/3.
 
-    Or to `most` blocks on larger pillars; none of too few realisations or on too short sides.
-    """
-    scene = runs[0].scene
-    last = min(scene.n_p // 3, most or scene.n_p)
-    if len(runs) < FEWEST or last < _DISTANCES:
-        return None
-    return decay_length(side_times(runs, scene.pattern, "x"), last)
-
-
-def decay_length(times: Array, last: int) -> Interval:
-    """Decay length in one ensemble: of A exp(-r/l) from r = 1 to `last`, in blocks.
-
-    `times` are detachment times as those of `springblock.analysis.correlation.side_times`. The
+    Or to `most` blocks on larger pillars; none of too few realisations or on too short sides. The
     errors that the fit takes stay those of all realisations.
     """
-    found, k = Correlation(times), len(times)
+    scene, k = runs[0].scene, len(runs)
+    last = min(scene.n_p // 3, most or scene.n_p)
+    if k < FEWEST or last < _DISTANCES:
+        return None
+    found = Correlation(side_times(runs, scene.pattern, "x"))
 
     def curve(weights: Array) -> Array:
         return found.weighted(weights)[:, 1 : last + 1]

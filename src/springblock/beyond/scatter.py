@@ -4,12 +4,12 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from springblock.analysis.correlation import LAST
 from springblock.analysis.lowest import Lowest, are_apart, lowest
-from springblock.analysis.statistics import Interval
+from springblock.analysis.statistics import Interval, independent_difference
 from springblock.beyond.friction import lowest_in_words, samples
 from springblock.beyond.question import (
     UNCHANGED,
     Ensembles,
-    change,
+    direction,
     grouped,
     is_even,
     number,
@@ -70,7 +70,11 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     said = []
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()
-        said.append(f"{change(first, last, ' blocks')} on pillars of n_p = {n_p}")
+        apart = independent_difference(last, first)
+        said.append(
+            f"{direction(first, last)} from {number(first)} to {number(last)} blocks (difference: "
+            f"{number(apart)} blocks) on pillars of n_p = {n_p}"
+        )
     stays = f"{UNCHANGED}: {minima[0]}"
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (

@@ -25,13 +25,17 @@ SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
 
 
 class Layer:
-    """Elasticity of a layer with free edges, pulled along x, as its k blocks in contact feel it.
+    """Elasticity of a layer, pulled along x, as its k blocks in contact feel it.
 
-    `contact` is (N_y, N_x). Vectors have the x components of all blocks, then the y components.
+    `contact` is (N_y, N_x); edges are free or periodic. Vectors have the x components of all
+    blocks, then the y components.
     """
 
-    def __init__(self, contact: NDArray[np.bool_], material: Material) -> None:
-        whole, bound = lattice_stiffness(contact.shape, material), np.tile(contact.ravel(), 2)
+    def __init__(
+        self, contact: NDArray[np.bool_], material: Material, periodic: bool = False
+    ) -> None:
+        whole = lattice_stiffness(contact.shape, material, periodic)
+        bound = np.tile(contact.ravel(), 2)
         load = material.k_s * np.repeat([1.0, 0.0], contact.size)
         self._held, self._load_held = whole[bound][:, bound], load[bound]
         self._free, self._load_free = whole[~bound][:, ~bound], load[~bound]
@@ -65,18 +69,22 @@ class Layer:
         return splu(self._free)
 
 
-def lattice_stiffness(shape: tuple[int, int], material: Material) -> csc_array:
+def lattice_stiffness(
+    shape: tuple[int, int], material: Material, periodic: bool = False
+) -> csc_array:
     """Return K, (2 N_y N_x, 2 N_y N_x), N/m: x components row by row, then y components.
 
     A spring along the unit vector n between blocks i and j adds k n nᵀ (u_i - u_j) to the force
     on block i, to first order.
     """
     blocks = np.arange(np.prod(shape)).reshape(shape)
+    y, x = np.indices(shape)
     total = material.k_s * eye_array(2 * blocks.size, format="csc")
     for (up, right), share in SPRINGS.items():
         along = np.array([right, up]) / np.hypot(right, up)
-        one = blocks[: shape[0] - up, max(-right, 0) : shape[1] - max(right, 0)].ravel()
-        other = blocks[up:, max(right, 0) : shape[1] + min(right, 0)].ravel()
+        inside = (y + up < shape[0]) & (x + right >= 0) & (x + right < shape[1])
+        one = blocks[inside | periodic]
+        other = np.roll(blocks, (-up, -right), axis=(0, 1))[inside | periodic]
         # (springs, 2 N_y N_x): the elongation of each spring
         rows = np.tile(np.arange(one.size), 4)
         columns = np.concatenate([other, other + blocks.size, one, one + blocks.size])

@@ -20,9 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.mechanism.elasticity import Layer
-
-Array = NDArray[np.float64]
+from springblock.mechanism.elasticity import Array, Layer
 
 #: Least stress drop of an overshooting block, over its strength: without a drop, it would let go
 #: again at once.

@@ -1,9 +1,7 @@
 """The page on the mechanism, from its template and the tables."""
 
-from collections.abc import Mapping
-from itertools import pairwise, product
+from itertools import pairwise
 from pathlib import Path
-from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -26,9 +24,10 @@ NAMES = {
 }
 _STEPS = list(pairwise(NAMES))
 _ALONG = {"x": "along", "y": "across"}
+_CONSTANTS = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
 _WIDE = (6, 10)  #: blocks, pawls on which the surfaces of training have two load peaks
 _MEASURED_TWO = 1.0  #: %, prominence of the lesser load peak, at least
-_SURFACE = ["n_p", "n_s2", "n_p2", "varied", "direction"]
+_GROOVES = ["varied", "n_p", "n_s2", "n_p2"]
 
 Fields = dict[str, Any]  #: of the template, by name
 
@@ -59,21 +58,22 @@ def _of_friction(table: pd.DataFrame) -> Fields:
     means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
     error = (means["overshooting"] / means["simulation"] - 1.0).abs()
     small = error.index[(error < 0.01).cummin()].max()
-    minima, lines, steps = _minima(table), [], []
+    lines, steps = [], []
     for n_p, part in sizes:
         values = [written(part[name], 4) for name in NAMES]
         lines.append([f"{n_p}", f"{variation[n_p]:.3f}", *values])
         percent = 100.0 / part["simulation"].mean()
         changes = [written(percent * (part[to] - part[of]), 1) for of, to in _STEPS]
         steps.append([f"{n_p}", *changes])
-    raised, lowered = _changed_by(table, "independent", "quasi_static")
-    _, overshot = _changed_by(table, "quasi_static", "overshooting")
+    transfer, overshoot, _ = (
+        {n_p: mean_interval(part[to] - part[of]) for n_p, part in sizes} for of, to in _STEPS
+    )
     header = [f"{NAMES[of]} → {NAMES[to]}" for of, to in _STEPS]
     return {
-        "lowest": minima["simulation"].place,
-        "raised": listed(raised),
-        "lowered": _all_or(lowered, len(means) - len(raised), "all others"),
-        "overshot": _all_or(overshot, len(means), "all sizes"),
+        "sizes": len(means),
+        "raised": listed([str(n_p) for n_p, change in transfer.items() if change.low > 0.0]),
+        "lowered": sum(change.high < 0.0 for change in transfer.values()),
+        "overshot": sum(change.high < 0.0 for change in overshoot.values()),
         "small": small,
         "small_error": error.loc[:small].max(),
         "worst_error": error.max(),
@@ -83,46 +83,34 @@ def _of_friction(table: pd.DataFrame) -> Fields:
         "blocks": table["n_blocks"].min(),
         "friction": markdown_table(["n_p", "SD/mean of stress", *NAMES.values()], lines),
         "steps": markdown_table(["n_p", *header], steps),
-        "minima": minima,
+        "minima": _minima(table),
     }
 
 
-def _all_or(sizes: list[str], most: int, words: str) -> str:
-    return words if len(sizes) == most else f"those of {listed(sizes)}"
-
-
-def _changed_by(table: pd.DataFrame, of: str, to: str) -> tuple[list[str], list[str]]:
-    """Return the sizes on which a step raises friction significantly, and those it lowers."""
-    steps = {n_p: mean_interval(part[to] - part[of]) for n_p, part in table.groupby("n_p")}
-    raised = [str(n_p) for n_p, step in steps.items() if step.low > 0.0]
-    return raised, [str(n_p) for n_p, step in steps.items() if step.high < 0.0]
+def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
+    """Return where friction is lowest by model, n_p."""
+    sizes = rows.groupby("n_p")
+    return {name: lowest({n_p: part.to_numpy() for n_p, part in sizes[name]}) for name in NAMES}
 
 
 def _of_variants(table: pd.DataFrame) -> Fields:
     """Return the fields on flat surfaces and on other gaps, layers and scatter."""
-    flat = table[table["n_p"] == 0]
-    pillars = table.drop(flat.index)
-    cases = dict(iter(pillars.groupby(pillars.apply(_case, axis=1), sort=False)))
-    lines, sentences, raising = [], [], []
-    for name, rows in cases.items():
+    flat, pillars = table[table["n_p"] == 0], table[table["n_p"] > 0]
+    lines = []
+    for name, rows in pillars.groupby(pillars.apply(_case, axis=1), sort=False):
         uneven, found = rows.groupby("n_p")["stress_variation"].first(), _minima(rows)
-        raised, _ = _changed_by(rows, "quasi_static", "overshooting")
-        raising += [name] if str(found["simulation"].place) in raised else []
-        most = f"{uneven.idxmax()} ({uneven.max():.2f})"
-        lines.append([name, ", ".join(map(str, uneven.index)), most, *map(str, found.values())])
-        sentences.append(_sentence(name, rows, found))
-    thin, thick = cases["l_z = 5 µm"], cases["l_z = 40 µm"]
-    near = _minima(thin)["simulation"].alike
+        here = rows[rows["n_p"] == found["simulation"].place]
+        changes = [written(100.0 * (here[to] / here[of] - 1.0), 1) for of, to in _STEPS]
+        sizes, most = ", ".join(map(str, uneven.index)), f"{uneven.idxmax()} ({uneven.max():.2f})"
+        lines.append([str(name), sizes, most, *map(str, found.values()), *changes])
+    thick = pillars[pillars["thickness"] == pillars["thickness"].max()]
     excess = 100.0 * (1.0 - thick["simulation"] / thick["overshooting"])
     header = ["case", "sizes n_p", "most uneven (SD/mean)", *NAMES.values()]
+    header += ["change by load transfer (%)", "by overshoot (%)", "by other effects (%)"]
     return {
         "variants_seeds": table["seed"].nunique(),
         "variants": markdown_table(header, lines),
-        "sentences": "\n".join(sentences),
         "flat": [written(flat[name], 3) for name in NAMES],
-        "uneven": thin["stress_variation"].max(),
-        "near": (min(near), max(near)),
-        "raising": listed(raising) or "no case",
         "excess": written(excess.groupby(thick["seed"]).mean(), 1),
     }
 
@@ -136,48 +124,13 @@ def _case(row: pd.Series) -> str:
     return f"n_s = {row['n_s'] / row['n_p']:g} n_p"
 
 
-def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
-    """Return where friction is lowest by model, n_p."""
-    sizes = rows.groupby("n_p")
-    return {name: lowest({n_p: part.to_numpy() for n_p, part in sizes[name]}) for name in NAMES}
-
-
-def _sentence(name: str, rows: pd.DataFrame, found: Mapping[str, Lowest]) -> str:
-    """Say where the full model is lowest, and from which model on all may be lowest there.
-
-    A model may be lowest where its friction does not differ significantly from its lowest, if
-    that at another size does.
-    """
-    full, sizes = found["simulation"].place, rows["n_p"].unique()
-    *simpler, _ = found.values()
-    agree = [full in each.alike and len(each.alike) < len(sizes) for each in simpler]
-    words = (
-        "in all simpler models the minimum may be there too",
-        "with load transfer and with overshoot the minimum may be there too",
-        "with overshoot the minimum may be there too",
-        "with overshoot no minimum is resolved there",
-    )
-    first = next(i for i in range(len(words)) if all(agree[i:]))
-    bound = ", the largest computed" if full == max(sizes) else ""
-    here = rows[rows["n_p"] == full]
-    changes = [written(100.0 * (here[to] / here[of] - 1.0), 1) for of, to in _STEPS]
-    return fill(
-        f"- **{name}**: friction is lowest at n_p = {found['simulation']}{bound}; {words[first]}. "
-        f"At n_p = {full} load transfer changes friction by {changes[0]} %, overshoot by "
-        f"{changes[1]} %, and the other effects of the full model by {changes[2]} %.",
-        width=100,
-        subsequent_indent="  ",
-    )
-
-
 def _of_budget(table: pd.DataFrame) -> Fields:
     """Return the fields on the forces on edges and core."""
     lines, falls = [], {}
-    for direction, model in product(_ALONG, ("simulation", "overshooting")):
-        rows = table[(table["direction"] == direction) & (table["model"] == model)]
+    for (direction, model), rows in table.groupby(["direction", "model"], sort=False):
         runs = np.array([_milestones(run) for _, run in rows.groupby("seed")])
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
-        lines.append([_ALONG[direction], NAMES[model], *cells])
+        lines.append([_ALONG[str(direction)], NAMES[str(model)], *cells])
         falls[direction, model] = runs[:, -1]
     header = ["grooves", "model", "edges, largest", "at (µs)", "edges, at core's largest"]
     header += ["core, largest", "at (µs)", "fall of the load (%)"]
@@ -218,46 +171,43 @@ def _of_pawls() -> Fields:
 def _of_peaks(table: pd.DataFrame) -> Fields:
     """Return the fields on predicted and measured load peaks."""
     tested = _surfaces(table[~table["trained"]])
-    is_papers = tested["varied"] == ""
-    papers, others = tested[is_papers], tested[~is_papers]
-    parts = {"the paper's": papers, "other": others, "all": tested}
-    scores = {name: _scores(part) for name, part in parts.items()}
+    counts = _counts(tested)
+    papers = tested[tested["varied"] == ""]
     hits, misses = papers[papers["is_right"]], papers[~papers["is_right"]]
     wrong = misses[misses["direction"] == "x"]
-    across = tested[(tested["direction"] == "y") & tested["has_two"]]
-    along = papers[papers["direction"] == "x"]
-    whole = along[along["n_p"] == 0]
-    two, one = (whole.loc[whole["has_two"] == it, "n_p2"] for it in (True, False))
+    across = tested[tested["direction"] == "y"]
+    foreseen = across[across["should_have_two"]]
+    whole = papers[(papers["direction"] == "x") & (papers["n_p"] == 0)]
+    names = [f"{_CONSTANTS[constant]}, {_ALONG[way]}" for constant, way in counts.index]
+    every = counts.sum()
+    lines = zip([*names, "all"], [*counts.to_numpy(), every], strict=True)
     return {
         "threshold": TWO_PEAKS,
         "surfaces": len(tested) // 2,
         "peaks_seeds": table["seed"].nunique(),
-        "confusion": _confusion(tested),
         "wide": _WIDE,
-        "scores": markdown_table(
-            ["constants", "cases", "prediction", "rule", "one peak everywhere"],
-            [[name, str(len(parts[name])), *map(str, hits)] for name, hits in scores.items()],
+        "counts": markdown_table(
+            ["constants, direction", *counts.columns],
+            [[name, *map(str, numbers)] for name, numbers in lines],
         ),
-        "than_rule": _compared(*scores["all"][:2]),
-        "than_one": _compared(scores["other"][0], scores["other"][2]),
-        "across_two": len(across),
-        "across_found": across["should_have_two"].sum() or "none",
-        "close": [part["is_close"].sum() for part in (misses, hits)],
+        "every": every,
+        "papers": counts.loc[""].sum(),
+        "others": counts.drop("").sum(),
         "misses": len(misses),
-        "hits": len(hits),
-        "right": (*_scores(along)[:2], len(along)),
+        "two_across": [part["has_two"].sum() for part in (foreseen, across)],
+        "close": [part["is_close"].sum() for part in (misses, hits)],
         "wrong": len(wrong),
-        "wrong_pawls": " or ".join(map(str, sorted(set(wrong["n_p2"])))),
+        "wrong_pawls": _widths(wrong),
         "wrong_most": wrong["predicted"].max(),
-        "two": ", ".join(map(str, sorted(set(two)))),
-        "one": ", ".join(map(str, sorted(set(one)))),
+        "two": _widths(whole[whole["has_two"]]),
+        "one": _widths(whole[~whole["has_two"]]),
         "peaks": _prominences(tested),
     }
 
 
 def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
     """Return a row per surface and direction: its prediction and the measured mean over seeds."""
-    by_surface = table.groupby(_SURFACE, sort=False)
+    by_surface = table.groupby([*_GROOVES, "direction"], sort=False)
     found = by_surface["predicted"].first().reset_index()
     samples = [values for _, values in by_surface["measured"]]
     found[["mean", "low", "high"]] = np.array([mean_interval(values) for values in samples])
@@ -269,42 +219,38 @@ def _surfaces(table: pd.DataFrame) -> pd.DataFrame:
     return found
 
 
-def _scores(surfaces: pd.DataFrame) -> list[int]:
-    """Return how often the prediction, the rule, and one peak everywhere are right."""
-    by_rule = (surfaces["direction"] == "x") & surfaces["n_p2"].between(*_WIDE)
-    guesses = surfaces["should_have_two"], by_rule, False
-    return [int(np.count_nonzero(surfaces["has_two"] == guess)) for guess in guesses]
-
-
-def _compared(hits: int, others: int) -> str:
-    if hits == others:
-        return "as often as"
-    return "more often than" if hits > others else "less often than"
-
-
-def _confusion(tested: pd.DataFrame) -> str:
-    """Tabulate predictions against measurements, by constants and direction."""
-    words = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
+def _counts(tested: pd.DataFrame) -> pd.DataFrame:
+    """Count outcomes, and the cases in which each guess is right, by constant and direction."""
+    predicted, measured = tested["should_have_two"], tested["has_two"]
+    by_rule = (tested["direction"] == "x") & tested["n_p2"].between(*_WIDE)
+    outcomes = pd.DataFrame(
+        {
+            "cases": True,
+            "two: predicted and measured": predicted & measured,
+            "only predicted": predicted & ~measured,
+            "only measured": ~predicted & measured,
+            "one: predicted and measured": ~predicted & ~measured,
+            "prediction right": tested["is_right"],
+            "rule right": by_rule == measured,
+            "one peak right": ~measured,
+        }
+    )
     constant = tested["varied"].str.partition("=")[0]
-    kinds = {
-        f"{words[own]}, {way}": tested[(constant == own) & (tested["direction"] == direction)]
-        for own, (direction, way) in product(words, _ALONG.items())
-    }
-    ways, lines = ((True, True), (True, False), (False, True), (False, False)), []
-    for name, part in {**kinds, "all": tested}.items():
-        both = list(zip(part["should_have_two"], part["has_two"], strict=True))
-        lines.append([name, *(str(both.count(it)) for it in ways)])
-    header = ["constants, direction", "two: predicted and measured", "only predicted"]
-    return markdown_table([*header, "only measured", "one: predicted and measured"], lines)
+    return outcomes.groupby([constant, tested["direction"]]).sum()
+
+
+def _widths(surfaces: pd.DataFrame) -> str:
+    return listed([str(n_p2) for n_p2 in np.unique(surfaces["n_p2"])])
 
 
 def _prominences(tested: pd.DataFrame) -> str:
-    names, lines = ["n_p", "n_s2", "n_p2", "varied"], []
-    for _, part in tested.groupby(["varied", *names[:3]]):
-        cells = [str(part[name].iloc[0]) for name in names]
-        for _, each in part.iterrows():
-            missed = "" if each["is_right"] else " (miss)"
-            cells += [f"{each['predicted']:.2f}", f"{each['measured']}{missed}"]
+    """Tabulate predicted and measured prominences by pawl and groove."""
+    lines = []
+    for (constants, *lengths), part in tested.groupby(_GROOVES):
+        cells = [*map(str, lengths), str(constants)]
+        for each in part.itertuples():
+            missed = "" if each.is_right else " (miss)"
+            cells += [f"{each.predicted:.2f}", f"{each.measured}{missed}"]
         lines.append(cells)
     header = [f"{what} {way}" for way in _ALONG.values() for what in ("predicted", "measured")]
-    return markdown_table([*names[:3], "constants", *header], lines)
+    return markdown_table([*_GROOVES[1:], "constants", *header], lines)

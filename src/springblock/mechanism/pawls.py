@@ -29,16 +29,15 @@ edges reach mu_s where c s + T (s - mu_d) = mu_s, and the load is R s - G (s - m
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr
 
-from springblock.mechanism.elasticity import SPRINGS, Array
+from springblock.mechanism.elasticity import Layer
 from springblock.model.material import Material
 
 #: Two load peaks are predicted for prominences beyond this, in percent. Prominences of 1 % are
 #: measured where 0.2 to 0.4 % are predicted, on the surfaces of `docs/beyond.md`, section 2.
 TWO_PEAKS = 0.25
-_WAVES = 16  #: along the grooves, over which the stiffness of a single block is averaged
+_ALONG = 16  #: blocks along the grooves of a layer with periodic edges
 
 
 class Pawl(NamedTuple):
@@ -53,17 +52,20 @@ class Pawl(NamedTuple):
 
 def pawl(n_p2: int, n_s2: int, across: bool, material: Material) -> Pawl:
     """Return the elasticity of pawls of `n_p2` >= 2 rows, sliding along or `across` grooves."""
-    own = slice(n_p2, 2 * n_p2) if across else slice(n_p2)
-    rows = _stiffness(n_p2, n_s2, 0.0, material)[own, own].real  # of rows that move as a whole
+    contact = np.zeros((n_p2 + n_s2, _ALONG), bool)
+    contact[:n_p2] = True
+    k = n_p2 * _ALONG
+    own = slice(k, 2 * k) if across else slice(k)  # components in the direction of sliding
+    stiffness = Layer(contact, material, periodic=True).stiffness[own, own]
+    blocks = stiffness.reshape(n_p2, _ALONG, n_p2, _ALONG)
+    rows = blocks[:, 0].sum(axis=2)  # of rows that move as a whole
     stress, edges = rows.sum(axis=1), [0, n_p2 - 1]  # the slider pulls as if all rows moved by -s
     slip = np.linalg.solve(rows[np.ix_(edges, edges)], np.ones(2))
     change = -rows[:, edges] @ slip
-    waves = 2.0 * np.pi * np.arange(_WAVES) / _WAVES
-    block = np.mean([_stiffness(n_p2, n_s2, q, material)[own, own][0, 0].real for q in waves])
     return Pawl(
         mean=float(stress.mean() / stress[0]),
         lost=float(-change.mean()),
-        shared=float(1.0 - rows[0, 0] / block),
+        shared=float(1.0 - rows[0, 0] / blocks[0, 0, 0, 0]),
         next_to=float(stress[1] / stress[0]),
         handed_on=float(change[1]),
     )
@@ -90,26 +92,3 @@ def _fall(drop: float, scatter: float) -> float:
         return max(drop - least, 0.0)
     z = np.sqrt(2.0 * np.log(drop / least))
     return float(drop * (2.0 * ndtr(z) - 1.0) - 2.0 * scatter * z)
-
-
-def _stiffness(n_p2: int, n_s2: int, wave: float, material: Material) -> NDArray[np.complex128]:
-    """Return S of the rows in contact, (2 n_p2, 2 n_p2), N/m, for displacements exp(i wave x/l).
-
-    Components along the grooves, then across; rows without contact are in equilibrium.
-    """
-    n = n_p2 + n_s2
-    whole = np.zeros((2, n, 2, n), complex)
-    for row in range(n):
-        whole[0, row, 0, row] += material.k_s
-        whole[1, row, 1, row] += material.k_s
-        for (up, right), share in SPRINGS.items():
-            along: Array = np.array([right, up]) / np.hypot(right, up)
-            spring = share * material.k_int * np.outer(along, along)
-            other, phase = (row + up) % n, np.exp(1j * wave * right)
-            whole[:, row, :, row] += spring
-            whole[:, other, :, other] += spring
-            whole[:, row, :, other] -= spring * phase
-            whole[:, other, :, row] -= spring / phase
-    matrix, bound = whole.reshape(2 * n, 2 * n), np.tile(np.arange(n) < n_p2, 2)
-    free = np.linalg.solve(matrix[~bound][:, ~bound], matrix[~bound][:, bound])
-    return np.asarray(matrix[bound][:, bound] - matrix[bound][:, ~bound] @ free)

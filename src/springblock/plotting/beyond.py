@@ -1,8 +1,7 @@
 """Figures beyond the paper; each function takes realisations by the folder of their scene."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,13 +9,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
-from pandas import DataFrame
+from pandas import DataFrame, Series
 from seaborn import heatmap
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.lowest import lowest
-from springblock.analysis.statistics import Interval, cluster_sizes
-from springblock.beyond import clusters, friction, lattice, peaks, scatter, sliding, variance
+from springblock.beyond import friction, lattice, peaks, scatter
 from springblock.beyond.question import Ensembles
 from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
@@ -30,8 +28,6 @@ _DOTS: Look = {"marker": "o", "markersize": 2.0}
 _TICKS = (1, 2, 5, 10, 20, 40, 80)  #: blocks, of the map of friction
 _LETTERS = ("ab", "cd")  #: of the maps of load peaks
 _COLORS = "viridis_r"  #: of these maps
-_SHOWN = (0, 6, 20)  #: n_p of the surfaces whose clusters are drawn
-_LAST = 15  #: largest distance of correlations along grooves, blocks
 
 
 def _by_scene(ensembles: Folders) -> Ensembles:
@@ -121,10 +117,9 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
 
 
 def beyond_disorder(ensembles: Folders) -> Figure:
-    """Draw a) decay lengths, b) static friction over scatter, and c) its variance over N²."""
-    found = _by_scene(ensembles)
-    scatters = scatter.by_scatter(found)
-    picture, panels = style.panels(style.DOUBLE, 64.0, "abc")
+    """Draw a) decay lengths over scatter and b) static friction over n_p by scatter."""
+    scatters = scatter.by_scatter(_by_scene(ensembles))
+    picture, panels = style.panels(style.DOUBLE, 64.0, "ab")
     _draw_lengths_of_scatters(panels[0], scatters)
     for std, color in style.shades(scatters).items():
         samples = friction.samples(scatters[std])
@@ -132,7 +127,6 @@ def beyond_disorder(ensembles: Folders) -> Figure:
     curves.name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
     panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     panels[1].legend(loc="best", title="scatter")
-    _draw_variance(panels[2], found)
     return picture
 
 
@@ -147,24 +141,6 @@ def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes])
     ax.set(xlabel="scatter of static coefficients", ylabel="decay length (blocks)")
     ax.set_yscale("log")
     ax.yaxis.set_minor_formatter(NullFormatter())
-    ax.legend(loc="best")
-
-
-def _draw_variance(ax: Axes, ensembles: Ensembles) -> None:
-    patterns = variance.by_pattern(ensembles)
-    for (pattern, sizes), color in zip(patterns.items(), (BLUE, VERMILION), strict=False):
-        blocks = [float(n**2) for n in sizes]
-        spread = [variance.variance(values) for values in sizes.values()]
-        named = f"$n_p$ = {pattern[0]}" if any(pattern) else "flat"
-        power = variance.exponent(sizes)  # none where a power law is rejected
-        label = f"{named}: $x$ = {power.mean:.2f}" if power else named
-        curves.draw_points(ax, blocks, spread, color, marker="o", linestyle="none", label=label)
-        products = [n * float(each.mean) for n, each in zip(blocks, spread, strict=True)]
-        independent = np.exp(np.mean(np.log(products))) / np.array(blocks)
-        ax.plot(blocks, independent, color=GREY, linewidth=0.5, zorder=0)
-    ax.set_yscale("log")
-    curves.name_places(ax, [n**2 for sizes in patterns.values() for n in sizes])
-    ax.set(xlabel="blocks of the surface $N^2$", ylabel="variance of static friction")
     ax.legend(loc="best")
 
 
@@ -195,15 +171,10 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
 
 def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
     alike = friction.families(found)
-    left = friction.residuals(friction.crossed(found))
     colors = style.shades(float(kind) for kind in alike)
     for kind, sizes in alike.items():
         color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
         curves.draw_means(ax, sizes, color, marker="o", label=label)
-        here = [(n_p, rest) for (n_p, n_s), rest in left.items() if n_s == kind * n_p]
-        model = {n_p: float(sizes[n_p].mean()) - rest for n_p, rest in here}
-        look: Look = {"linestyle": "none", "marker": "_", "markersize": 7.0}
-        ax.plot(list(model), list(model.values()), color=color, **look)
     curves.name_places(ax, sorted({n_p for n_p, _ in found}))
     ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     ax.legend(loc="best")
@@ -213,7 +184,7 @@ def beyond_peaks(ensembles: Folders) -> Figure:
     """Draw a map of the lesser peak for each width of grooves, with pillars and without."""
     found = peaks.by_grooves(_by_scene(ensembles))
     every = [each for angles in found.values() for each in angles.values()]
-    largest = max(float(peaks.mean(each).mean) for each in every)
+    largest = max(float(each.mean()) for each in every)
     widths = sorted({key.n_s2 for key in found})
     letters = ";".join(_LETTERS[: len(widths)])
     picture, panels = style.panels(style.ONE_AND_A_HALF, 6.0 + 55.0 * len(widths), letters)
@@ -230,11 +201,11 @@ def beyond_peaks(ensembles: Folders) -> Figure:
 
 
 def _draw_peaks(
-    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, peaks.Prominences]], largest: float
+    ax: Axes, part: Mapping[peaks.Grooves, Mapping[float, Series]], largest: float
 ) -> None:
     """Draw cells by angle and pawl, coloured and numbered."""
     means = {
-        key.n_p2: {angle: float(peaks.mean(each).mean) for angle, each in angles.items()}
+        key.n_p2: {angle: float(each.mean()) for angle, each in angles.items()}
         for key, angles in part.items()
     }
     cells = DataFrame(means).sort_index().T.sort_index(ascending=False)  # by pawl and angle
@@ -242,52 +213,3 @@ def _draw_peaks(
     look: Look = {"cmap": _COLORS, "vmin": 0.0, "vmax": largest, "cbar": False}
     heatmap(cells, ax=ax, annot=True, fmt=".1f", **look)
     ax.tick_params(length=0.0, rotation=0.0)
-
-
-def beyond_precursors(ensembles: Folders) -> Figure:
-    """Draw a) clusters of precursors beside those expected by chance and b) c(r) by angle."""
-    found = _by_scene(ensembles)
-    picture, (left, right) = style.panels(style.DOUBLE, 73.0, "ab")
-    _draw_clusters(left, found)
-    _draw_angles(right, found)
-    return picture
-
-
-def _draw_clusters(ax: Axes, ensembles: Ensembles) -> None:
-    rng = np.random.default_rng(0)
-    for scene, runs in clusters.surfaces(ensembles).items():
-        if scene.n_p2 or scene.n_p not in _SHOWN:
-            continue
-        masks = [clusters.precursors(run) for run in runs]
-        color = style.pillar_looks(_SHOWN)[scene.n_p]["color"]
-        anywhere = [clusters.shuffled(mask, scene.contact, rng) for mask in masks]
-        _draw_shares(ax, masks, color, linestyle="-", label=style.pillar_name(scene.n_p))
-        _draw_shares(ax, anywhere, color, linestyle="--", linewidth=0.7)
-        _draw_shares(ax, clusters.mixed(masks, rng), color, linestyle=":", linewidth=0.9)
-    ax.set(
-        xlabel="size of the cluster (blocks)",
-        ylabel="share of precursors in clusters ≥ size",
-    )
-    ax.set(xscale="log", xlim=(0.9, 3000.0), ylim=(0.0, 1.03))
-    for line, word in (("-", "observed"), ("--", "random positions"), (":", "same positions")):
-        ax.plot([], [], color=GREY, linestyle=line, label=word)
-    ax.legend(loc="upper right")
-
-
-def _draw_shares(ax: Axes, masks: Iterable[clusters.Mask], color: Any, **look: Any) -> None:
-    """Draw the share of blocks in clusters of a size or more."""
-    sizes = np.concatenate([cluster_sizes(mask) for mask in masks])
-    ax.ecdf(sizes, weights=sizes, complementary=True, color=color, **look)
-
-
-def _draw_angles(ax: Axes, ensembles: Ensembles) -> None:
-    found = sliding.by_angle(ensembles)
-    colors = style.shades(found)
-    for angle, runs in found.items():
-        curve = Correlation(sliding.edges(runs)["grooves"]).interval
-        shown = Interval(*(part[: _LAST + 1] for part in curve))
-        look = {"color": colors[angle], "opacity": 0.12, "label": f"{angle:g}°"} | _DOTS
-        curves.draw_band(ax, range(len(shown.mean)), shown, **look)
-    ax.axhline(0.0, **curves.ZERO)
-    ax.set(xlabel="distance along grooves $r$ (blocks)", ylabel="time correlation $c(r)$")
-    ax.legend(loc="upper right", title="sliding at", ncols=2)

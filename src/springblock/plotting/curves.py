@@ -36,11 +36,9 @@ FRICTION = "static friction"
 LAG = r"$t_\mathrm{max} - t_\mathrm{avg}$ (µs)"
 
 
-def draw_band(
-    ax: Axes, places: ArrayLike, values: Interval, color: Any, opacity: float = BAND, **look: Any
-) -> None:
+def draw_band(ax: Axes, places: ArrayLike, values: Interval, color: Any, **look: Any) -> None:
     """Draw a line of values, (n,), over `places`, and a band over their intervals."""
-    ax.fill_between(places, values.low, values.high, color=color, alpha=opacity, linewidth=0.0)
+    ax.fill_between(places, values.low, values.high, color=color, alpha=BAND, linewidth=0.0)
     ax.plot(places, values.mean, color=color, **look)
 
 

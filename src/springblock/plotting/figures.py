@@ -208,15 +208,14 @@ FIGURES: dict[str, Declaration] = {
         significantly from it.""",
     ),
     "beyond_disorder": Declaration(
-        title="Scatter of thresholds and of friction",
+        title="Scatter of thresholds",
         module="beyond",
         caption="""a) Decay length of A exp(-r/l) against the standard deviation of the static
         coefficients, for pillar sizes n_p. b) Static friction against n_p for each standard
-        deviation. c) Variance of static friction between realisations against the number of blocks
-        of the surface.""",
-        groups=("flat", "pillars", "scatter", "variance"),
+        deviation.""",
+        groups=("pillars", "scatter"),
         keys=("folder",),
-        marks="""Bars: 95 % intervals over realisations. c) Grey lines: independent blocks.""",
+        marks="""Bars: 95 % intervals over realisations.""",
     ),
     "beyond_friction": Declaration(
         title="Size of pillars and contact fraction",
@@ -226,8 +225,7 @@ FIGURES: dict[str, Declaration] = {
         groups=("friction",),
         keys=("folder",),
         marks=f"""a) Colours: means; grey lines: constant contact fraction. b) Symbols: means; bars:
-        {INTERVALS}; dashes: additive model with a term for each size and one for each contact
-        fraction.""",
+        {INTERVALS}.""",
     ),
     "beyond_peaks": Declaration(
         title="Load peaks by groove width and direction",
@@ -238,17 +236,5 @@ FIGURES: dict[str, Declaration] = {
         groups=("peaks",),
         keys=("folder",),
         marks="""A prominence cannot be negative: the values of light cells are due to scatter.""",
-    ),
-    "beyond_precursors": Declaration(
-        title="Clusters of precursors, and correlation by direction",
-        module="beyond",
-        caption="""a) Share of the precursors in clusters of at least a given size, connected over 4
-        neighbours, against this size. b) Correlation of detachment times along the edges of grooves
-        on pillars against distance, for angles between sliding direction and grooves.""",
-        groups=("flat", "pillars", "grooves", "angles"),
-        keys=("folder",),
-        marks="""a) Solid: observed; dashed: as many contact blocks at random positions; dotted: the
-        same positions, each from another realisation. b) Bands: 95 % intervals over
-        realisations.""",
     ),
 }
