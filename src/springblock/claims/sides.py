@@ -5,7 +5,7 @@ it difficult to estimate. The paper's c_x(r) ~ exp(-r/l_c) leaves the amplitude 
 statements on l_c are tested with exp(-r/l_c) and with A exp(-r/l_c).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import product
 
 import numpy as np
@@ -40,13 +40,6 @@ _BLOCK = 1.0  #: largest difference between correlation lengths that agree, bloc
 _EVENT = 0.005
 _SHORT = 10  #: n_p up to which sides are no longer than a few l_c
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
-_TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
-_LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
-_WITH_GROOVES = f"{_LENGTHS}, with grooves and without"
-_ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
-_PILLARS = "realisations of pillars with n_p of 4 or more"
-_SHORT_PILLARS = "realisations of pillars with n_p of 4 to 10"
-_BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
@@ -68,18 +61,17 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
     return Estimate.of(independent_difference(*ends), min(first.n, second.n))
 
 
-def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """Return the row of l_c along these sides, if it was fitted over the whole range."""
-    return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
+def _correlations(rows: Iterable[Row]) -> dict[tuple[str, int], Estimate]:
+    """Return c(r) by side and r."""
+    return {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
 
 
-def _fitted(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """Return the rows of c(r) along these sides at the distances of the fit."""
-    rows = select(evidence.correlation[scene], side=side)
-    return [row for row in rows if 1 <= row["r"] <= LAST]
+def _lengths(rows: Iterable[Row]) -> dict[str, Estimate]:
+    """Return l_c by side, blocks."""
+    return {row["side"]: interval(row, "l_c") for row in rows}
 
 
-@claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
+@claim("c_x has a long range, c_y a short one", "3.2", 7)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """“[...] while c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range of
     values.”
@@ -89,16 +81,14 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """
     name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
-        far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
-        near = select(rows, side="y", r=1)
-        if len(far) < 2 or not near:
-            continue
-        apart = paired_difference(*(interval(row, "correlation") for row in far))
-        source = in_rows("correlation", scene, r=_FAR)
-        yield Finding(case_of(scene), name, apart, ranges.POSITIVE, source)
-        c_y = interval(near[0], "correlation")
+        c, case = _correlations(rows), case_of(scene)
+        apart, source = (
+            paired_difference(c["x", _FAR], c["y", _FAR]),
+            in_rows("correlation", scene, r=_FAR),
+        )
+        yield Finding(case, name, apart, ranges.POSITIVE, source)
         source = in_rows("correlation", scene, side="y", r=1)
-        yield Finding(case_of(scene), "c_y(r = 1)", c_y, _DECAYED, source)
+        yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, source)
 
 
 def events(times: Array) -> NDArray[np.intp]:
@@ -128,7 +118,7 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
     return relative, mixed(relative)
 
 
-@claim("Sides along the sliding direction detach in larger events", "3.2", 7, _PILLARS)
+@claim("Sides along the sliding direction detach in larger events", "3.2", 7)
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
     """“Although edges parallel to the sliding direction detach slightly after the perpendicular
     ones, their slip involves a larger number of blocks.”
@@ -147,7 +137,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
 
 
-@claim("All blocks of a side detach at the same time on average", "3.2", 7, _BROAD_PILLARS)
+@claim("All blocks of a side detach at the same time on average", "3.2", 7)
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """The detachment times of two points on the same pillar side “have the same average value”.
 
@@ -182,7 +172,7 @@ def misfits(correlation: Array) -> list[Array]:
     return found
 
 
-@claim("Exponential decay of c_x", "3.2", 7, _BROAD_PILLARS)
+@claim("Exponential decay of c_x", "3.2", 7)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """“The correlation functions decreases exponentially, i.e. c_x(r) ~ exp(-r/l_c) [...].”
 
@@ -206,7 +196,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, statistic, apart, claimed)
 
 
-@claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
+@claim("Correlation length of about three blocks or more", "3.2", 7)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """“It is difficult to estimate l_c for n_p ≲ 10 since there are few blocks to fit, however we
     can deduce that l_c/l ≳ 3 [...].”
@@ -214,37 +204,37 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or more.
     The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for both.
     """
-    for scene in pillars(evidence.correlation_length, _BROAD):
-        for fit in _fits(evidence, scene):
-            source = in_rows("correlation_length", scene, side="x")
+    for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
+        source = in_rows("correlation_length", scene, side="x")
+        for fit in select(rows, side="x"):
             lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
             for curve, length in lengths.items():
                 case = {"fit": curve, **case_of(scene)}
                 yield Finding(case, "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
 
 
-@claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
+@claim("Correlation length grows with n_p", "3.2", 7)
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """l_c “is slightly increasing with n_p.”
 
     Tested: from n_p = 20 to the largest pillars.
     """
-    scenes = pillars(evidence.correlation_length, _BROAD)
-    fits = [fit for scene in scenes for fit in _fits(evidence, scene)]
-    if len(fits) < 2:
+    found = pillars(evidence.correlation_length, _BROAD)
+    lengths = {scene.n_p: _lengths(rows)["x"] for scene, rows in found.items()}
+    if len(lengths) < 2:
         return
-    first, last = fits[0], fits[-1]
+    first, *_, last = lengths
     yield Finding(
         {},
-        f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-        unpaired_difference(interval(last, "l_c"), interval(first, "l_c")),
+        f"l_c at n_p = {last} minus l_c at n_p = {first} (from both intervals)",
+        unpaired_difference(lengths[last], lengths[first]),
         ranges.POSITIVE,
-        f"tables/correlation_length: n_p = {first['n_p']} and {last['n_p']}, side = x",
+        f"tables/correlation_length: n_p = {first} and {last}, side = x",
         "blocks",
     )
 
 
-@claim("One event can detach a whole side", "3.2", 7, _SHORT_PILLARS, "existential")
+@claim("One event can detach a whole side", "3.2", 7, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """“[...] when the characteristic correlation length is comparable to the total length of the
     pillars, a slip precursor can lead to the detachment of the whole side of the pillar [...].”
@@ -264,13 +254,13 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
 
 def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
     """Yield the grooved pillars with the most realisations, and the largest ungrooved pillars."""
-    both = slid_both_ways(table)
+    both = [scene for scene in slid_both_ways(table) if scene.n_p >= _BROAD]
     largest = list(pillars(table, _BROAD))[-1:]
     if both and largest:
         yield max(both, key=lambda scene: table[scene][0]["realisations"]), largest[0]
 
 
-@claim("Correlations keep their shape on grooved pillars", "3.3", 7, _WITH_GROOVES)
+@claim("Correlations keep their shape on grooved pillars", "3.3", 7)
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
     """“[...] the correlation functions along the longitudinal edges display the same qualitative
     shape [...].”
@@ -279,21 +269,18 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
     sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
-        whole = {row["r"]: row for row in _fitted(evidence, like)}
-        for side, name in _SIDES.items():
-            for row in _fitted(evidence, scene, side):
-                values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
-                yield Finding(
-                    {"side": name},
-                    f"c(r = {row['r']}) minus that at n_p = {like.n_p} without grooves "
-                    "(from both intervals)",
-                    unpaired_difference(*values),
-                    within(_CLOSE),
-                    in_rows("correlation", scene, side=side),
-                )
+        ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
+        for (side, name), r in product(_SIDES.items(), range(1, LAST + 1)):
+            yield Finding(
+                {"side": name},
+                f"c(r = {r}) minus that at n_p = {like.n_p} without grooves (from both intervals)",
+                unpaired_difference(ours[side, r], theirs["x", r]),
+                within(_CLOSE),
+                in_rows("correlation", scene, side=side),
+            )
 
 
-@claim("Grooves leave the correlation length unchanged", "3.3", 7, _WITH_GROOVES)
+@claim("Grooves leave the correlation length unchanged", "3.3", 7)
 def same_length(evidence: Evidence) -> Iterator[Finding]:
     """“The typical correlation length is also the same.”
 
@@ -301,20 +288,19 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
     along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
-        whole = _fits(evidence, like)
+        ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))
         for side, name in _SIDES.items():
-            for fit in _fits(evidence, scene, side) if whole else []:
-                yield Finding(
-                    {"side": name},
-                    f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
-                    unpaired_difference(interval(fit, "l_c"), interval(whole[0], "l_c")),
-                    within(_BLOCK),
-                    in_rows("correlation_length", scene, side=side),
-                    "blocks",
-                )
+            yield Finding(
+                {"side": name},
+                f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
+                unpaired_difference(ours[side], theirs["x"]),
+                within(_BLOCK),
+                in_rows("correlation_length", scene, side=side),
+                "blocks",
+            )
 
 
-@claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7, _ACROSS)
+@claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7)
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """“[...] if the sliding direction is along the y-axis, most of the precursors are uncorrelated
     [...].”
@@ -323,12 +309,11 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
     sliding along the grooves exceeds; c(r = 1) is not zero.
     """
-    for scene, side in product(slid_both_ways(evidence.correlation), _SIDES):
-        for row in select(evidence.correlation[across(scene)], side=side, r=1):
-            yield Finding(
-                case_of(scene),
-                f"c(r = 1) on {_SIDES[side]} when sliding across the grooves",
-                interval(row, "correlation"),
-                _DECAYED,
-                in_rows("correlation", across(scene), side=side, r=1),
-            )
+    for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
+        yield Finding(
+            case_of(scene),
+            f"c(r = 1) on {name} when sliding across the grooves",
+            _correlations(evidence.correlation[across(scene)])[side, 1],
+            _DECAYED,
+            in_rows("correlation", across(scene), side=side, r=1),
+        )

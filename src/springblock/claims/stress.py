@@ -20,11 +20,6 @@ from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-_GROOVED = "a grooved surface"
-_BOTH_WAYS = f"{_GROOVED} that slides along and across its grooves"
-_PILLARS = "pillars with n_p of 4 or more"
-_SEVERAL = "several pillars with n_p of 4 or more"
-_BOTH_KINDS = "pillars with grooves and the same without"
 _OVER_MEAN = "over the mean stress"
 _DIGITS = 9  #: to which equal stresses agree
 
@@ -63,7 +58,7 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
     return np.mean(pillars_of(evidence.stress[scene][0], scene), axis=0)
 
 
-@claim("Edges bear more before sliding across grooves", "1", 8, _BOTH_WAYS)
+@claim("Edges bear more before sliding across grooves", "1", 8)
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
     """With grooves perpendicular to the sliding direction, “the tangential stress on the edges
     before sliding is larger” than with parallel ones. A result of the authors' paper of 2018 for
@@ -78,7 +73,7 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(name, more - less, ranges.POSITIVE, *scenes)
 
 
-@claim("The smallest pillars bear a uniform stress", "3.2", 4, "pillars with n_p of 2 or 3")
+@claim("The smallest pillars bear a uniform stress", "3.2", 4)
 def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
     """“The case n_p <= 3 is peculiar, since the number of blocks on the pillar is too small to
     induce a non-trivial stress distribution.”
@@ -91,7 +86,7 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
         yield _exactly(name, deviation, ranges.NEGLIGIBLE, scene)
 
 
-@claim("All pillars bear the same stress", "3.2", 4, _SEVERAL, "universal")
+@claim("All pillars bear the same stress", "3.2", 4, "universal")
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
     """“All the pillars [...] are subject to the same stress distributions for n_p >= 4.”
 
@@ -110,7 +105,7 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
             yield _exactly(name, off / usual.std(), ranges.ALIKE, scene)
 
 
-@claim("Edges across the sliding direction bear more", "3.2", 4, _PILLARS)
+@claim("Edges across the sliding direction bear more", "3.2", 4)
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
     """“The longitudinal stress exerted on orthogonal edges is larger than in-plane shear stress
     along parallel ones.”
@@ -145,7 +140,7 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
     return Estimate.of(bootstrap_interval(of_mean, len(maps)), len(maps))
 
 
-@claim("Blocks detach in the order of their stress", "3.2", 5, _PILLARS)
+@claim("Blocks detach in the order of their stress", "3.2", 5)
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
     """“The sequence reflects the initial stress distribution [...].”
 
@@ -161,7 +156,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, name, found, (-ranges.INF, -0.5))
 
 
-@claim("Grooves make stress more uniform", "3.3", 8, _BOTH_KINDS)
+@claim("Grooves make stress more uniform", "3.3", 8)
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """“[...] a hierarchical configuration allows to distribute mechanical stresses more uniformly
     over the surface [...].”
@@ -170,13 +165,14 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     grooves. Its largest value is smaller on all of them.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
-    pairs = [(s, replace(s, n_p2=0, n_s2=0)) for s in surfaces.grooved(evidence.stress)]
-    for scene, plain in (pair for pair in pairs if pair[1] in evidence.stress):
-        ours, theirs = (float(np.nanstd(_modulus(evidence, s))) for s in (scene, plain))
-        yield _exactly(name, ours - theirs, ranges.NEGATIVE, scene, plain)
+    for scene in surfaces.grooved(evidence.stress):
+        plain = replace(scene, n_p2=0, n_s2=0)
+        if plain in evidence.stress:
+            ours, theirs = (float(np.nanstd(_modulus(evidence, s))) for s in (scene, plain))
+            yield _exactly(name, ours - theirs, ranges.NEGATIVE, scene, plain)
 
 
-@claim("External edges bear more than those along grooves", "3.3", 8, _GROOVED)
+@claim("External edges bear more than those along grooves", "3.3", 8)
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
     """“The external edges of the pillars are subjected to larger longitudinal stresses than the
     internal ones along the second-level grooves.”
@@ -192,7 +188,7 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
             yield _exactly(name, parts[part] - internal, ranges.POSITIVE, scene)
 
 
-@claim("The edges are half of a grooved surface", "3.3", 8, _GROOVED)
+@claim("The edges are half of a grooved surface", "3.3", 8)
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
     """“The geometry of these configurations divides the contact surface into two parts of equal
     size [...]: the edge regions where slip precursors originate, and the internal core of the
