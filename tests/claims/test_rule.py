@@ -185,7 +185,7 @@ def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
         (SOME, "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)."),
         (
             SOME,
-            "**Not tested** (universal statement). Missing: surfaces or tables that `config/full.yaml` computes",
+            "**Not tested** (universal statement). Missing: surfaces or tables that `config/full",
         ),
         ([growing([(-1.0, 2.0)], n=1000)], "about 26000 realisations would settle it"),
         ([growing([HOLDS] * 5)], "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
@@ -204,12 +204,12 @@ def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypat
     common |= {"claimed_high": "inf", "case": "n_p = 0"}
     names = {"It grows": "0.5", "It is gone": "0.0"}
     before = [{"claim": name, "claimed_low": low, **common} for name, low in names.items()]
-    monkeypatch.setattr(register, "registered", lambda: before)
+    monkeypatch.setattr(register, "registered", lambda _: before)
     monkeypatch.setattr(register, "reasons", lambda: {"It grows": "0.5 was a slip"})
     text = page(rows(SOME, Evidence()))
     assert "| It grows | range | 0.5 was a slip |" in text
     assert "It is gone" not in text  # not everything needs to be simulated
-    assert "**reproduced** | – | reproduced | depends on |" in text
+    assert "**reproduced** | reproduced | reproduced | depends on |" in text
     before[0]["claimed_low"] = "0.0"
     grows = rows(SOME[:1], Evidence())
     assert "| It grows | test | 0.5 was a slip |" in register.changes(grows)

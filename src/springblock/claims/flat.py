@@ -21,13 +21,9 @@ from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run, first_minimum
 
-_FRONT = 20  #: a larger cluster of detached blocks is a front
-_LATE = 1.01  #: t/t_max at which fronts are counted
 _AFFECTS = 0.1  #: smallest relative change that counts as an effect
-_ALIKE = 0.05  #: relative change below which results are the same
 #: Constants that the paper says affect the number of fronts.
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
-_CORE = 10  #: blocks between the edges of the surface and its core
 _SMALL = 0.2  #: a small difference, in standard deviations (Cohen 1988)
 _PATCH = 5  #: side of the patch taken as a nucleation point, blocks
 _BURST = 0.02  #: window of the detachment rate over t_max
@@ -111,7 +107,7 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
         case = {"E in Pa": dict(scene.varied)["youngs_modulus"]}
         own, paper = (samples.friction(evidence, s) for s in (scene, flat))
-        name, apart = "static friction minus that with the paper's material", within(_ALIKE)
+        name, apart = "static friction minus that with the paper's material", within(0.05)
         more = samples.relative(own, paper, paper)
         yield found_on(scene, f"{name}, over the latter", more, apart, case=case, beside=[flat])
         lag = samples.mean(over_runs(samples.relative_lag, evidence.records[scene]))
@@ -119,9 +115,9 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
 
 
 def fronts(run: Run) -> float:
-    """Return the number of fronts just after t_max."""
-    sizes = cluster_sizes(run.t_det <= _LATE * run.t_max, by_corners=True)  # NaN: never
-    return float(np.count_nonzero(sizes > _FRONT))
+    """Return the number of fronts, clusters of more than 20 detached blocks, at 1.01 t_max."""
+    sizes = cluster_sizes(run.t_det <= 1.01 * run.t_max, by_corners=True)  # NaN: never
+    return float(np.count_nonzero(sizes > 20))
 
 
 @claim("Velocity, pressure and scatter affect the number of fronts", "3.1", 2, "universal")
@@ -203,9 +199,9 @@ def not_all_nucleate(run: Record) -> float:
     trigger a rupture wave front.”
 
     Tested: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
-    neighbour that detaches by t_max. The paper's precursors are all those before t_max, of which the
-    last have no time to trigger a front. Of all of them, 0.263 [0.256, 0.269] have no such
-    neighbour, and the verdict is the same.
+    neighbour that detaches by t_max. The paper's precursors are all those before t_max, but the
+    last of them have no time to trigger a front. Of all of them, 0.263 [0.256, 0.269] have no such
+    neighbour: the verdict is the same.
     """
     alone = np.all(~(samples.neighbours(run.t_det, np.inf) < run.t_max), axis=0)
     return share_of(alone, run.t_det < 0.9 * run.t_max)
@@ -306,7 +302,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"
     for flat, runs in surfaces.flat(evidence.records).items():
         depth = surfaces.from_edge(flat.n_blocks)
-        core = depth >= min(_CORE, flat.n_blocks // 4)
+        core = depth >= min(10, flat.n_blocks // 4)
         times = np.stack([run.t_det for run in runs])
         by_place = Estimate.of(repeatability(times[:, core]), len(times))
         yield found_on(flat, name, by_place, ranges.ALIKE, case={"part": "the core"})

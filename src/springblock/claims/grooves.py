@@ -22,7 +22,6 @@ from springblock.model.scene import Scene
 _STANDS_OUT = 0.01  #: smallest prominence of a load peak over the largest force, as in figure 9
 _TWO_PEAKS, _ONE_PEAK = (_STANDS_OUT, ranges.INF), (-ranges.INF, _STANDS_OUT)
 _LESSER = "the prominence of the lesser peak over the largest force"
-_MANIPULATED = (0.01, ranges.INF)  #: relative change of static friction
 _LASTING = "the time from 10 to 90 % of detachments"
 
 
@@ -194,7 +193,7 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
         if along.n_s2 < along.n_p2:
-            yield samples.paired(evidence, name, samples.static_friction, across(along), along)
+            yield samples.compared(evidence, name, samples.static_friction, across(along), along)
 
 
 @claim("Fronts run faster along grooves", "1", 9)
@@ -208,7 +207,7 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     name = f"{_LASTING} over t_max, along minus across"
     for along in slid_both_ways(evidence.records, 1):
         scenes = along, across(along)
-        yield samples.paired(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)
+        yield samples.compared(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)
 
 
 @claim("The length of pillars changes static friction", "3.3", 9, "existential")
@@ -226,4 +225,4 @@ def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
         change = samples.magnitude(samples.relative(last, first, first))
         sizes = f"from n_p = {shortest.n_p} to {longest.n_p}"
         name = f"the relative change of static friction {sizes}"
-        yield found_on(shortest, name, change, _MANIPULATED, beside=[longest])
+        yield found_on(shortest, name, change, (0.01, ranges.INF), beside=[longest])

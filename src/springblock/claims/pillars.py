@@ -24,11 +24,9 @@ from springblock.simulation.run import Array, Run
 
 _BORDER = 2  #: width of the border, blocks: the outermost ones and those adjacent to them
 _BROAD = 20  #: n_p from which on most blocks of a pillar lie inside the border
-_CORE = 10  #: n_p from which on the inside of a pillar has a centre
 _PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
-_OUTER_QUARTER = (-ranges.INF, 0.25)  #: of a pillar's inside, near the edge
 _PRECURSORS = "the share of contact blocks that detach before t_max"
 _SUPPORTED = "the time with a force above 95 % of its maximum"
 _WIDTH = f"{_SUPPORTED} over t_max"
@@ -159,7 +157,7 @@ def inside(run: Record) -> Array:
     _broad,
     "the share of positions inside the border that are nearer to it than the first "
     f"{_PATCH} x {_PATCH} patch to detach",
-    _OUTER_QUARTER,
+    (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
     """“[...] detachment waves are triggered from nucleation points located near the edge [...].”
@@ -177,7 +175,7 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
     detaching.”
     """
     name = "t_det/t_max of the centre minus that of the area between it and the border"
-    for scene, runs in pillars(evidence.records, _CORE).items():
+    for scene, runs in pillars(evidence.records, 10).items():  # smaller ones have no centre inside
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
         middle = np.zeros((wide, wide), bool)  # half as wide as the inside

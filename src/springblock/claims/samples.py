@@ -141,23 +141,6 @@ def mean_over(
 share_over = partial(mean_over, estimate=share)
 
 
-def paired(
-    evidence: Evidence,
-    statistic: str,
-    quantity: Quantity,
-    first: Scene,
-    second: Scene,
-    claimed: Range = ranges.POSITIVE,
-) -> Finding:
-    """Return the mean difference of a quantity between two scenes of one surface, seed by seed.
-
-    Equal seeds have equal friction coefficients in both.
-    """
-    samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
-    apart = [samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]]
-    return found_on(first, statistic, mean(apart), claimed, beside=[second])
-
-
 def compared(
     evidence: Evidence,
     statistic: str,
@@ -167,9 +150,18 @@ def compared(
     claimed: Range = ranges.POSITIVE,
     case: Case | None = None,
 ) -> Finding:
-    """Return the mean of a quantity over the realisations of one scene minus that of another."""
-    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
-    return found_on(first, statistic, difference(*samples), claimed, case=case, beside=[second])
+    """Return the mean of a quantity over the realisations of one scene minus that of another.
+
+    One surface that slides in two directions is compared seed by seed: equal seeds have equal
+    friction coefficients in both.
+    """
+    runs, others = evidence.records[first], evidence.records[second]
+    if replace(first, direction=second.direction) == second:
+        there = {run.seed: quantity(run) for run in others}
+        apart = mean([quantity(run) - there[run.seed] for run in runs if run.seed in there])
+    else:
+        apart = difference(over_runs(quantity, runs), over_runs(quantity, others))
+    return found_on(first, statistic, apart, claimed, case=case, beside=[second])
 
 
 def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:

@@ -28,13 +28,8 @@ from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-_FAR = 3  #: blocks, the paper's lower bound of the correlation length
-_THREE_OR_MORE = (3.0, INF)  #: blocks
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
-_CLOSE = 0.1  #: largest difference between correlation functions of the same shape
-_EXACT = 0.05  #: largest distance of c(r) from a curve that describes it, half of that
-_BLOCK = 1.0  #: largest difference between correlation lengths that agree, blocks
 #: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
 #: in this time, so that a block is released by its neighbour.
 _EVENT = 0.005
@@ -79,12 +74,12 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10 blocks
     or more.
     """
-    name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
+    name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
         c, case = _correlations(rows), case_of(scene)
         apart, source = (
-            paired_difference(c["x", _FAR], c["y", _FAR]),
-            in_rows("correlation", scene, r=_FAR),
+            paired_difference(c["x", 3], c["y", 3]),
+            in_rows("correlation", scene, r=3),
         )
         yield Finding(case, name, apart, ranges.POSITIVE, source)
         source = in_rows("correlation", scene, side="y", r=1)
@@ -189,7 +184,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
 
         intervals = bootstrap_interval(distances, len(runs))
         names = ("", " minus that from the best power law", " minus that from the best line")
-        claims = ((-INF, _EXACT), ranges.NEGATIVE, ranges.NEGATIVE)
+        claims = ((-INF, 0.05), ranges.NEGATIVE, ranges.NEGATIVE)
         for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
             apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
             statistic = f"the rms distance of c_x from the best exponential{more}"
@@ -210,7 +205,7 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
             lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
             for curve, length in lengths.items():
                 case = {"fit": curve, **case_of(scene)}
-                yield Finding(case, "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
+                yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
 
 
 @claim("Correlation length grows with n_p", "3.2", 7)
@@ -275,7 +270,7 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
                 {"side": name},
                 f"c(r = {r}) minus that at n_p = {like.n_p} without grooves (from both intervals)",
                 unpaired_difference(ours[side, r], theirs["x", r]),
-                within(_CLOSE),
+                within(0.1),
                 in_rows("correlation", scene, side=side),
             )
 
@@ -294,7 +289,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
                 {"side": name},
                 f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
                 unpaired_difference(ours[side], theirs["x"]),
-                within(_BLOCK),
+                within(1.0),
                 in_rows("correlation_length", scene, side=side),
                 "blocks",
             )

@@ -49,13 +49,8 @@ SCHEMA = pa.schema(
         ),
     ]
 )
-_MISSING = Finding(
-    {},
-    "",
-    UNKNOWN,
-    (np.nan, np.nan),
-    f"missing: surfaces or tables that `config/full.yaml` computes, of {ENOUGH} realisations each",
-)
+_WANTED = f"missing: surfaces or tables of `config/full.yaml`, of {ENOUGH} realisations each"
+_MISSING = Finding({}, "", UNKNOWN, (np.nan, np.nan), _WANTED)
 
 
 def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
