@@ -231,7 +231,6 @@ def correlation() -> dict[Scene, list[Row]]:
         scene: [
             {**scene.row, "side": side, "r": r, "realisations": 240}
             | around("correlation", np.exp(-r / decay), 0.005)
-            | around("residual", 0.01, 0.002, prefix="residual")
             for side, decay in sides.items()
             for r in range(9)
         ]
@@ -242,7 +241,7 @@ def correlation() -> dict[Scene, list[Row]]:
 def lengths() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r_last": 6, "realisations": 240}
+            {**scene.row, "side": side, "realisations": 240}
             | around("l_c", value, 0.2)
             | around("tail", value, 0.3, prefix="tail")
             for side, value in sides.items()
@@ -253,14 +252,10 @@ def lengths() -> dict[Scene, list[Row]]:
 
 def precision(bias: float = 1e-4) -> list[Row]:
     common = {"step": 1e-8, "scene": "flat", "quantity": "static_friction", "realisations": 100}
-    found = [("paired", "leapfrog", bias, 1e-4), ("paired", "rk4", bias, 1e-4)]
-    found.append(("reference", "plain rk4", bias, 1e-4))
-    found.append(("scatter", "leapfrog", 0.0, 0.002))
-    return [
-        {**common, "comparison": comparison, "integrator": integrator}
-        | around("error", error, half)
-        for comparison, integrator, error, half in found
-    ]
+    scatter = {"comparison": "scatter", "integrator": "leapfrog"} | around("error", 0.0, 0.002)
+    paired = {"comparison": "paired"} | around("error", bias, 1e-4)
+    methods = "leapfrog", "rk4", "plain rk4"
+    return [common | scatter, *(common | paired | {"integrator": name} for name in methods)]
 
 
 Change = Callable[[Record], dict[str, Any]]  #: what to replace of a realisation
