@@ -52,10 +52,6 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     BARE_ACROSS: (300.0, 0.75, 20.0, []),
     DEEP_ALONG: (300.0, 0.65, 15.0, [(140.0, 0.60), (220.0, 0.61)]),
     DEEP_ACROSS: (300.0, 0.70, 20.0, []),
-}
-
-#: Of grooved pillars that only statements on many lengths are tested on.
-SHORTER_CURVES = {
     SHORTER[0]: (300.0, 0.63, 6.0, [(247.0, 0.60)]),
     SHORTER[1]: (300.0, 0.61, 6.0, [(273.0, 0.59)]),
     WIDER[0]: (300.0, 0.64, 6.0, [(265.0, 0.62)]),
@@ -143,7 +139,7 @@ def grooved(scene: Scene) -> np.ndarray:
 def record(scene: Scene, seed: int) -> Record:
     """A realisation whose force has Gaussian peaks."""
     rng = np.random.default_rng([seed, scene.n_p, scene.level])
-    t_max, friction, width, others = (CURVES | SHORTER_CURVES)[scene]
+    t_max, friction, width, others = CURVES[scene]
     time = np.arange(0.0, 500e-6, 1e-6)
     friction += 0.002 * rng.standard_normal()
     force = sum(

@@ -42,17 +42,6 @@ def records() -> list[Record]:
     return paper.realisations(paper.CURVES)
 
 
-@cache
-def of_all_lengths() -> list[Record]:
-    return records() + paper.realisations(paper.SHORTER_CURVES)
-
-
-def made_for(name: str) -> list[Record]:
-    """Realisations on which the statement is true; some are about pillars of many lengths."""
-    many = name in ("interval_follows_lengths", "pillar_length_matters")
-    return of_all_lengths() if many else records()
-
-
 def judge(claim: Claim, evidence: Evidence) -> str:
     return verdict(claim.form, list(claim.test(evidence)))[0]
 
@@ -227,12 +216,12 @@ STRESS = [
 
 @pytest.mark.parametrize("name", sorted({name for name, *_ in CHANGES + FACTORS}))
 def test_data_as_the_paper_has_them_reproduce_it(name):
-    assert judge(BY_NAME[name], paper.evidence(made_for(name))) == "reproduced"
+    assert judge(BY_NAME[name], paper.evidence(records())) == "reproduced"
 
 
 @pytest.mark.parametrize(("name", "scenes", "change", "expected"), CHANGES)
 def test_other_realisations_change_the_verdict(name, scenes, change, expected):
-    other = paper.evidence(paper.changed(made_for(name), scenes, change))
+    other = paper.evidence(paper.changed(records(), scenes, change))
     assert judge(BY_NAME[name], other) == expected
 
 
@@ -350,7 +339,7 @@ def test_a_bias_beyond_the_scatter_changes_the_verdict(bias, expected):
 
 
 def test_one_realisation_settles_nothing():
-    one = paper.evidence([run for run in of_all_lengths() if run.seed == 0])
+    one = paper.evidence([run for run in records() if run.seed == 0])
     of_realisations = {name for name, *_ in CHANGES} - {"interval_follows_lengths"}
     found = {name: judge(BY_NAME[name], one) for name in of_realisations}
     assert set(found.values()) == {"not settled"}
