@@ -41,7 +41,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     20. The paper does not say how its Runge-Kutta method treats friction within a step: both
     integrators of this study are tested, and the plain Runge-Kutta method, in which friction
     opposes the velocity of each stage. Errors of single runs with the plain method, 2 to 17 %,
-    decrease by less than two fifths with half this step, and hardly at all on grooved surfaces
+    decrease slowly with the step on flat surfaces, and show no convergence on patterned ones
     (`docs/accuracy.md`).
     """
     scatter = select(evidence.precision, comparison="scatter")

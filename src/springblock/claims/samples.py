@@ -138,7 +138,7 @@ def mean_over(
     return made
 
 
-share_over = partial(mean_over, estimate=share)
+share_over = partial(mean_over, estimate=share)  #: its interval stays between 0 and 1
 
 
 def compared(
