@@ -13,7 +13,7 @@ import numpy as np
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import bootstrap_interval, load_peaks
 from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Evidence, Finding, Records, claim
+from springblock.claims.rule import Evidence, Finding, Records
 from springblock.claims.samples import mean_over, over_runs
 from springblock.claims.surfaces import Mask, core, edge, slid_both_ways
 from springblock.io.records import Record
@@ -72,7 +72,6 @@ def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
     return twice_peaked(slid_both_ways(records))
 
 
-@claim("The second load peak sets static friction", "3.3", 9)
 @mean_over(
     _grooved,
     "the share of runs with two load peaks in which the second is higher",
@@ -80,11 +79,7 @@ def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
     estimate=samples.proportion,
 )
 def second_peak_decides(peaks: Peaks) -> float:
-    """“The global static friction [...] is determined by the force reached at the second load peak
-    [...].”
-
-    Tested: the second peak is the higher one in most realisations.
-    """
+    """Tested: the second peak is the higher one in most realisations."""
     return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
 
@@ -107,11 +102,8 @@ def rate_between(peaks: Peaks) -> float:
     return float(detached / (mean_rate(peaks.run) * peaks.apart))
 
 
-@claim("A quiet phase between the load peaks", "3.3", 9)
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] two load peaks separated by an intermediate quasi-static phase [...].”
-
-    Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
+    """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
     peaks or from one peak to the other. In the quietest 0.01 t_avg it also does so on surfaces
     without two load peaks.
     """
@@ -132,42 +124,30 @@ def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
     return float(np.mean(times <= peaks.run.time[peaks.valley]))  # NaN: never
 
 
-@claim("The edges make the first load peak", "3.3", 9)
 @mean_over(_grooved, f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
-    """Slip precursors lead “to a faster detachment of the boundary regions and, consequently, to
-    the first load peak.”
-
-    Tested: more than nine tenths of the edge blocks have detached at the lowest force between the
-    peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks, with
-    one above 0.92 with neither.
+    """Tested: more than nine tenths of the edge blocks have detached at the lowest force between
+    the peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks,
+    with one above 0.92 with neither.
     """
     return share_detached(peaks, edge)
 
 
-@claim("The core rests between the load peaks", "4", 9)
 @mean_over(_grooved, f"the share of blocks off the edges at rest {_AT_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
-    """“In the phase between load peaks [...] the internal regions of the patterning are still at
-    rest [...].”
-
-    Tested: at the lowest force between the peaks more than nine tenths of the blocks off the edges
-    have yet to detach.
+    """Tested: at the lowest force between the peaks more than nine tenths of the blocks off the
+    edges have yet to detach.
     """
     return 1.0 - share_detached(peaks, core)
 
 
-@claim("What has detached slips again between the load peaks", "4", 9)
 @mean_over(
     _grooved,
     "the number of further slips between the load peaks per block detached by then",
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
-    """“[...] the regions involved by precursors events undergo a stick-slip motion after the first
-    detachment.”
-
-    Tested: between the load peaks there is more than one further slip per two of the blocks that
+    """Tested: between the load peaks there is more than one further slip per two of the blocks that
     have detached; one block may slip several times. With one per ten the statement would hold.
     """
     run, between = peaks.run, slice(peaks.first, peaks.second)
@@ -175,22 +155,17 @@ def slips_again(peaks: Peaks) -> float:
     return float(repeated.sum() / np.count_nonzero(run.t_det <= run.time[peaks.valley]))
 
 
-@claim("The surface stays stressed between the load peaks", "4", 9)
 @mean_over(
     _grooved,
     "the lowest force between the load peaks over the normal force, minus the mean mu_dynamic",
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Between the load peaks “the whole contact surface is in a stressed state [...].”
-
-    Tested: it bears more than if all blocks slid; after the second peak it bears less.
-    """
+    """Tested: it bears more than if all blocks slid; after the second peak it bears less."""
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
 
 
-@claim("A small additional force detaches the surface", "4", 9, "existential")
 @mean_over(
     _grooved,
     "the growth of the force from its lowest value between the peaks to 90 % detachment, over "
@@ -198,11 +173,9 @@ def stressed_between_peaks(peaks: Peaks) -> float:
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """The stressed state “can lead to full detachment in the presence of a small additional force.”
-
-    Tested: from its lowest value between the load peaks until nine tenths of the blocks have
-    detached, the force grows by less than a tenth of this value. That is three tenths of the
-    excess of static friction over the mean mu_dynamic.
+    """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
+    detached, the force grows by less than a tenth of this value. That is three tenths of the excess
+    of static friction over the mean mu_dynamic.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     return float(peaks.run.force[peaks.valley : detached + 1].max()) / peaks.lowest - 1.0
@@ -220,13 +193,9 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
     return Estimate.of(bootstrap_interval(of_points, len(x)), len(x))
 
 
-@claim("The lengths control the interval between the load peaks", "3.3", 9)
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """“The time interval between the first and the second peak is controlled by the difference
-    between the length scales.”
-
-    Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs have
-    two peaks. Its growth with pillar length would not require the difference.
+    """Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs
+    have two peaks. Its growth with pillar length would not require the difference.
     """
 
     found = twice_peaked(surfaces.grooved(evidence.records))

@@ -16,10 +16,15 @@ _FOLDER = Path(__file__).parent
 _KINDS = ("form", "range", "cases")  #: registered properties of a statement
 
 
+def table_in(name: str) -> list[list[str]]:
+    """Return the rows of a file that is a table in Markdown."""
+    _, _, *lines = (_FOLDER / name).read_text(encoding="utf-8").splitlines()
+    return [line.strip("| ").split(" | ") for line in lines]
+
+
 def reasons() -> dict[str, str]:
     """Return, by statement, why its test is not the one that was registered."""
-    _, _, *lines = (_FOLDER / "reasons.md").read_text(encoding="utf-8").splitlines()
-    return dict(line.strip("| ").split(" | ") for line in lines)
+    return dict(table_in("reasons.md"))
 
 
 def registered(name: str) -> list[Row]:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any, Literal
+from typing import Any
 
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import students_t
@@ -17,8 +17,6 @@ Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
-#: universal: always, only, all or a superlative; existential: can; general: all others.
-Form = Literal["universal", "general", "existential"]
 
 ENOUGH = 20  #: realisations that a surface needs to be tested
 _POWER = 1.28  #: 90 % quantile of the standard normal distribution
@@ -93,28 +91,15 @@ class Claim:
     """A statement of the paper, and how to test it."""
 
     name: str
-    section: str
-    form: Form
-    statement: str
+    section: str  #: of the paper
+    #: universal: always, only, all or a superlative; existential: can; general: all others.
+    form: str
+    statement: str  #: the paper's words in quotation marks and, after "Tested:", the criterion
     figure: int  #: of the paper, to which the statement refers
     test: Test
 
 
-def claim(name: str, section: str, figure: int, form: Form = "general") -> Callable[[Test], Claim]:
-    """Make a claim of a test, which yields findings from evidence.
-
-    The docstring of the test is the statement: the paper's words in quotation marks and, after
-    "Tested:", the criterion. `section` and `figure` are the paper's.
-    """
-
-    def made(test: Test) -> Claim:
-        statement = " ".join((test.__doc__ or "").split())
-        return Claim(name, section, form, statement, figure, test)
-
-    return made
-
-
-def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
+def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
     """Judge a claim by its findings; return the verdict and the cases where it holds and fails.
 
     A case holds if all its findings hold, and fails if one fails.

@@ -21,7 +21,7 @@ from springblock.analysis.statistics import (
 )
 from springblock.claims import ranges, samples
 from springblock.claims.ranges import INF, PLAIN, SCALED, within
-from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
+from springblock.claims.rule import Evidence, Finding, RowsByScene
 from springblock.claims.samples import found_on, interval
 from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
 from springblock.io.rows import Row, select
@@ -66,13 +66,9 @@ def _lengths(rows: Iterable[Row]) -> dict[str, Estimate]:
     return {row["side"]: interval(row, "l_c") for row in rows}
 
 
-@claim("c_x has a long range, c_y a short one", "3.2", 7)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] while c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range of
-    values.”
-
-    Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10 blocks
-    or more.
+    """Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10
+    blocks or more.
     """
     name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
@@ -113,12 +109,8 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
     return relative, mixed(relative)
 
 
-@claim("Sides along the sliding direction detach in larger events", "3.2", 7)
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """“Although edges parallel to the sliding direction detach slightly after the perpendicular
-    ones, their slip involves a larger number of blocks.”
-
-    Tested: in excess of the number of blocks per event on sides whose blocks come from different
+    """Tested: in excess of the number of blocks per event on sides whose blocks come from different
     realisations, and without the corners. Neighbours that detach within 0.5 % of t_max of each
     other belong to one event.
     """
@@ -132,11 +124,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
 
 
-@claim("All blocks of a side detach at the same time on average", "3.2", 7)
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """The detachment times of two points on the same pillar side “have the same average value”.
-
-    Tested: position explains less than a fifth of the variance of t_det on a side without its
+    """Tested: position explains less than a fifth of the variance of t_det on a side without its
     corners, along the sliding direction and across it. Without three blocks at either end the
     statement would hold.
     """
@@ -167,11 +156,8 @@ def misfits(correlation: Array) -> list[Array]:
     return found
 
 
-@claim("Exponential decay of c_x", "3.2", 7)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """“The correlation functions decreases exponentially, i.e. c_x(r) ~ exp(-r/l_c) [...].”
-
-    Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
+    """Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
     1 + r and from a straight line, each with an amplitude of its own.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -191,13 +177,10 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, statistic, apart, claimed)
 
 
-@claim("Correlation length of about three blocks or more", "3.2", 7)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
-    """“It is difficult to estimate l_c for n_p ≲ 10 since there are few blocks to fit, however we
-    can deduce that l_c/l ≳ 3 [...].”
-
-    Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or more.
-    The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for both.
+    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or
+    more. The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for
+    both.
     """
     for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
         source = in_rows("correlation_length", scene, side="x")
@@ -208,12 +191,8 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
                 yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
 
 
-@claim("Correlation length grows with n_p", "3.2", 7)
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """l_c “is slightly increasing with n_p.”
-
-    Tested: from n_p = 20 to the largest pillars.
-    """
+    """Tested: from n_p = 20 to the largest pillars."""
     found = pillars(evidence.correlation_length, _BROAD)
     lengths = {scene.n_p: _lengths(rows)["x"] for scene, rows in found.items()}
     if len(lengths) < 2:
@@ -229,12 +208,8 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     )
 
 
-@claim("One event can detach a whole side", "3.2", 7, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] when the characteristic correlation length is comparable to the total length of the
-    pillars, a slip precursor can lead to the detachment of the whole side of the pillar [...].”
-
-    Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
+    """Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
     blocks come from different realisations. Neighbours that detach within 0.5 % of t_max of each
     other belong to one event.
     """
@@ -255,12 +230,8 @@ def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
         yield max(both, key=lambda scene: table[scene][0]["realisations"]), largest[0]
 
 
-@claim("Correlations keep their shape on grooved pillars", "3.3", 7)
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] the correlation functions along the longitudinal edges display the same qualitative
-    shape [...].”
-
-    Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
+    """Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
     sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
@@ -275,11 +246,8 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim("Grooves leave the correlation length unchanged", "3.3", 7)
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """“The typical correlation length is also the same.”
-
-    Tested: l_c differs by less than one block from that without grooves, on external sides and
+    """Tested: l_c differs by less than one block from that without grooves, on external sides and
     along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
@@ -295,12 +263,8 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
             )
 
 
-@claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7)
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] if the sliding direction is along the y-axis, most of the precursors are uncorrelated
-    [...].”
-
-    Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
+    """Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
     the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
     sliding along the grooves exceeds; c(r = 1) is not zero.
     """
