@@ -201,7 +201,7 @@ def peaks_apart(run: Record) -> float:
     within(0.5),
 )
 def average_is_propagation(run: Record) -> float:
-    """Tested: it differs from the time of the largest detachment rate by less than half the
+    """Tested: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, from a tenth to nine tenths of the detachments; t_max differs by
     0.77 of it. The verdict is the same for any bound from 0.3 on, and for windows of 0.2 to 5 % of
     t_max.

@@ -163,7 +163,7 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
 
 
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: it changes by more than 1 % from the shortest to the longest pillars."""
+    """Tested: static friction changes by more than 1 % from the shortest to the longest pillars."""
     scenes = sorted(surfaces.grooved(evidence.records), key=lambda s: (s.n_p2, s.n_p))
     for _, group in groupby(scenes, key=attrgetter("n_p2")):
         shortest, *_, longest = [*group] * 2

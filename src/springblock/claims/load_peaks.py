@@ -161,7 +161,7 @@ def slips_again(peaks: Peaks) -> float:
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Tested: it bears more than if all blocks slid; after the second peak it bears less."""
+    """Tested: the surface bears more than if all blocks slid; after the second peak, less."""
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
 

@@ -67,8 +67,8 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on average over pillars and realisations, for the border and for the second ring. The
     corners of the second ring detach after the edges of the border, by 0.008 t_max at n_p = 30 and
-    by more on smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003 [-0.007,
-    0.0004] of t_max.
+    by more on smaller pillars. At n_p = 60 the sign of this delay is open, with
+    -0.003 [-0.007, 0.0004] of t_max.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -96,8 +96,8 @@ def always_in_order(run: Record) -> float:
     ranges.NEARLY_ALL,
 )
 def edges_before_peak(run: Record) -> float:
-    """Tested: more than nine tenths of these blocks detach before t_max. With a bound below 0.74
-    the statement would hold for n_p of 7 and more.
+    """Tested: more than nine tenths of the blocks in the two outermost rings detach before t_max.
+    With a bound below 0.74 the statement would hold for n_p of 7 and more.
     """
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
     return float(early[:, surfaces.from_edge(run.scene.n_p) < _BORDER].mean())
@@ -229,7 +229,7 @@ def _of_all_sizes(evidence: Evidence) -> list[Scene]:
 
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     scenes = _of_all_sizes(evidence)
-    # the size of the minimum is chosen by the same means: small differences would be overrated
+    # The size of the minimum is chosen by the same means, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
         lowest = _lowest(evidence, scenes[1:-1])
         name = f"static friction at n_p = {end.n_p} minus its minimum at n_p = {lowest.n_p}"
@@ -249,8 +249,8 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
-    """Tested: less than a tenth of the blocks are precursors. The two outermost rings alone hold 13
-    % of the blocks at n_p = 60.
+    """Tested: less than a tenth of the blocks are precursors. The two outermost rings alone hold
+    13 % of the blocks at n_p = 60.
     """
     return samples.before_peak(run)
 
