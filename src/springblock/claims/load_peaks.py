@@ -69,6 +69,7 @@ def twice_peaked(records: Records) -> dict[Scene, list[Peaks]]:
 
 
 def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
+    """Return the peaks on grooved pillars along x that were also slid across their grooves."""
     return twice_peaked(slid_both_ways(records))
 
 

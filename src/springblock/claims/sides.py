@@ -73,11 +73,8 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
         c, case = _correlations(rows), case_of(scene)
-        apart, source = (
-            paired_difference(c["x", 3], c["y", 3]),
-            in_rows("correlation", scene, r=3),
-        )
-        yield Finding(case, name, apart, ranges.POSITIVE, source)
+        apart = paired_difference(c["x", 3], c["y", 3])
+        yield Finding(case, name, apart, ranges.POSITIVE, in_rows("correlation", scene, r=3))
         source = in_rows("correlation", scene, side="y", r=1)
         yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, source)
 
