@@ -39,9 +39,8 @@ def verdicts() -> dict[str, Row]:
     That of the registered test on the fresh seeds is `confirmed`.
     """
     fresh = {row["claim"]: row["verdict"] for row in registered("confirmed.csv")}
-    return {
-        row["claim"]: row | {"confirmed": fresh[row["claim"]]} for row in registered("register.csv")
-    }
+    rows = {row["claim"]: row for row in registered("register.csv")}
+    return {name: row | {"confirmed": fresh.get(name, "")} for name, row in rows.items()}
 
 
 def changes(table: Sequence[Row]) -> str:
