@@ -27,7 +27,7 @@ STEPS: dict[str, tuple[str, ...]] = {
     "plot": ("model", "analysis", "mechanism", "plotting"),
     "report": ("model", "analysis", *_PAGES, "plotting", "report"),
 }
-#: Folders whose docstrings are part of the results: the statements of the paper.
+#: Folders whose docstrings are part of the results: the criteria of statements.
 _SAYING = {"claims"}
 
 

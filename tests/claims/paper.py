@@ -52,10 +52,6 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     BARE_ACROSS: (300.0, 0.75, 20.0, []),
     DEEP_ALONG: (300.0, 0.65, 15.0, [(140.0, 0.60), (220.0, 0.61)]),
     DEEP_ACROSS: (300.0, 0.70, 20.0, []),
-}
-
-#: Of grooved pillars that only statements on many lengths are tested on.
-SHORTER_CURVES = {
     SHORTER[0]: (300.0, 0.63, 6.0, [(247.0, 0.60)]),
     SHORTER[1]: (300.0, 0.61, 6.0, [(273.0, 0.59)]),
     WIDER[0]: (300.0, 0.64, 6.0, [(265.0, 0.62)]),
@@ -143,7 +139,7 @@ def grooved(scene: Scene) -> np.ndarray:
 def record(scene: Scene, seed: int) -> Record:
     """A realisation whose force has Gaussian peaks."""
     rng = np.random.default_rng([seed, scene.n_p, scene.level])
-    t_max, friction, width, others = (CURVES | SHORTER_CURVES)[scene]
+    t_max, friction, width, others = CURVES[scene]
     time = np.arange(0.0, 500e-6, 1e-6)
     friction += 0.002 * rng.standard_normal()
     force = sum(
@@ -231,7 +227,6 @@ def correlation() -> dict[Scene, list[Row]]:
         scene: [
             {**scene.row, "side": side, "r": r, "realisations": 240}
             | around("correlation", np.exp(-r / decay), 0.005)
-            | around("residual", 0.01, 0.002, prefix="residual")
             for side, decay in sides.items()
             for r in range(9)
         ]
@@ -242,7 +237,7 @@ def correlation() -> dict[Scene, list[Row]]:
 def lengths() -> dict[Scene, list[Row]]:
     return {
         scene: [
-            {**scene.row, "side": side, "r_last": 6, "realisations": 240}
+            {**scene.row, "side": side, "realisations": 240}
             | around("l_c", value, 0.2)
             | around("tail", value, 0.3, prefix="tail")
             for side, value in sides.items()
@@ -253,14 +248,10 @@ def lengths() -> dict[Scene, list[Row]]:
 
 def precision(bias: float = 1e-4) -> list[Row]:
     common = {"step": 1e-8, "scene": "flat", "quantity": "static_friction", "realisations": 100}
-    found = [("paired", "leapfrog", bias, 1e-4), ("paired", "rk4", bias, 1e-4)]
-    found.append(("reference", "plain rk4", bias, 1e-4))
-    found.append(("scatter", "leapfrog", 0.0, 0.002))
-    return [
-        {**common, "comparison": comparison, "integrator": integrator}
-        | around("error", error, half)
-        for comparison, integrator, error, half in found
-    ]
+    scatter = {"comparison": "scatter", "integrator": "leapfrog"} | around("error", 0.0, 0.002)
+    paired = {"comparison": "paired"} | around("error", bias, 1e-4)
+    methods = "leapfrog", "rk4", "plain rk4"
+    return [common | scatter, *(common | paired | {"integrator": name} for name in methods)]
 
 
 Change = Callable[[Record], dict[str, Any]]  #: what to replace of a realisation

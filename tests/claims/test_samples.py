@@ -29,7 +29,7 @@ def test_a_block_is_isolated_while_its_neighbours_rest():
     t_det[0, 0], t_det[0, 1], t_det[4, 4] = 1.0, 2.0, 1.0
     run = replace(RUN, t_det=t_det, time=4.0 * np.arange(3.0), force=np.array([0.0, 1.0, 0.0]))
     assert isolated(run) == pytest.approx(2 / 3)
-    assert not_all_nucleate.test.__wrapped__(run) == pytest.approx(1 / 3)
+    assert not_all_nucleate.__wrapped__(run) == pytest.approx(1 / 3)
     assert np.isnan(isolated(replace(run, time=0.4 * np.arange(3.0))))
 
 

@@ -1,16 +1,25 @@
-"""The statements of the paper that the study can test, each with its statistics.
+"""The statements of the paper that the study can test, each with its test.
 
-Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. Where the paper compares in
-words ("similar", "uniform", "the same"), the claimed range gives the tolerance.
+Costagliola, Bosia & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525. `statements.md` has the paper's
+words, in quotation marks, and the name of the function that tests them. Its docstring is the
+criterion: where the paper compares in words ("similar", "uniform", "the same"), it gives a
+tolerance.
 """
 
-from operator import attrgetter
-
 from springblock.claims import flat, grooves, load_peaks, pillars, sides, stress
+from springblock.claims.register import table_in
 from springblock.claims.rule import Claim
 
 _CHAPTERS = stress, flat, pillars, sides, grooves, load_peaks
-_MADE = [made for chapter in _CHAPTERS for made in vars(chapter).values()]
+_TESTS = {name: test for chapter in _CHAPTERS for name, test in vars(chapter).items()}
 
-#: In the order of the paper's sections and, within a section, of the chapters.
-CLAIMS = sorted((made for made in _MADE if isinstance(made, Claim)), key=attrgetter("section"))
+
+def _statement(words: str, test: str) -> str:
+    return " ".join(f"{words} {_TESTS[test].__doc__ or ''}".split())
+
+
+#: In the order of the page.
+CLAIMS = [
+    Claim(name, section, form, _statement(words, test), int(figure), _TESTS[test])
+    for test, name, section, figure, form, words in table_in("statements.md")
+]

@@ -6,14 +6,15 @@ divided by t_avg: where the peaks are about equally high, t_max belongs to eithe
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial, wraps
+from functools import partial
 
 import numpy as np
 
-from springblock.analysis.estimate import UNKNOWN, Estimate
+from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import bootstrap_interval, load_peaks
 from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Case, Evidence, Finding, Range, Records, Test, claim
+from springblock.claims.rule import Evidence, Finding, Records
+from springblock.claims.samples import mean_over, over_runs
 from springblock.claims.surfaces import Mask, core, edge, slid_both_ways
 from springblock.io.records import Record
 from springblock.model.scene import Scene
@@ -21,8 +22,6 @@ from springblock.simulation.run import Array, Run
 
 _AT_VALLEY = "at the lowest force between the load peaks"
 _FEWEST = 4  #: surfaces needed for a trend with two lengths
-_PEAKS = "realisations of a grooved surface, slid along and across, with two load peaks"
-_LENGTHS = "four surfaces with pawls and pillars of several lengths along the sliding direction"
 
 
 @dataclass(frozen=True)
@@ -40,9 +39,9 @@ class Peaks:
         return float(self.run.force[self.valley])
 
     @property
-    def sliding(self) -> float:
-        """Return the force when all blocks slide: mean mu_dynamic times the normal force, N."""
-        return self.run.material.mu_dynamic * self.run.normal_force
+    def apart(self) -> float:
+        """Return the time from the first peak to the second, s."""
+        return float(self.run.time[self.second] - self.run.time[self.first])
 
 
 def both_peaks(run: Record) -> Peaks | None:
@@ -60,55 +59,29 @@ def both_peaks(run: Record) -> Peaks | None:
     return Peaks(run, first, first + int(np.argmin(run.force[first:second])), second)
 
 
-Quantity = Callable[[Peaks], float]
+def twice_peaked(records: Records) -> dict[Scene, list[Peaks]]:
+    """Return the peaks of the runs with two load peaks, of scenes where most runs have two."""
+    found = {
+        scene: [peaks for run in runs if (peaks := both_peaks(run))]
+        for scene, runs in records.items()
+    }
+    return {s: peaks for s, peaks in found.items() if len(peaks) > 0.5 * len(records[s])}
 
 
-def with_both_peaks(records: Records, quantity: Quantity) -> Iterator[tuple[Scene, Array]]:
-    """Yield a quantity of the runs with two load peaks, (k,), where most runs have two."""
-    for scene, runs in records.items():
-        found = [peaks for run in runs if (peaks := both_peaks(run))]
-        sample = np.array([quantity(peaks) for peaks in found])
-        sample = sample[np.isfinite(sample)]
-        if len(sample) > 0.5 * len(runs):
-            yield scene, sample
+def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
+    """Return the peaks on grooved pillars along x that were also slid across their grooves."""
+    return twice_peaked(slid_both_ways(records))
 
 
-def _means(
-    evidence: Evidence,
-    statistic: str,
-    quantity: Quantity,
-    claimed: Range,
-    reading: Case | None = None,
-) -> Iterator[Finding]:
-    """Yield the mean of a quantity over the runs with two load peaks, for one reading."""
-    for scene, sample in with_both_peaks(slid_both_ways(evidence.records), quantity):
-        case = {**(reading or {}), **surfaces.case_of(scene)}
-        yield samples.found_on(scene, statistic, samples.mean(sample), claimed, case=case)
-
-
-def mean_between(statistic: str, claimed: Range) -> Callable[[Quantity], Test]:
-    """Make a test of a quantity: its mean over the runs with two load peaks."""
-
-    def made(quantity: Quantity) -> Test:
-        return wraps(quantity)(lambda evidence: _means(evidence, statistic, quantity, claimed))
-
-    return made
-
-
-@claim("The second load peak sets static friction", "3.3", 9, _PEAKS)
-def second_peak_decides(evidence: Evidence) -> Iterator[Finding]:
-    """“The global static friction [...] is determined by the force reached at the second load peak
-    [...].”
-
-    Tested: the second peak is the higher one in most realisations.
-    """
-
-    def higher(peaks: Peaks) -> float:
-        return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
-
-    for scene, sample in with_both_peaks(slid_both_ways(evidence.records), higher):
-        statistic = "the share of runs with two load peaks in which the second is higher"
-        yield samples.found_on(scene, statistic, samples.proportion(sample > 0.0), ranges.MOST)
+@mean_over(
+    _grooved,
+    "the share of runs with two load peaks in which the second is higher",
+    ranges.MOST,
+    estimate=samples.proportion,
+)
+def second_peak_decides(peaks: Peaks) -> float:
+    """Tested: the second peak is the higher one in most realisations."""
+    return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
 
 def mean_rate(run: Run) -> float:
@@ -126,16 +99,12 @@ def quietest_rate(peaks: Peaks, share: float) -> float:
 
 def rate_between(peaks: Peaks) -> float:
     """Return the detachment rate between the load peaks over the mean rate."""
-    run, first, second = peaks.run, peaks.first, peaks.second
-    detached = run.detachments[first:second].sum()
-    return float(detached / (mean_rate(run) * (run.time[second] - run.time[first])))
+    detached = peaks.run.detachments[peaks.first : peaks.second].sum()
+    return float(detached / (mean_rate(peaks.run) * peaks.apart))
 
 
-@claim("A quiet phase between the load peaks", "3.3", 9, _PEAKS)
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] two load peaks separated by an intermediate quasi-static phase [...].”
-
-    Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
+    """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
     peaks or from one peak to the other. In the quietest 0.01 t_avg it also does so on surfaces
     without two load peaks.
     """
@@ -144,8 +113,10 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
         ("the quietest 0.05 t_avg", partial(quietest_rate, share=0.05)),
         ("the whole phase", rate_between),
     ):
-        reading = {"interval": part}
-        yield from _means(evidence, name, quantity, ranges.FEWER_THAN_HALF, reading)
+        for scene, found in _grooved(evidence.records).items():
+            rate = samples.mean(over_runs(quantity, found))
+            case = {"interval": part, **surfaces.case_of(scene)}
+            yield samples.found_on(scene, name, rate, ranges.FEWER_THAN_HALF, case=case)
 
 
 def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
@@ -154,40 +125,30 @@ def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
     return float(np.mean(times <= peaks.run.time[peaks.valley]))  # NaN: never
 
 
-@claim("The edges make the first load peak", "3.3", 9, _PEAKS)
-@mean_between(f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_over(_grooved, f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
-    """Slip precursors lead “to a faster detachment of the boundary regions and, consequently, to
-    the first load peak.”
-
-    Tested: more than nine tenths of the edge blocks have detached at the lowest force between the
-    peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks, with
-    one above 0.92 with neither.
+    """Tested: more than nine tenths of the edge blocks have detached at the lowest force between
+    the peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks,
+    with one above 0.92 with neither.
     """
     return share_detached(peaks, edge)
 
 
-@claim("The core rests between the load peaks", "4", 9, _PEAKS)
-@mean_between(f"the share of blocks off the edges at rest {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_over(_grooved, f"the share of blocks off the edges at rest {_AT_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
-    """“In the phase between load peaks [...] the internal regions of the patterning are still at
-    rest [...].”
-
-    Tested: at the lowest force between the peaks more than nine tenths of the blocks off the edges
-    have yet to detach.
+    """Tested: at the lowest force between the peaks more than nine tenths of the blocks off the
+    edges have yet to detach.
     """
     return 1.0 - share_detached(peaks, core)
 
 
-@claim("What has detached slips again between the load peaks", "4", 9, _PEAKS)
-@mean_between(
-    "the number of further slips between the load peaks per block detached by then", ranges.MOST
+@mean_over(
+    _grooved,
+    "the number of further slips between the load peaks per block detached by then",
+    ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
-    """“[...] the regions involved by precursors events undergo a stick-slip motion after the first
-    detachment.”
-
-    Tested: between the load peaks there is more than one further slip per two of the blocks that
+    """Tested: between the load peaks there is more than one further slip per two of the blocks that
     have detached; one block may slip several times. With one per ten the statement would hold.
     """
     run, between = peaks.run, slice(peaks.first, peaks.second)
@@ -195,31 +156,27 @@ def slips_again(peaks: Peaks) -> float:
     return float(repeated.sum() / np.count_nonzero(run.t_det <= run.time[peaks.valley]))
 
 
-@claim("The surface stays stressed between the load peaks", "4", 9, _PEAKS)
-@mean_between(
+@mean_over(
+    _grooved,
     "the lowest force between the load peaks over the normal force, minus the mean mu_dynamic",
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Between the load peaks “the whole contact surface is in a stressed state [...].”
-
-    Tested: it bears more than if all blocks slid; after the second peak it bears less.
-    """
-    return (peaks.lowest - peaks.sliding) / peaks.run.normal_force
+    """Tested: the surface bears more than if all blocks slid; after the second peak, less."""
+    run = peaks.run
+    return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
 
 
-@claim("A small additional force detaches the surface", "4", 9, _PEAKS, "existential")
-@mean_between(
+@mean_over(
+    _grooved,
     "the growth of the force from its lowest value between the peaks to 90 % detachment, over "
     "this value",
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """The stressed state “can lead to full detachment in the presence of a small additional force.”
-
-    Tested: from its lowest value between the load peaks until nine tenths of the blocks have
-    detached, the force grows by less than a tenth of this value. That is three tenths of the
-    excess of static friction over the mean mu_dynamic.
+    """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
+    detached, the force grows by less than a tenth of this value. That is three tenths of the excess
+    of static friction over the mean mu_dynamic.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     return float(peaks.run.force[peaks.valley : detached + 1].max()) / peaks.lowest - 1.0
@@ -237,28 +194,19 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
     return Estimate.of(bootstrap_interval(of_points, len(x)), len(x))
 
 
-@claim("The lengths control the interval between the load peaks", "3.3", 9, _LENGTHS)
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """“The time interval between the first and the second peak is controlled by the difference
-    between the length scales.”
-
-    Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs have
-    two peaks. Its growth with pillar length would not require the difference.
+    """Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs
+    have two peaks. Its growth with pillar length would not require the difference.
     """
 
-    def apart(peaks: Peaks) -> float:
-        time = peaks.run.time
-        return float(time[peaks.second] - time[peaks.first]) / peaks.run.t_avg
-
-    found = dict(with_both_peaks(surfaces.grooved(evidence.records), apart))
+    found = twice_peaked(surfaces.grooved(evidence.records))
     n_p, n_p2 = (np.array([float(getattr(s, name)) for s in found]) for name in ("n_p", "n_p2"))
     if len(found) < _FEWEST or len(set(n_p)) < 2 or len(set(n_p2)) < 2:
         return
-    y = np.array([sample.mean() for sample in found.values()])
+    times = [np.mean([peaks.apart / peaks.run.t_avg for peaks in each]) for each in found.values()]
     statistic = (
         "the slope with n_p2, at fixed n_p, of the mean time between the load peaks over t_avg "
         f"(interval over {len(found)} surfaces)"
     )
-    change = partial_slope(n_p, n_p2, y) if min(map(len, found.values())) > 1 else UNKNOWN
-    source = surfaces.in_files(*found)
+    change, source = partial_slope(n_p, n_p2, np.array(times)), surfaces.in_files(*found)
     yield Finding({}, statistic, change, ranges.NEGATIVE, source, "1/block", "surfaces")

@@ -13,18 +13,24 @@ from typing import Any
 from springblock.io.rows import Row, markdown_table
 
 _FOLDER = Path(__file__).parent
-_SETS = ("form", "range", "cases")  #: registered properties of a statement
+_KINDS = ("form", "range", "cases")  #: registered properties of a statement
+
+
+def table_in(name: str) -> list[list[str]]:
+    """Return the rows of a file that is a table in Markdown."""
+    _, _, *lines = (_FOLDER / name).read_text(encoding="utf-8").splitlines()
+    return [line.strip("| ").split(" | ") for line in lines]
 
 
 def reasons() -> dict[str, str]:
     """Return, by statement, why its test is not the one that was registered."""
-    _, _, *lines = (_FOLDER / "reasons.md").read_text(encoding="utf-8").splitlines()
-    return dict(line.strip("| ").split(" | ") for line in lines)
+    return dict(table_in("reasons.md"))
 
 
-def registered() -> list[Row]:
-    """Return the rows of the register, all as text."""
-    return _rows("register.csv")
+def registered(name: str) -> list[Row]:
+    """Return the rows of a file of the register, all as text."""
+    with (_FOLDER / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def verdicts() -> dict[str, Row]:
@@ -32,46 +38,39 @@ def verdicts() -> dict[str, Row]:
 
     That of the registered test on the fresh seeds is `confirmed`.
     """
-    fresh = {row["claim"]: row["verdict"] for row in _rows("confirmed.csv")}
-    return {row["claim"]: row | {"confirmed": fresh.get(row["claim"], "")} for row in registered()}
-
-
-def _rows(name: str) -> list[Row]:
-    with (_FOLDER / name).open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    fresh = {row["claim"]: row["verdict"] for row in registered("confirmed.csv")}
+    rows = {row["claim"]: row for row in registered("register.csv")}
+    return {name: row | {"confirmed": fresh.get(name, "")} for name, row in rows.items()}
 
 
 def changes(table: Sequence[Row]) -> str:
     """List in a Markdown table which tests differ from those registered, and why.
 
-    Forms, ranges and cases are compared. A test that differs in its definition alone is listed by
-    its reason; new words for the same test are not.
+    Forms, ranges and cases are compared: what is new counts, since what is absent may not have been
+    simulated. A test that differs in its definition alone is listed by its reason; new words for
+    the same test are not.
     """
-    before, now, why = _statements(registered()), _statements(table), reasons()
+    before, why = registered("register.csv"), reasons()
+    known = {row["claim"] for row in before}
+    new = {(name, kind) for name, kind, _ in _properties(table) - _properties(before)}
     lines = []
-    for name, tested in now.items():
-        difference = _difference(before.get(name), tested)
-        if difference or name in why:
-            lines.append([name, difference or "test", why.get(name, "no reason is given")])
+    for name in dict.fromkeys(row["claim"] for row in table if row["verdict"] != "not tested"):
+        changed = [kind for kind in _KINDS if (name, kind) in new] if name in known else ["new"]
+        if changed or name in why:
+            reason = why.get(name, "no reason is given")
+            lines.append([name, ", ".join(changed) or "test", reason])
     header = ["statement", "changed", "why"]
     return markdown_table(header, lines) if lines else "Nothing has been changed since."
 
 
-def _statements(table: Sequence[Row]) -> dict[str, dict[str, set[Any]]]:
-    """Return the form, ranges and cases of each statement that was tested."""
-    found: dict[str, dict[str, set[Any]]] = {}
-    for row in table:
-        if row["verdict"] == "not tested":
-            continue
-        said = found.setdefault(row["claim"], {name: set() for name in _SETS})
-        said["form"].add(row["form"])
-        said["range"].add((float(row["claimed_low"]), float(row["claimed_high"])))
-        said["cases"].add(row["case"])
-    return found
-
-
-def _difference(before: dict[str, set[Any]] | None, now: dict[str, set[Any]]) -> str:
-    """Name what is new; what is absent may not have been simulated."""
-    if before is None:
-        return "new"
-    return ", ".join(name for name in _SETS if now[name] - before[name])
+def _properties(table: Sequence[Row]) -> set[tuple[str, str, Any]]:
+    """Return statements with the kind and the value of each registered property."""
+    return {
+        (row["claim"], kind, value)
+        for row in table
+        for kind, value in (
+            ("form", row["form"]),
+            ("range", (float(row["claimed_low"]), float(row["claimed_high"]))),
+            ("cases", row["case"]),
+        )
+    }

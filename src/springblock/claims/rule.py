@@ -1,10 +1,10 @@
 """Claims, their findings, and the rule that derives verdicts from intervals."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any, Literal
+from typing import Any
 
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import students_t
@@ -17,17 +17,16 @@ Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table
 Case = Mapping[str, str | int | float]
 Range = tuple[float, float]
-#: universal: always, only, all or a superlative; existential: can; general: all others.
-Form = Literal["universal", "general", "existential"]
 
 ENOUGH = 20  #: realisations that a surface needs to be tested
 _POWER = 1.28  #: 90 % quantile of the standard normal distribution
 _MANY = 10**6  #: effectively infinite number of realisations
+_WORST_FIRST = ("fails", "open", "holds")
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Data that claims are tested on, by scene; data that were not computed are absent."""
+    """Data that claims are tested on; scenes that were not simulated are absent."""
 
     records: Records = field(default_factory=dict)
     correlation: RowsByScene = field(default_factory=dict)
@@ -35,17 +34,6 @@ class Evidence:
     #: Tangential force on each block before the first detachment, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
     precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
-
-
-def enough(found: Mapping[Scene, Sequence[Any]]) -> dict[Scene, Sequence[Any]]:
-    """Leave out scenes with fewer than 20 realisations, one per item or counted in a row."""
-    runs = {scene: _runs(items) for scene, items in found.items()}
-    return {scene: items for scene, items in found.items() if runs[scene] >= ENOUGH}
-
-
-def _runs(items: Sequence[Any]) -> int:
-    counted = isinstance(items[0], Mapping) and "realisations" in items[0]
-    return int(items[0]["realisations"]) if counted else len(items)
 
 
 @dataclass(frozen=True)
@@ -103,31 +91,15 @@ class Claim:
     """A statement of the paper, and how to test it."""
 
     name: str
-    section: str
-    form: Form
-    statement: str
+    section: str  #: of the paper
+    #: universal: always, only, all or a superlative; existential: can; general: all others.
+    form: str
+    statement: str  #: the paper's words in quotation marks and, after "Tested:", the criterion
     figure: int  #: of the paper, to which the statement refers
-    needs: str  #: data that the test needs
     test: Test
 
 
-def claim(
-    name: str, section: str, figure: int, needs: str, form: Form = "general"
-) -> Callable[[Test], Claim]:
-    """Make a claim of a test, which yields findings from evidence.
-
-    The docstring of the test is the statement: the paper's words in quotation marks and, after
-    "Tested:", the criterion. `section` and `figure` are the paper's.
-    """
-
-    def made(test: Test) -> Claim:
-        statement = " ".join((test.__doc__ or "").split())
-        return Claim(name, section, form, statement, figure, needs, test)
-
-    return made
-
-
-def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
+def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
     """Judge a claim by its findings; return the verdict and the cases where it holds and fails.
 
     A case holds if all its findings hold, and fails if one fails.
@@ -139,10 +111,10 @@ def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
     """
     if not findings:
         return "not tested", ""
-    cases = [
-        (case, _together({finding.outcome(len(findings)) for finding in group}))
-        for case, group in groupby(findings, key=lambda finding: finding.case)
-    ]
+    cases = []
+    for case, group in groupby(findings, key=lambda finding: finding.case):
+        outcomes = [finding.outcome(len(findings)) for finding in group]
+        cases.append((case, min(outcomes, key=_WORST_FIRST.index)))
     found = {outcome for _, outcome in cases}
     if form == "existential" and "holds" in found:
         return "reproduced", boundary(cases, "holds")
@@ -155,10 +127,6 @@ def verdict(form: Form, findings: Sequence[Finding]) -> tuple[str, str]:
     if "open" in found:
         return "not settled", boundary(cases, "open")
     return ("reproduced" if "holds" in found else "not reproduced"), ""
-
-
-def _together(found: Collection[str]) -> str:
-    return next(kind for kind in ("fails", "open", "holds") if kind in found)
 
 
 #: A key of a case with its value, as part of a sentence.

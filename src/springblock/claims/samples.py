@@ -1,13 +1,14 @@
 """Samples of one number per realisation, estimates from them, and findings."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import wraps
+from functools import partial, wraps
 from itertools import pairwise
 from operator import attrgetter
+from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from springblock.analysis.estimate import UNKNOWN, Estimate, Proportion
 from springblock.analysis.statistics import (
@@ -24,13 +25,14 @@ from springblock.io.rows import Row
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array, Run
 
+T = TypeVar("T")
 Quantity = Callable[[Record], float]  #: of a realisation
 
 _HIGH = 0.95  #: of the largest force, at which the width of its peak is measured
 static_friction: Quantity = attrgetter("static_friction")
 
 
-def over_runs(quantity: Quantity, runs: Iterable[Record]) -> Array:
+def over_runs(quantity: Callable[[T], float], runs: Iterable[T]) -> Array:
     """Return a number per realisation, (k,), without those for which it is undefined, NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
@@ -58,8 +60,8 @@ def share(sample: ArrayLike) -> Estimate:
     return replace(mean(sample), bounds=(0.0, 1.0))
 
 
-def proportion(flags: NDArray[np.bool_]) -> Estimate:
-    """Return the proportion of true flags, (k,), with its exact interval."""
+def proportion(flags: Array) -> Estimate:
+    """Return the proportion of flags, 0 or 1, (k,), that are 1, with its exact interval."""
     return Proportion.of(proportion_interval(int(np.sum(flags)), len(flags)), len(flags))
 
 
@@ -116,15 +118,15 @@ def found_on(
 
 
 def mean_over(
-    scenes: Callable[[Records], Records],
+    scenes: Callable[[Records], Mapping[Scene, Sequence[T]]],
     statistic: str,
     claimed: Range,
     unit: str = "1",
     estimate: Callable[[Array], Estimate] = mean,
-) -> Callable[[Quantity], Test]:
+) -> Callable[[Callable[[T], float]], Test]:
     """Make a test of a quantity: its mean over the realisations of each scene."""
 
-    def made(quantity: Quantity) -> Test:
+    def made(quantity: Callable[[T], float]) -> Test:
         @wraps(quantity)
         def test(evidence: Evidence) -> Iterator[Finding]:
             for scene, runs in scenes(evidence.records).items():
@@ -136,28 +138,7 @@ def mean_over(
     return made
 
 
-def share_over(
-    scenes: Callable[[Records], Records], statistic: str, claimed: Range
-) -> Callable[[Quantity], Test]:
-    """Make a test of a share, whose interval stays between 0 and 1."""
-    return mean_over(scenes, statistic, claimed, estimate=share)
-
-
-def paired(
-    evidence: Evidence,
-    statistic: str,
-    quantity: Quantity,
-    first: Scene,
-    second: Scene,
-    claimed: Range = ranges.POSITIVE,
-) -> Finding:
-    """Return the mean difference of a quantity between two scenes of one surface, seed by seed.
-
-    Equal seeds have equal friction coefficients in both.
-    """
-    samples = [{run.seed: quantity(run) for run in evidence.records[s]} for s in (first, second)]
-    apart = [samples[0][seed] - samples[1][seed] for seed in samples[0] if seed in samples[1]]
-    return found_on(first, statistic, mean(apart), claimed, beside=[second])
+share_over = partial(mean_over, estimate=share)  #: its interval stays between 0 and 1
 
 
 def compared(
@@ -169,9 +150,18 @@ def compared(
     claimed: Range = ranges.POSITIVE,
     case: Case | None = None,
 ) -> Finding:
-    """Return the mean of a quantity over the realisations of one scene minus that of another."""
-    samples = (over_runs(quantity, evidence.records[scene]) for scene in (first, second))
-    return found_on(first, statistic, difference(*samples), claimed, case=case, beside=[second])
+    """Return the mean of a quantity over the realisations of one scene minus that of another.
+
+    One surface that slides in two directions is compared seed by seed: equal seeds have equal
+    friction coefficients in both.
+    """
+    runs, others = evidence.records[first], evidence.records[second]
+    if replace(first, direction=second.direction) == second:
+        there = {run.seed: quantity(run) for run in others}
+        apart = mean([quantity(run) - there[run.seed] for run in runs if run.seed in there])
+    else:
+        apart = difference(over_runs(quantity, runs), over_runs(quantity, others))
+    return found_on(first, statistic, apart, claimed, case=case, beside=[second])
 
 
 def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:

@@ -5,7 +5,7 @@ it difficult to estimate. The paper's c_x(r) ~ exp(-r/l_c) leaves the amplitude 
 statements on l_c are tested with exp(-r/l_c) and with A exp(-r/l_c).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import product
 
 import numpy as np
@@ -21,32 +21,20 @@ from springblock.analysis.statistics import (
 )
 from springblock.claims import ranges, samples
 from springblock.claims.ranges import INF, PLAIN, SCALED, within
-from springblock.claims.rule import Evidence, Finding, RowsByScene, claim
+from springblock.claims.rule import Evidence, Finding, RowsByScene
 from springblock.claims.samples import found_on, interval
 from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.simulation.run import Array
 
-_FAR = 3  #: blocks, the paper's lower bound of the correlation length
-_THREE_OR_MORE = (3.0, INF)  #: blocks
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
-_CLOSE = 0.1  #: largest difference between correlation functions of the same shape
-_EXACT = 0.05  #: largest distance of c(r) from a curve that describes it, half of that
-_BLOCK = 1.0  #: largest difference between correlation lengths that agree, blocks
 #: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
 #: in this time, so that a block is released by its neighbour.
 _EVENT = 0.005
 _SHORT = 10  #: n_p up to which sides are no longer than a few l_c
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
-_TABLES = "tables of correlation along the sides of pillars with n_p of 10 or more"
-_LENGTHS = "tables of correlation along the sides of pillars with n_p of 20 or more"
-_WITH_GROOVES = f"{_LENGTHS}, with grooves and without"
-_ACROSS = "tables of correlation along grooved pillars that slide across their grooves"
-_PILLARS = "realisations of pillars with n_p of 4 or more"
-_SHORT_PILLARS = "realisations of pillars with n_p of 4 to 10"
-_BROAD_PILLARS = "realisations of pillars with n_p of 20 or more"
 
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
@@ -68,37 +56,27 @@ def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
     return Estimate.of(independent_difference(*ends), min(first.n, second.n))
 
 
-def _fits(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """Return the row of l_c along these sides, if it was fitted over the whole range."""
-    return select(evidence.correlation_length.get(scene, ()), side=side, r_last=LAST)
+def _correlations(rows: Iterable[Row]) -> dict[tuple[str, int], Estimate]:
+    """Return c(r) by side and r."""
+    return {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
 
 
-def _fitted(evidence: Evidence, scene: Scene, side: str = ALONG) -> list[Row]:
-    """Return the rows of c(r) along these sides at the distances of the fit."""
-    rows = select(evidence.correlation[scene], side=side)
-    return [row for row in rows if 1 <= row["r"] <= LAST]
+def _lengths(rows: Iterable[Row]) -> dict[str, Estimate]:
+    """Return l_c by side, blocks."""
+    return {row["side"]: interval(row, "l_c") for row in rows}
 
 
-@claim("c_x has a long range, c_y a short one", "3.2", 7, _TABLES)
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] while c_y(r) decreases rapidly, c_x(r) displays a correlation over a wide range of
-    values.”
-
-    Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10 blocks
-    or more.
+    """Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10
+    blocks or more.
     """
-    name = f"c_x(r = {_FAR}) - c_y(r = {_FAR}) (sum of both intervals)"
+    name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _SHORT).items():
-        far = [row for side in "xy" for row in select(rows, side=side, r=_FAR)]
-        near = select(rows, side="y", r=1)
-        if len(far) < 2 or not near:
-            continue
-        apart = paired_difference(*(interval(row, "correlation") for row in far))
-        source = in_rows("correlation", scene, r=_FAR)
-        yield Finding(case_of(scene), name, apart, ranges.POSITIVE, source)
-        c_y = interval(near[0], "correlation")
+        c, case = _correlations(rows), case_of(scene)
+        apart = paired_difference(c["x", 3], c["y", 3])
+        yield Finding(case, name, apart, ranges.POSITIVE, in_rows("correlation", scene, r=3))
         source = in_rows("correlation", scene, side="y", r=1)
-        yield Finding(case_of(scene), "c_y(r = 1)", c_y, _DECAYED, source)
+        yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, source)
 
 
 def events(times: Array) -> NDArray[np.intp]:
@@ -128,12 +106,8 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
     return relative, mixed(relative)
 
 
-@claim("Sides along the sliding direction detach in larger events", "3.2", 7, _PILLARS)
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """“Although edges parallel to the sliding direction detach slightly after the perpendicular
-    ones, their slip involves a larger number of blocks.”
-
-    Tested: in excess of the number of blocks per event on sides whose blocks come from different
+    """Tested: in excess of the number of blocks per event on sides whose blocks come from different
     realisations, and without the corners. Neighbours that detach within 0.5 % of t_max of each
     other belong to one event.
     """
@@ -147,11 +121,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
 
 
-@claim("All blocks of a side detach at the same time on average", "3.2", 7, _BROAD_PILLARS)
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """The detachment times of two points on the same pillar side “have the same average value”.
-
-    Tested: position explains less than a fifth of the variance of t_det on a side without its
+    """Tested: position explains less than a fifth of the variance of t_det on a side without its
     corners, along the sliding direction and across it. Without three blocks at either end the
     statement would hold.
     """
@@ -182,11 +153,8 @@ def misfits(correlation: Array) -> list[Array]:
     return found
 
 
-@claim("Exponential decay of c_x", "3.2", 7, _BROAD_PILLARS)
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """“The correlation functions decreases exponentially, i.e. c_x(r) ~ exp(-r/l_c) [...].”
-
-    Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
+    """Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
     1 + r and from a straight line, each with an amplitude of its own.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -199,57 +167,46 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
 
         intervals = bootstrap_interval(distances, len(runs))
         names = ("", " minus that from the best power law", " minus that from the best line")
-        claims = ((-INF, _EXACT), ranges.NEGATIVE, ranges.NEGATIVE)
+        claims = ((-INF, 0.05), ranges.NEGATIVE, ranges.NEGATIVE)
         for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
             apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
             statistic = f"the rms distance of c_x from the best exponential{more}"
             yield found_on(scene, statistic, apart, claimed)
 
 
-@claim("Correlation length of about three blocks or more", "3.2", 7, _LENGTHS)
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
-    """“It is difficult to estimate l_c for n_p ≲ 10 since there are few blocks to fit, however we
-    can deduce that l_c/l ≳ 3 [...].”
-
-    Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or more.
-    The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for both.
+    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or
+    more. The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for
+    both.
     """
-    for scene in pillars(evidence.correlation_length, _BROAD):
-        for fit in _fits(evidence, scene):
-            source = in_rows("correlation_length", scene, side="x")
+    for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
+        source = in_rows("correlation_length", scene, side="x")
+        for fit in select(rows, side="x"):
             lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
             for curve, length in lengths.items():
                 case = {"fit": curve, **case_of(scene)}
-                yield Finding(case, "l_c of c_x", length, _THREE_OR_MORE, source, "blocks")
+                yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
 
 
-@claim("Correlation length grows with n_p", "3.2", 7, f"{_LENGTHS} and two sizes")
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """l_c “is slightly increasing with n_p.”
-
-    Tested: from n_p = 20 to the largest pillars.
-    """
-    scenes = pillars(evidence.correlation_length, _BROAD)
-    fits = [fit for scene in scenes for fit in _fits(evidence, scene)]
-    if len(fits) < 2:
+    """Tested: from n_p = 20 to the largest pillars."""
+    found = pillars(evidence.correlation_length, _BROAD)
+    lengths = {scene.n_p: _lengths(rows)["x"] for scene, rows in found.items()}
+    if len(lengths) < 2:
         return
-    first, last = fits[0], fits[-1]
+    first, *_, last = lengths
     yield Finding(
         {},
-        f"l_c at n_p = {last['n_p']} minus l_c at n_p = {first['n_p']} (from both intervals)",
-        unpaired_difference(interval(last, "l_c"), interval(first, "l_c")),
+        f"l_c at n_p = {last} minus l_c at n_p = {first} (from both intervals)",
+        unpaired_difference(lengths[last], lengths[first]),
         ranges.POSITIVE,
-        f"tables/correlation_length: n_p = {first['n_p']} and {last['n_p']}, side = x",
+        f"tables/correlation_length: n_p = {first} and {last}, side = x",
         "blocks",
     )
 
 
-@claim("One event can detach a whole side", "3.2", 7, _SHORT_PILLARS, "existential")
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] when the characteristic correlation length is comparable to the total length of the
-    pillars, a slip precursor can lead to the detachment of the whole side of the pillar [...].”
-
-    Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
+    """Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
     blocks come from different realisations. Neighbours that detach within 0.5 % of t_max of each
     other belong to one event.
     """
@@ -264,71 +221,55 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
 
 def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
     """Yield the grooved pillars with the most realisations, and the largest ungrooved pillars."""
-    both = slid_both_ways(table)
+    both = [scene for scene in slid_both_ways(table) if scene.n_p >= _BROAD]
     largest = list(pillars(table, _BROAD))[-1:]
     if both and largest:
         yield max(both, key=lambda scene: table[scene][0]["realisations"]), largest[0]
 
 
-@claim("Correlations keep their shape on grooved pillars", "3.3", 7, _WITH_GROOVES)
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] the correlation functions along the longitudinal edges display the same qualitative
-    shape [...].”
-
-    Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
+    """Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
     sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
-        whole = {row["r"]: row for row in _fitted(evidence, like)}
-        for side, name in _SIDES.items():
-            for row in _fitted(evidence, scene, side):
-                values = (interval(r, "correlation") for r in (row, whole[row["r"]]))
-                yield Finding(
-                    {"side": name},
-                    f"c(r = {row['r']}) minus that at n_p = {like.n_p} without grooves "
-                    "(from both intervals)",
-                    unpaired_difference(*values),
-                    within(_CLOSE),
-                    in_rows("correlation", scene, side=side),
-                )
+        ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
+        for (side, name), r in product(_SIDES.items(), range(1, LAST + 1)):
+            yield Finding(
+                {"side": name},
+                f"c(r = {r}) minus that at n_p = {like.n_p} without grooves (from both intervals)",
+                unpaired_difference(ours[side, r], theirs["x", r]),
+                within(0.1),
+                in_rows("correlation", scene, side=side),
+            )
 
 
-@claim("Grooves leave the correlation length unchanged", "3.3", 7, _WITH_GROOVES)
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """“The typical correlation length is also the same.”
-
-    Tested: l_c differs by less than one block from that without grooves, on external sides and
+    """Tested: l_c differs by less than one block from that without grooves, on external sides and
     along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
-        whole = _fits(evidence, like)
+        ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))
         for side, name in _SIDES.items():
-            for fit in _fits(evidence, scene, side) if whole else []:
-                yield Finding(
-                    {"side": name},
-                    f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
-                    unpaired_difference(interval(fit, "l_c"), interval(whole[0], "l_c")),
-                    within(_BLOCK),
-                    in_rows("correlation_length", scene, side=side),
-                    "blocks",
-                )
+            yield Finding(
+                {"side": name},
+                f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
+                unpaired_difference(ours[side], theirs["x"]),
+                within(1.0),
+                in_rows("correlation_length", scene, side=side),
+                "blocks",
+            )
 
 
-@claim("Precursors are uncorrelated when sliding across grooves", "3.3", 7, _ACROSS)
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """“[...] if the sliding direction is along the y-axis, most of the precursors are uncorrelated
-    [...].”
-
-    Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
+    """Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
     the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
     sliding along the grooves exceeds; c(r = 1) is not zero.
     """
-    for scene, side in product(slid_both_ways(evidence.correlation), _SIDES):
-        for row in select(evidence.correlation[across(scene)], side=side, r=1):
-            yield Finding(
-                case_of(scene),
-                f"c(r = 1) on {_SIDES[side]} when sliding across the grooves",
-                interval(row, "correlation"),
-                _DECAYED,
-                in_rows("correlation", across(scene), side=side, r=1),
-            )
+    for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
+        yield Finding(
+            case_of(scene),
+            f"c(r = 1) on {name} when sliding across the grooves",
+            _correlations(evidence.correlation[across(scene)])[side, 1],
+            _DECAYED,
+            in_rows("correlation", across(scene), side=side, r=1),
+        )

@@ -1,6 +1,6 @@
 """Surfaces of statements: those simulated, the cases they make, and their parts."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any, TypeVar
@@ -32,8 +32,12 @@ def pillars(table: Mapping[Scene, T], smallest: int = SMALLEST) -> dict[Scene, T
 
 
 def grooved(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
-    """Return scenes of grooved pillars of a level that slide along x, by their lengths."""
-    found = [s for s in table if s.level == level and s.n_p and s.direction == ALONG]
+    """Return scenes of grooved pillars of a level that slide along x, by their lengths.
+
+    Level 1 has grooves from edge to edge of the surface, without pillars.
+    """
+    found = [s for s in table if s.level == level and s.n_p2 and s.direction == ALONG]
+    found = [s for s in found if s.n_p or level == 1]
     found.sort(key=lambda s: (s.n_blocks, s.n_p, s.n_p2, s.n_s2, s.n_p3))
     return {scene: table[scene] for scene in found}
 
@@ -44,14 +48,8 @@ def across(scene: Scene) -> Scene:
 
 
 def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
-    """Return scenes of grooved pillars along x that were also slid across their grooves."""
+    """Return the scenes of `grooved` that were also slid across their grooves."""
     return {s: found for s, found in grooved(table, level).items() if across(s) in table}
-
-
-def bare_grooves(table: Iterable[Scene]) -> list[Scene]:
-    """Return surfaces grooved from edge to edge, without pillars, that slide along the grooves."""
-    found = [s for s in table if s.n_p2 and not s.n_p and s.direction == ALONG]
-    return sorted(found, key=lambda s: (s.n_blocks, s.n_p2, s.n_s2))
 
 
 def case_of(scene: Scene) -> Case:

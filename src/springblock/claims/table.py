@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 
 from springblock.analysis.estimate import UNKNOWN
-from springblock.claims.rule import Claim, Evidence, Finding, describe, verdict
+from springblock.claims.rule import ENOUGH, Claim, Evidence, Finding, describe, verdict
 from springblock.io.rows import Row
 from springblock.io.schemas import column, numbers, texts
 
@@ -49,18 +49,19 @@ SCHEMA = pa.schema(
         ),
     ]
 )
+_WANTED = f"missing: surfaces or tables of `config/full.yaml`, of {ENOUGH} realisations each"
+_MISSING = Finding({}, "", UNKNOWN, (np.nan, np.nan), _WANTED)
 
 
 def rows(claims: Iterable[Claim], evidence: Evidence) -> list[Row]:
-    """Test every claim: a row for each finding, or one that names the missing data."""
+    """Test every claim: a row for each finding, or one without, if data are missing."""
     table: list[Row] = []
     for claim in claims:
         findings = list(claim.test(evidence))
         judged, where = verdict(claim.form, findings)
         same = {"claim": claim.name, "section": claim.section, "form": claim.form}
         same |= {"statement": claim.statement, "verdict": judged, "boundary": where}
-        missing = Finding({}, "", UNKNOWN, (np.nan, np.nan), f"missing: {claim.needs}")
-        table += [same | _measured(each, max(1, len(findings))) for each in findings or [missing]]
+        table += [same | _measured(each, max(1, len(findings))) for each in findings or [_MISSING]]
     return table
 
 

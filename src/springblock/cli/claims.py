@@ -1,7 +1,8 @@
 """springblock claims: verdicts on the paper's statements, as a table and as a page."""
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 import click
@@ -9,36 +10,25 @@ import click
 from springblock.beyond.question import by_scene
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
-from springblock.claims.rule import Evidence, enough
+from springblock.claims.rule import ENOUGH, Evidence
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
 from springblock.cli.options import INPUT, OUTPUT, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
-from springblock.io.records import Record, read_records
+from springblock.io.records import read_records
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array
-
-Records = Mapping[Scene, Sequence[Record]]
 
 
-def _tables(files: Iterable[Path], records: Container[Scene]) -> dict[Scene, list[Row]]:
-    """Return the rows of tables by scene, for scenes in `records`."""
-    found: dict[Scene, list[Row]] = {}
-    for file in files:
-        rows = by_scene(load(file).to_pylist(), Scene.from_row)
-        found |= {scene: rows[scene] for scene in rows if scene in records}
-    return found
+def _rows(tables: Iterable[Path]) -> list[Row]:
+    return list(chain.from_iterable(load(table).to_pylist() for table in tables))
 
 
-def _stress(records: Records) -> dict[Scene, Array]:
-    """Return the stress before any slip on patterned surfaces with the study's constants."""
-    return {
-        scene: elastic_forces(scene, runs[0].material)
-        for scene, runs in records.items()
-        if scene.level and not scene.varied and scene.direction in ("x", "y")
-    }
+def _by_scene(tables: Iterable[Path], scenes: Container[Scene]) -> dict[Scene, list[Row]]:
+    """Return the rows of tables by scene, for some scenes."""
+    found = by_scene(_rows(tables), Scene.from_row)
+    return {scene: rows for scene, rows in found.items() if scene in scenes}
 
 
 _files = partial(click.option, type=INPUT, multiple=True)
@@ -65,15 +55,19 @@ def claims(
 
     Statements whose data are missing are not tested.
     """
-    records = by_scene(read_records(batches))
-    tables = *correlation, *correlation_length
-    refuse_mixture((file, load(file)) for file in (batches[0], *tables))
+    refuse_mixture((file, load(file)) for file in (batches[0], *correlation, *correlation_length))
+    found = by_scene(read_records(batches))
+    records = {scene: runs for scene, runs in found.items() if len(runs) >= ENOUGH}
     evidence = Evidence(
-        records=enough(records),
-        correlation=enough(_tables(correlation, records)),
-        correlation_length=enough(_tables(correlation_length, records)),
-        stress=_stress(records),
-        precision=[row for table in work_precision for row in load(table).to_pylist()],
+        records=records,
+        correlation=_by_scene(correlation, records),
+        correlation_length=_by_scene(correlation_length, records),
+        stress={
+            scene: elastic_forces(scene, runs[0].material)
+            for scene, runs in found.items()
+            if scene.level and not scene.varied and scene.direction in ("x", "y")
+        },
+        precision=_rows(work_precision),
     )
     table = rows(CLAIMS, evidence)
     origin = {"code_version": code_version("claims"), "configuration_digest": configuration}
