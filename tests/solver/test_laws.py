@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from springblock import Material, specification
+from springblock import Material, Setup, Surface, specification
 from springblock.model.law import LawFile
 from springblock.model.material import LAWS
 from springblock.solver import laws
@@ -100,7 +100,9 @@ def test_a_file_of_velocity_weakening_is_the_built_in_law(scale, tmp_path):
             for law in (own, VelocityWeakening(scale))
         )
         assert found == pytest.approx(exact, rel=1e-12)
-    assert specification.Law.of(Material(law=file)).after({}, 1.0, 1.0) == {}  # it has no state
+    surface = Surface([[True]], 1.0, 0.6)
+    problem = specification.Problem(surface, Setup(Material(law=file)), "x")
+    assert problem.after({}, np.ones((1, 1))) == {}  # it has no state
 
 
 def test_of_two_solutions_the_larger_speed_holds():
