@@ -9,7 +9,6 @@ import pytest
 from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
 from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
-from springblock.simulation.checks import snapshot_samples
 from springblock.simulation.run import first_minimum
 
 PAPER = Material()
@@ -219,7 +218,7 @@ def test_invalid_arguments_are_refused_by_name(change, message):
 def test_so_are_more_snapshots_than_memory_holds():
     times = 2e-7 * np.arange(1, 10)
     with pytest.raises(ValueError, match="has 9 times; of 16777216 blocks at most 8 snapshots"):
-        snapshot_samples(times, 2e-7, 4096**2)
+        Setup().plan(np.ones((4096, 4096), bool), 1.0, snapshot_times=times)
 
 
 def pull(**changes):

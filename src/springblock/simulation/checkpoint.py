@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from springblock.files import read_arrays, whole_file
 from springblock.provenance import digest
-from springblock.simulation.checks import check_positive
 from springblock.simulation.motion import Motion
+from springblock.simulation.setup import check_positive
 from springblock.solver.lattice import Samples, State
 
 Array = NDArray[np.float64]

@@ -21,9 +21,8 @@ from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.surface import Surface, as_mask
-from springblock.simulation.checks import check_type
 from springblock.simulation.motion import Motion, SimulationError
-from springblock.simulation.setup import DEFAULT, Setup
+from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
 from springblock.solver.laws import strengths
 
@@ -150,7 +149,7 @@ def compute_prelude(
     check_type("setup", setup, Setup)
     mask, material = as_mask(contact), setup.material
     strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
-    setup.check_length(mask, float(strongest))
+    setup.plan(mask, float(strongest))  # refuses a run that would be too long
     surface = Surface(mask, 1.0, 0.0, periodic)
     motion = Motion.at_rest(surface, setup, direction, cores, keep_peak=True)
     state, blocks, peak = motion.state, motion.state.blocks, motion.state.peak
