@@ -32,7 +32,7 @@ def answer(run):
 
 def skipped(prelude, surface):
     """Sample intervals that a run skips."""
-    motion = Motion.at_rest(surface, Setup(), "x")
+    motion = Motion(surface, Setup(), "x")
     prelude.start(motion, latest=np.inf)
     return motion.samples
 

@@ -64,8 +64,8 @@ class Scene:
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", normalised(self.direction))
         object.__setattr__(self, "varied", in_order(dict(self.varied)))
-        self._check_levels()
         self._check_maps()
+        self._check_levels()
         if not self.mask:
             Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses invalid numbers of blocks
         if self.n_rows == self.n_blocks:
@@ -80,15 +80,18 @@ class Scene:
                     raise ValueError(f"{one} = {getattr(self, one)} needs {other}")
         if self.n_p3 and not self.n_p2:
             raise ValueError(f"n_p3 = {self.n_p3} needs n_p2")
-        along = self.along_3 or ("y" if self.n_p3 else "")
-        if along not in (("x", "y") if self.n_p3 else ("",)):
-            fit = "'x' or 'y'" if self.n_p3 else "left out without n_p3"
-            raise ValueError(f"along_3 must be {fit}, not {self.along_3!r}")
-        object.__setattr__(self, "along_3", along)
+        if self.along_3 and not self.n_p3:
+            raise ValueError(f"along_3 must be left out without n_p3, not {self.along_3!r}")
+        if self.along_3 not in ("", "x", "y"):
+            raise ValueError(f"along_3 must be 'x' or 'y', not {self.along_3!r}")
+        object.__setattr__(self, "along_3", self.along_3 or ("y" if self.n_p3 else ""))
 
     def _check_maps(self) -> None:
         if self.mask and self.names:
-            raise ValueError(f"mask cannot be combined with {', '.join(self.names)}")
+            raise ValueError(
+                f"mask cannot be combined with {', '.join(self.names)}, since it defines all "
+                "blocks in contact; leave out one of them"
+            )
         if self.mask and self.mask.values is not None:
             rows, columns = self.mask.values.shape
             if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
@@ -169,10 +172,7 @@ class Scene:
 
     @property
     def contact(self) -> NDArray[np.bool_]:
-        """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x].
-
-        Raises ValueError if lengths do not fit, or only the name of a mask is known.
-        """
+        """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x]."""
         if self.mask is None:
             return self.pattern.contact
         if self.mask.values is None:
@@ -181,7 +181,7 @@ class Scene:
 
     @property
     def pattern(self) -> Pattern:
-        """The pattern; raises ValueError if its lengths do not fit, or it has a mask instead."""
+        """The pattern of pillars and grooves; a mask has none."""
         if self.mask:
             raise ValueError(f"the mask {self.mask} is not a pattern of pillars and grooves")
         pattern = Pattern.flat(self.n_blocks, self.n_rows or None)
@@ -258,13 +258,13 @@ def in_order(constants: Mapping[str, Any]) -> Varied:
     """Sort constants in the order of `CONSTANTS`, and convert numbers given as text.
 
     Other names come last; they belong to a law from a file, and `Setup.vary` checks them.
-
-    Raises
-    ------
-    ValueError
-        If a name cannot be that of a constant, or a value is not a number.
     """
     for name in constants:
+        if name == "direction":
+            raise ValueError(
+                "direction is not a constant of the material; give it as the option --direction, "
+                "or as the key direction of a group of scenes"
+            )
         if not name.isidentifier():
             raise ValueError(f"unknown constant {name!r}; choose from {', '.join(CONSTANTS)}")
     names = [*CONSTANTS, *sorted(constants.keys() - set(CONSTANTS))]

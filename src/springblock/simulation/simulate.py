@@ -90,7 +90,7 @@ def simulate(
     end, stops = setup.plan(contact, strongest, duration, snapshot_times)
     latest = _LATEST * setup.loading_time(contact, strongest)
 
-    motion = Motion.at_rest(surface, setup, direction, cores)
+    motion = Motion(surface, setup, direction, cores)
     here = conditions(contact, setup, heading(direction), surface.periodic)
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
