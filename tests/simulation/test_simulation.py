@@ -179,7 +179,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"contact": array(False, bool)}, "contact is False everywhere"),
         ({"contact": [[0, 1], [1, -1]]}, "contact must hold bool, or 0 and 1, not -1"),
         ({"mu_static": array(1, bool)}, "mu_static must be an array of real numbers"),
-        ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape \(2, 2\)"),
+        ({"mu_static": array(1.0, shape=(3, 3))}, r"mu_static must have the shape .* = \(2, 2\)"),
         ({"mu_static": math.nan}, "mu_static must be finite and not negative"),
         ({"mu_dynamic": array(1j, complex)}, "mu_dynamic must be an array of real numbers"),
         ({"mu_dynamic": array(-0.1)}, "mu_dynamic must be finite and not negative"),

@@ -18,10 +18,9 @@ def normalised(direction: str | float) -> str:
     """
     if isinstance(direction, str) and direction in _AXES:
         return direction
-    is_number = isinstance(direction, REAL | str) and not isinstance(direction, bool)
     try:
-        angle = float(direction) if is_number else math.nan
-    except ValueError:
+        angle = math.nan if isinstance(direction, bool) else float(direction)
+    except (TypeError, ValueError):
         angle = math.nan
     if not math.isfinite(angle):
         raise ValueError(f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}")

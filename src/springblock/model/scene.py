@@ -14,6 +14,7 @@ from springblock.model.direction import normalised
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.pattern import Pattern
+from springblock.model.surface import as_coefficients
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: lengths of a scene, two per level
 _PATTERN = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
@@ -64,8 +65,8 @@ class Scene:
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", normalised(self.direction))
         object.__setattr__(self, "varied", in_order(dict(self.varied)))
-        self._check_maps()
         self._check_levels()
+        self._check_maps()
         if not self.mask:
             Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses invalid numbers of blocks
         if self.n_rows == self.n_blocks:
@@ -74,6 +75,11 @@ class Scene:
             raise ValueError(f"edges must be {' or '.join(EDGES)}, not {self.edges!r}")
 
     def _check_levels(self) -> None:
+        if self.mask and self.names:
+            raise ValueError(
+                f"mask cannot be combined with {', '.join(self.names)}, since it defines all "
+                "blocks in contact; leave out one of them"
+            )
         for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
             for one, other in ((size, gap), (gap, size)):
                 if getattr(self, one) and not getattr(self, other):
@@ -87,11 +93,6 @@ class Scene:
         object.__setattr__(self, "along_3", self.along_3 or ("y" if self.n_p3 else ""))
 
     def _check_maps(self) -> None:
-        if self.mask and self.names:
-            raise ValueError(
-                f"mask cannot be combined with {', '.join(self.names)}, since it defines all "
-                "blocks in contact; leave out one of them"
-            )
         if self.mask and self.mask.values is not None:
             rows, columns = self.mask.values.shape
             if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
@@ -102,27 +103,15 @@ class Scene:
             object.__setattr__(self, "n_blocks", columns)
             object.__setattr__(self, "n_rows", rows)
         for name in ("mu_static", "mu_dynamic"):
-            self._check_field(name, getattr(self, f"{name}_field"))
+            field = getattr(self, f"{name}_field")
+            for constant in (name, f"{name}_std"):
+                if field and constant in dict(self.varied):
+                    raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
+            if field and field.values is not None:
+                as_coefficients(str(field), field.values, self.contact)  # refuses invalid ones
         idle = {"distribution", "correlation_length"} & dict(self.varied).keys()
         if idle and not self.is_drawn:
             raise ValueError(f"{min(idle)} cannot be varied if all coefficients are from files")
-
-    def _check_field(self, name: str, field: BlockMap | None) -> None:
-        if field is None:
-            return
-        for constant in (name, f"{name}_std"):
-            if constant in dict(self.varied):
-                raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
-        if field.values is None:
-            return
-        if field.values.shape != self.shape:
-            raise ValueError(
-                f"{field} must have the shape (N_y, N_x) = {self.shape} of the surface, "
-                f"not {field.values.shape}"
-            )
-        within = field.values[self.contact]
-        if not (np.isfinite(within) & (within >= 0.0)).all():
-            raise ValueError(f"{field} must be finite and not negative on all blocks in contact")
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> "Scene":

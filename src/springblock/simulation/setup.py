@@ -145,17 +145,17 @@ class Setup:
                     f"duration must be at least one sample_interval = {interval!r} s, "
                     f"not {duration!r} s"
                 )
-        stops = [
+        at_samples = [
             _whole_multiple("snapshot_times", time, "sample_interval", interval)
             for time in snapshot_times
         ]
-        if stops != sorted(set(stops)):
+        if at_samples != sorted(set(at_samples)):
             raise ValueError("snapshot_times must be in ascending order, without repetition")
-        if stops and stops[-1] > intervals:
+        if at_samples and at_samples[-1] > intervals:
             raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
-        if len(stops) * contact.size > _MOST_IN_SNAPSHOTS:
+        if len(at_samples) * contact.size > _MOST_IN_SNAPSHOTS:
             raise ValueError(
-                f"snapshot_times has {len(stops)} times; of {contact.size} blocks at most "
+                f"snapshot_times has {len(at_samples)} times; of {contact.size} blocks at most "
                 f"{_MOST_IN_SNAPSHOTS // contact.size} snapshots can be kept"
             )
         reason, time = "duration", duration
@@ -174,7 +174,7 @@ class Setup:
                 f"sample_interval = {interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
-        return None if duration is None else int(intervals), stops
+        return None if duration is None else int(intervals), at_samples
 
 
 #: Setup of the paper.

@@ -87,7 +87,7 @@ def simulate(
     check_type("surface", surface, Surface)
     check_type("setup", setup, Setup)
     contact, strongest = surface.contact, surface.strongest
-    end, stops = setup.plan(contact, strongest, duration, snapshot_times)
+    end, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
     latest = _LATEST * setup.loading_time(contact, strongest)
 
     motion = Motion(surface, setup, direction, cores)
@@ -95,7 +95,7 @@ def simulate(
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
         friction = surface.mu_static, surface.mu_dynamic
-        belongs = belonging(here, friction, duration=end, snapshot_times=stops)
+        belongs = belonging(here, friction, duration=end, snapshot_times=at_samples)
         kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
         snapshots = kept.resume(motion)
     if prelude is not None:
@@ -105,19 +105,19 @@ def simulate(
                 "sample_interval"
             )
         if not motion.samples:
-            prelude.start(motion, min([*stops, math.inf if end is None else end]) - 1)
+            prelude.start(motion, min([*at_samples, math.inf if end is None else end]) - 1)
     with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
-        while len(snapshots) < len(stops) or not _is_over(motion, end, latest):
+        while len(snapshots) < len(at_samples) or not _is_over(motion, end, latest):
             pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
             pause = pause if end is None else min(pause, end)
-            for stop in [stop for stop in stops if motion.samples < stop <= pause]:
-                motion.proceed(stop)
+            for sample in [each for each in at_samples if motion.samples < each <= pause]:
+                motion.proceed(sample)
                 snapshots.append(_snapshot(motion))
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
             if kept is not None and kept.is_due:
                 kept.save(motion, snapshots)
-    run = _result(motion, snapshots, stops)
+    run = _result(motion, snapshots, at_samples)
     if kept is not None:
         kept.path.unlink(missing_ok=True)
     return run
@@ -151,7 +151,7 @@ def _snapshot(motion: Motion) -> Array:
     return np.stack([motion.displacement(), velocity, force / setup.material.spacing**2])
 
 
-def _result(motion: Motion, snapshots: list[Array], stops: list[int]) -> Realisation:
+def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Realisation:
     """Return the results in SI units."""
     grid, setup, blocks = motion.constants.grid, motion.setup, motion.state.blocks
     material, step = setup.material, setup.step
@@ -167,7 +167,7 @@ def _result(motion: Motion, snapshots: list[Array], stops: list[int]) -> Realisa
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
     kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
     fields = Fields(
-        time=setup.sample_interval * np.array(stops, float),
+        time=setup.sample_interval * np.array(at_samples, float),
         displacement=kept[:, 0],
         velocity=kept[:, 1],
         stress=kept[:, 2],

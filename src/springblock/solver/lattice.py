@@ -133,29 +133,24 @@ def prepare(
     compliance = step * integrator.force_time(step, material.gamma) / material.mass
     velocity_per_force = compliance / material.spacing
     load = material.block_load * n_y * n_x / np.count_nonzero(contact)  # F_n, N
+    shifts = count(step=9)  # see `aligned`
 
-    fields = count()
-
-    def padded(values: Array, beyond: float) -> Array:
-        lattice = field()
+    def field(values: Array | float = 0.0, beyond: float = 0.0) -> Array:
+        lattice = aligned((n_y + periodic) * int(grid.pitch), next(shifts))
         lattice[:] = beyond
         unpadded(lattice, grid)[:] = values
         return lattice
 
-    def field() -> Array:
-        return aligned((n_y + periodic) * int(grid.pitch), 9 * next(fields))
-
     static = np.maximum(surface.mu_static * load * velocity_per_force, _NO_THRESHOLD)
-    static = np.where(contact, static, 0.0)
     dynamic = surface.mu_dynamic * load * velocity_per_force
     blocks = Blocks(
         ux=field(),
         uy=field(),
         vx=field(),
         vy=field(),
-        t_det=padded(np.full((n_y, n_x), np.inf), np.inf),
-        static=padded(static, 0.0),
-        dynamic=padded(dynamic, np.inf),
+        t_det=field(np.inf, beyond=np.inf),
+        static=field(np.where(contact, static, 0.0)),
+        dynamic=field(dynamic, beyond=np.inf),
     )
     state = State(
         blocks=blocks,
