@@ -108,8 +108,8 @@ class Problem:
         self.fresh = {
             name: np.full(contact.shape, value) for name, value in self.law.initial.items()
         }
-        #: threshold of F_mot on a block at rest: mu_s F_n, or friction at rest if it is larger, N
-        self.f_static = surface.mu_static * self.load
+        self.f_static = surface.mu_static * self.load  #: mu_s F_n, N
+        #: F_c, beyond which a block at rest slides: mu_s F_n, or friction at rest if that is larger
         at_rest = resistance(self, self.fresh, np.zeros(contact.shape)) * self.m / self.tau
         self.f_c = np.maximum(self.f_static, at_rest)
 
