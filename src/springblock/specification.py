@@ -202,7 +202,7 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
     return np.where(bisected | (mean > 0.0), friction_at(mean), np.inf)
 
 
-def release_share(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
+def release_theta(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
     """Share θ of the step that follows a release, (9), from |F_mot| at step k and u at k - 1.
 
     NaN for a block beyond its threshold one step earlier, too, which was at rest for an instant.
@@ -221,7 +221,7 @@ def leapfrog(problem: Problem, state: State) -> State:
     w = a * v + tau / m * force
     w_dot_v = np.sum(v * w, axis=0)
     mean = np.where(w_dot_v > 0.0, v + w, w)
-    end = _share_of_end(problem, state.memory, np.hypot(*v))
+    end = _end_weight(problem, state.memory, np.hypot(*v))
     at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
     friction = resistance(problem, state.memory, np.hypot(*at), -end)
     held = (w_dot_v <= 0.0) & (np.hypot(*force) <= problem.f_static)
@@ -235,7 +235,7 @@ def leapfrog(problem: Problem, state: State) -> State:
 
     # Releases within the step, (9) to (12)
     u_before = u - h * _velocity_before(problem, state.memory, force, new)
-    theta = release_share(problem, np.hypot(*force), u_before, k)
+    theta = release_theta(problem, np.hypot(*force), u_before, k)
     released = contact & slides & (np.hypot(*v) == 0.0) & np.isfinite(theta)
     theta = np.where(released, theta, 0.0)
     t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
@@ -272,7 +272,7 @@ def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
     return {name: np.where(chosen, memory[name], other[name]) for name in memory}
 
 
-def _share_of_end(problem: Problem, memory: Memory, speed: Array) -> Array:
+def _end_weight(problem: Problem, memory: Memory, speed: Array) -> Array:
     """Weight of the velocity after a step in the velocity at which friction is evaluated.
 
     1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
@@ -325,7 +325,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
     # Releases before the step, (9), (12) and (13)
     v = np.where(released, 0.0, v)
     u_before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
-    theta = release_share(problem, size, u_before, k)
+    theta = release_theta(problem, size, u_before, k)
     theta = np.where(np.isnan(theta), 0.5, theta)
     t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
     epsilon = h**2 / m * (problem.k_s + 6.0 * problem.k_int) / 8.0
