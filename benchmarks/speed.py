@@ -112,7 +112,7 @@ class Solver:
         how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
         self.state, self.constants = prepare(Surface(contact, mu_static, mu_dynamic), *how)
         blocks, grid = self.state.blocks, self.constants.grid
-        self.velocity = unpadded(blocks.wx, grid), unpadded(blocks.wy, grid)  # views
+        self.velocity = unpadded(blocks.vx, grid), unpadded(blocks.vy, grid)  # views
         self.velocity[0][:], self.velocity[1][:] = velocity
         self.advance(min(WARM_UP, 1 + BLOCK_STEPS // n**2))
 

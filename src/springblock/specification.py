@@ -11,17 +11,15 @@ compared with it step by step (`tests/validation/test_specification.py`):
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 from inspect import signature
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.direction import heading
 from springblock.model.law import LawFile
-from springblock.model.material import Material
 from springblock.model.surface import Surface
 from springblock.simulation.setup import DEFAULT, Setup
 
@@ -36,76 +34,97 @@ _NEIGHBOURS = [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1,
 _STAGES = ((0.0, 1 / 6, 0.5), (0.5, 1 / 3, 0.5), (0.5, 1 / 3, 1.0), (1.0, 1 / 6, 0.0))
 
 
-@dataclass(frozen=True)
-class Law:
-    """A law of friction; its functions receive constants, state and motion by argument name."""
+# Laws of friction: mu of a sliding block, from arguments that are passed by name. Functions from
+# files have the same form.
 
-    friction: Callable[..., Any]  #: mu of blocks that slide
-    update: Callable[..., Any] | None  #: state after a step, in the order of `initial`
-    initial: dict[str, float]  #: state of a block that detaches
+
+def coulomb(mu_dynamic: float) -> float:
+    """Amontons-Coulomb friction, mu_d."""
+    return mu_dynamic
+
+
+def slip_weakening(
+    mu_static: float,
+    mu_dynamic: float,
+    slip: float,
+    speed: float,
+    step: float,
+    slip_distance: float,
+) -> float:
+    """Linear weakening over d_c; complete at once if a step from rest slips beyond d_c."""
+    if slip <= 1e-12 * speed * step and 0.5 * speed * step >= slip_distance:
+        return mu_dynamic
+    return mu_dynamic + max(mu_static - mu_dynamic, 0.0) * max(1.0 - slip / slip_distance, 0.0)
+
+
+def velocity_weakening(
+    mu_static: float, mu_dynamic: float, speed: float, speed_scale: float
+) -> float:
+    """Friction decreases with speed, at v_c by half of mu_s - mu_d."""
+    return mu_dynamic + max(mu_static - mu_dynamic, 0.0) / (1.0 + speed / speed_scale)
+
+
+def slipped(slip: float, speed: float, step: float) -> float:
+    """Slip since the release of a block."""
+    return slip + speed * step
+
+
+class Law(NamedTuple):
+    """A built-in law, with the attributes of a `LawFile`."""
+
+    friction: Callable[..., float]
     constants: dict[str, Any]
-
-    @classmethod
-    def of(cls, material: Material) -> "Law":
-        """Return the law of a material; functions from a file take numbers, not arrays."""
-        law = material.law
-        if not isinstance(law, LawFile):
-            return cls(LAWS[law], slipped, {"slip": 0.0}, dict(material.items()))
-        return cls(law.friction, law.update if law.initial else None, law.initial, law.constants)
-
-    def call(self, function: Callable[..., Any], memory: Memory, **motion: Any) -> Any:
-        """Call `friction` or `update` with the arguments that it names."""
-        known = {**self.constants, **memory, **motion}
-        arguments = [known[name] for name in signature(function).parameters]
-        return (function if function in OF_ARRAYS else np.vectorize(function))(*arguments)
-
-    def after(self, memory: Memory, speed: Array, step: float) -> Memory:
-        """State after a step at this mean speed."""
-        if self.update is None:
-            return {}
-        after = self.call(self.update, memory, speed=speed, step=step)
-        return dict(zip(self.initial, after if len(self.initial) > 1 else (after,), strict=True))
+    update: Callable[..., float] = slipped
+    initial: dict[str, float] = {"slip": 0.0}  # noqa: RUF012 - never changed
 
 
-@dataclass(frozen=True)
+LAWS: dict[str, Callable[..., float]] = {
+    "coulomb": coulomb,
+    "slip_weakening": slip_weakening,
+    "velocity_weakening": velocity_weakening,
+}
+
+
 class Problem:
-    """Surface, setup and sliding direction of a run, as arguments of `simulate`."""
+    """Surface, setup and sliding direction of a run, as the quantities of its equations."""
 
-    surface: Surface
-    setup: Setup
-    direction: str | float
+    def __init__(self, surface: Surface, setup: Setup, direction: str | float) -> None:
+        material, contact = setup.material, surface.contact
+        self.contact, self.periodic = contact, surface.periodic
+        self.m, self.l, self.gamma = material.mass, material.spacing, material.gamma
+        self.k_int, self.k_s, self.h = material.k_int, material.k_s, setup.step
+        velocity = material.slider_velocity * np.array(heading(direction))
+        self.v_slider = velocity.reshape(2, 1, 1)  #: m/s
+        #: a and tau of (7), s; in the Runge-Kutta method forces act for the whole step
+        self.a = np.exp(-self.gamma * self.h)
+        damped = self.gamma and setup.integrator == "leapfrog"
+        self.tau = (1.0 - self.a) / self.gamma if damped else self.h
+        #: F_n of each block, N: blocks in contact share the whole load, (4)
+        self.load = np.where(contact, material.block_load * contact.size / contact.sum(), 0.0)
+        self.mu = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
+        law = material.law
+        self.law = law if isinstance(law, LawFile) else Law(LAWS[law], dict(material.items()))
+        #: state of blocks that detach
+        self.fresh = {
+            name: np.full(contact.shape, value) for name, value in self.law.initial.items()
+        }
+        self.f_static = surface.mu_static * self.load  #: mu_s F_n, N
+        #: F_c, beyond which a block at rest slides: mu_s F_n, or friction at rest if that is larger
+        at_rest = resistance(self, self.fresh, np.zeros(contact.shape)) * self.m / self.tau
+        self.f_c = np.maximum(self.f_static, at_rest)
 
-    @property
-    def material(self) -> Material:
-        """Material of the setup."""
-        return self.setup.material
+    def call(self, function: Callable[..., Any], memory: Memory, speed: Array, outputs: int) -> Any:
+        """Call `friction` or `update` for each block, with the arguments that it names."""
+        known = {**self.law.constants, **self.mu, **memory, "speed": speed, "step": self.h}
+        arguments = [known[name] for name in signature(function).parameters]
+        return np.vectorize(function, otypes="d" * outputs)(*arguments)
 
-    @cached_property
-    def law(self) -> Law:
-        """Law of the material."""
-        return Law.of(self.material)
-
-    @cached_property
-    def load(self) -> Array:
-        """F_n of each block, N: blocks in contact share the whole load, (4)."""
-        contact = self.surface.contact
-        load = self.material.block_load * contact.size / contact.sum()
-        return np.where(contact, load, 0.0)
-
-    @cached_property
-    def strength(self) -> Array:
-        """mu_s F_n of each block, N."""
-        return self.surface.mu_static * self.load
-
-    @property
-    def fresh(self) -> Memory:
-        """State of blocks that detach."""
-        return {name: np.full_like(self.load, value) for name, value in self.law.initial.items()}
-
-    def slider(self, steps: float) -> Array:
-        """Displacement v t of the slider at t = `steps` h, (2, 1, 1) m."""
-        velocity = self.material.slider_velocity * np.array(heading(self.direction))
-        return velocity.reshape(2, 1, 1) * self.setup.step * steps
+    def after(self, memory: Memory, speed: Array) -> Memory:
+        """State of sliding blocks after a step at this mean speed."""
+        if not memory:
+            return {}
+        after = self.call(self.law.update, memory, speed, len(memory))
+        return dict(zip(memory, after if len(memory) > 1 else (after,), strict=True))
 
 
 @dataclass
@@ -123,45 +142,6 @@ class State:
     path: float = 0.0  #: sum of v² h over blocks and steps, for the viscous heat, m²/s
 
 
-def coulomb(mu_dynamic: Array) -> Array:
-    """Amontons-Coulomb friction, mu_d."""
-    return mu_dynamic
-
-
-def slip_weakening(
-    mu_static: Array,
-    mu_dynamic: Array,
-    slip: Array,
-    speed: Array,
-    step: float,
-    slip_distance: float,
-) -> Array:
-    """Linear weakening over d_c; complete at once if a step from rest slips beyond d_c."""
-    d_c, drop = slip_distance, np.maximum(mu_static - mu_dynamic, 0.0)
-    at_once = (slip <= 1e-12 * speed * step) & (0.5 * speed * step >= d_c)
-    return mu_dynamic + drop * np.where(at_once, 0.0, np.maximum(1.0 - slip / d_c, 0.0))
-
-
-def velocity_weakening(
-    mu_static: Array, mu_dynamic: Array, speed: Array, speed_scale: float
-) -> Array:
-    """Friction decreases with speed, at v_c by half of mu_s - mu_d."""
-    return mu_dynamic + np.maximum(mu_static - mu_dynamic, 0.0) / (1.0 + speed / speed_scale)
-
-
-def slipped(slip: Array, speed: Array, step: float) -> Array:
-    """Slip since the release of a block."""
-    return slip + speed * step
-
-
-LAWS: dict[str, Callable[..., Array]] = {
-    "coulomb": coulomb,
-    "slip_weakening": slip_weakening,
-    "velocity_weakening": velocity_weakening,
-}
-OF_ARRAYS = (*LAWS.values(), slipped)  #: functions that take arrays
-
-
 def follow(
     surface: Surface, setup: Setup = DEFAULT, direction: str | float = "x", steps: int = 1000
 ) -> Iterator[State]:
@@ -169,51 +149,41 @@ def follow(
 
     Other arguments are those of `simulate`.
     """
-    problem, shape = Problem(surface, setup, direction), surface.contact.shape
-    zero, never = np.zeros((2, *shape)), np.full(shape, np.inf)
-    state = State(0, zero, zero, problem.fresh, never)
+    problem, zero = Problem(surface, setup, direction), np.zeros((2, *surface.contact.shape))
+    state = State(0, zero, zero, problem.fresh, np.full(surface.contact.shape, np.inf))
     for _ in range(steps):
         state = INTEGRATORS[setup.integrator](problem, state)
         yield state
 
 
-def spring_force(problem: Problem, u: Array) -> Array:
-    """Sum of F_int over the springs of each block, (2); (2, N_y, N_x) N."""
-    (n_y, n_x), k_int = problem.surface.contact.shape, problem.material.k_int
+def motive_force(problem: Problem, u: Array, steps: float) -> Array:
+    """F_mot at t = `steps` h, (1): F_int of the springs, (2), and F_s, (3); (2, N_y, N_x) N."""
+    n_y, n_x = problem.contact.shape
     y, x = np.mgrid[:n_y, :n_x]
-    force = np.zeros_like(u)
+    force = problem.k_s * (problem.v_slider * problem.h * steps - u)
     for j, i in _NEIGHBOURS:
         there = (y + j) % n_y, (x + i) % n_x
-        joined = problem.surface.periodic | ((y + j == there[0]) & (x + i == there[1]))
-        rest = np.array([i, j], float).reshape(2, 1, 1) * problem.material.spacing
+        joined = problem.periodic | ((y + j == there[0]) & (x + i == there[1]))
+        rest = np.array([i, j], float).reshape(2, 1, 1) * problem.l
         apart = u[:, *there] - u  # r_j - r_i less the rest vector
         length = np.hypot(*(rest + apart))
         # r - L without cancellation: (r² - L²)/(r + L)
         longer = np.sum((2.0 * rest + apart) * apart, axis=0) / (length + np.hypot(*rest))
-        stiffness = k_int if i * j == 0 else k_int / 2.0
+        stiffness = problem.k_int if i * j == 0 else problem.k_int / 2.0
         force += np.where(joined, stiffness * longer / length, 0.0) * (rest + apart)
     return force
 
 
-def motive_force(problem: Problem, u: Array, steps: float) -> Array:
-    """F_mot = F_int + K_s (v t - u) at t = `steps` h, (1) and (3); (2, N_y, N_x) N."""
-    return spring_force(problem, u) + problem.material.k_s * (problem.slider(steps) - u)
-
-
-def resistance(
-    problem: Problem, tau: float, memory: Memory, speed: Array, share: Array | float
-) -> Array:
+def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | float = 0.0) -> Array:
     """Velocity T that friction removes in one step, at the mean speed V = speed + share T.
 
     Of several solutions V the largest is taken, which a decelerating block reaches first. Without a
     solution T is infinite: the block stops. If friction increases with V, the solution is unique.
     """
-    law, surface = problem.law, problem.surface
-    own = {"mu_static": surface.mu_static, "mu_dynamic": surface.mu_dynamic}
 
     def friction_at(mean: Array) -> Array:
-        mu = law.call(law.friction, memory, **own, speed=mean, step=problem.setup.step) + 0.0 * mean
-        return tau / problem.material.mass * problem.load * mu
+        mu = problem.call(problem.law.friction, memory, mean, 1)
+        return problem.tau / problem.m * problem.load * mu
 
     share = np.asarray(share)
     if not share.any():
@@ -232,66 +202,69 @@ def resistance(
     return np.where(bisected | (mean > 0.0), friction_at(mean), np.inf)
 
 
+def release_theta(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
+    """Share θ of the step that follows a release, (9), from |F_mot| at step k and u at k - 1.
+
+    NaN for a block beyond its threshold one step earlier, too, which was at rest for an instant.
+    """
+    before = np.hypot(*motive_force(problem, u_before, k - 1))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        theta = np.maximum(now - problem.f_c, 0.0) / (now - before)
+    return np.where(before <= problem.f_c, theta, np.nan)
+
+
 def leapfrog(problem: Problem, state: State) -> State:
     """Take one step of the leapfrog, (7), with releases by (9) to (12)."""
-    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
-    a = np.exp(-gamma * h)
-    tau = (1.0 - a) / gamma if gamma else h
-    k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
+    m, h, a, tau = problem.m, problem.h, problem.a, problem.tau
+    k, u, v, contact, fresh = state.k, state.u, state.v, problem.contact, problem.fresh
     force = motive_force(problem, u, k)
     w = a * v + tau / m * force
     w_dot_v = np.sum(v * w, axis=0)
     mean = np.where(w_dot_v > 0.0, v + w, w)
-    end = _share_of_end(problem, tau, state.memory, np.hypot(*v))
+    end = _end_weight(problem, state.memory, np.hypot(*v))
     at = np.where(w_dot_v > 0.0, (1.0 - end) * v, 0.0) + end * w
-    friction = resistance(problem, tau, state.memory, np.hypot(*at), -end)
-    fresh = problem.fresh
-    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= problem.strength)
+    friction = resistance(problem, state.memory, np.hypot(*at), -end)
+    held = (w_dot_v <= 0.0) & (np.hypot(*force) <= problem.f_static)
     slides = (np.hypot(*w) > friction) & ~held
     with np.errstate(invalid="ignore"):
         new = np.where(slides, w - friction * mean / np.hypot(*mean), 0.0)
-    memory = _where(slides, problem.law.after(state.memory, np.hypot(*new), h), fresh)
+    memory = _where(slides, problem.after(state.memory, np.hypot(*new)), fresh)
     loss = m / tau * np.sum((w - new) * (v + new), axis=0) * h / 2.0
     t_det = np.where(contact & slides, np.minimum(state.t_det, k * h), state.t_det)
     switched = contact & slides & (w_dot_v <= 0.0)
 
     # Releases within the step, (9) to (12)
-    released = contact & slides & (np.hypot(*v) == 0.0)
-    at_rest = resistance(problem, tau, fresh, 0.0 * w_dot_v, 0.0) * m / tau
-    threshold = np.maximum(problem.strength, at_rest)
-    before = u - h * _velocity_before(problem, tau, state.memory, force, new)
-    before = np.hypot(*motive_force(problem, before, k - 1))
-    released &= before <= threshold
-    theta = np.where(released, np.hypot(*force) - threshold, 0.0)
-    theta = np.maximum(theta, 0.0) / np.where(released, np.hypot(*force) - before, 1.0)
+    u_before = u - h * _velocity_before(problem, state.memory, force, new)
+    theta = release_theta(problem, np.hypot(*force), u_before, k)
+    released = contact & slides & (np.hypot(*v) == 0.0) & np.isfinite(theta)
+    theta = np.where(released, theta, 0.0)
     t_det = np.where(released & (t_det == k * h), (k - theta) * h, t_det)
-    k_int, k_s = problem.material.k_int, problem.material.k_s
-    epsilon = h * tau / m * (k_s + 6.0 * k_int) / 4.0
+    epsilon = h * tau / m * (problem.k_s + 6.0 * problem.k_int) / 4.0
     theta = theta + epsilon * (0.5 - theta)
     slip, speed, size = theta**2 / 2.0 - epsilon / 8.0, 0.5 + theta, np.hypot(*new)
-    memory = _where(released, problem.law.after(fresh, (slip + speed) * size, h), memory)
-    friction_work = m / tau * h * resistance(problem, tau, fresh, 0.5 * size, 0.0) * size
-    credit = 0.125 - epsilon / 8.0 - h * tau / m * (k_s + 3.0 * k_int) / 2.0 * slip**2
+    memory = _where(released, problem.after(fresh, (slip + speed) * size), memory)
+    friction_work = m / tau * h * resistance(problem, fresh, 0.5 * size) * size
+    stiffness = h * tau / m * (problem.k_s + 3.0 * problem.k_int)
+    credit = 0.125 - epsilon / 8.0 - stiffness / 2.0 * slip**2
     heat = friction_work * (slip + (theta - 0.5) / 2.0) + m / tau * h * size**2 * credit
     loss = loss + np.where(released, heat, 0.0)
     u = u + h * np.where(released, slip + speed, 1.0) * new
     v = np.where(released, speed, 1.0) * new
     path = h * float(np.sum(v**2))
-    return _with_ledger(problem, State(k + 1, u, v, memory, t_det), state, switched, loss, path)
+    return _with_ledger(problem, state, State(k + 1, u, v, memory, t_det), switched, loss, path)
 
 
 def _with_ledger(
-    problem: Problem, now: State, before: State, switched: Mask, loss: Array, path: float
+    problem: Problem, before: State, now: State, switched: Mask, loss: Array, path: float
 ) -> State:
     """Return `now` with the ledger of `before` and of this step; `loss` is frictional heat, J."""
-    pull = problem.material.k_s * (problem.slider(now.k) - now.u)
-    return replace(
-        now,
-        switches=before.switches + int(switched.sum()),
-        work=before.work + float(np.sum(pull * problem.slider(1))),
-        heat=before.heat + float(loss[problem.surface.contact].sum()),
-        path=before.path + path,
-    )
+    slide = problem.v_slider * problem.h
+    pull = problem.k_s * (slide * now.k - now.u)
+    now.switches = before.switches + int(switched.sum())
+    now.work = before.work + float(np.sum(pull * slide))
+    now.heat = before.heat + float(loss[problem.contact].sum())
+    now.path = before.path + path
+    return now
 
 
 def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
@@ -299,40 +272,36 @@ def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
     return {name: np.where(chosen, memory[name], other[name]) for name in memory}
 
 
-def _share_of_end(problem: Problem, tau: float, memory: Memory, speed: Array) -> Array:
+def _end_weight(problem: Problem, memory: Memory, speed: Array) -> Array:
     """Weight of the velocity after a step in the velocity at which friction is evaluated.
 
     1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
     """
-    slow = resistance(problem, tau, memory, speed, 0.0)
-    rise = resistance(problem, tau, memory, 2.0 * speed, 0.0) - slow
+    rise = resistance(problem, memory, 2.0 * speed) - resistance(problem, memory, speed)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where((speed > 0.0) & (rise > speed), np.maximum(0.5, 1.0 - speed / rise), 0.5)
 
 
-def _velocity_before(
-    problem: Problem, tau: float, memory: Memory, force: Array, new: Array
-) -> Array:
+def _velocity_before(problem: Problem, memory: Memory, force: Array, new: Array) -> Array:
     """Solve (7) for v, given the velocity after the step; zero for blocks that stop in it."""
-    m, a = problem.material.mass, np.exp(-problem.material.gamma * problem.setup.step)
-    mean = (1.0 + a) * new - tau / m * force
+    a, kick = problem.a, problem.tau / problem.m * force
+    mean = (1.0 + a) * new - kick
     ahead = np.sign(np.sum(mean * new, axis=0))
-    speed = ahead * np.hypot(*mean) / (2.0 * a)
-    friction = resistance(problem, tau, memory, speed, 1.0 / (2.0 * a))
+    friction = resistance(problem, memory, ahead * np.hypot(*mean) / (2.0 * a), 1.0 / (2.0 * a))
     with np.errstate(invalid="ignore"):
         w = new + friction * ahead * mean / np.hypot(*mean)
-    return np.where(new.any(axis=0), (w - tau / m * force) / a, 0.0)
+    return np.where(new.any(axis=0), (w - kick) / a, 0.0)
 
 
 def runge_kutta(problem: Problem, state: State) -> State:
     """Take one step of the Runge-Kutta method, (8), with releases by (9), (12) and (13)."""
-    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
-    k, u, v, contact = state.k, state.u, state.v, problem.surface.contact
+    m, h, gamma = problem.m, problem.h, problem.gamma
+    k, u, v, contact = state.k, state.u, state.v, problem.contact
     force = motive_force(problem, u, k)
     size, rests = np.hypot(*force), contact & (np.hypot(*v) == 0.0)
-    at_rest = resistance(problem, h, state.memory, h / m * size / 2.0, -0.5)
-    friction = np.where(rests, at_rest, resistance(problem, h, state.memory, np.hypot(*v), 0.0))
-    released = rests & (size > problem.strength) & (h / m * size > friction)
+    at_rest = resistance(problem, state.memory, h / m * size / 2.0, -0.5)
+    friction = np.where(rests, at_rest, resistance(problem, state.memory, np.hypot(*v)))
+    released = rests & (size > problem.f_static) & (h / m * size > friction)
     e = _direction(problem, force, v, friction, released)
     stuck = rests & ~released
 
@@ -345,7 +314,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
     for node, weight, reach in _STAGES:
         memory = {"slip": slip + np.sum((stage_u - u) * e, axis=0)}
         v_e = np.sum(stage_v * e, axis=0)
-        friction = resistance(problem, h, memory, np.abs(v_e), 0.0)
+        friction = resistance(problem, memory, np.abs(v_e))
         force = motive_force(problem, stage_u, k + node)
         change = np.where(stuck, 0.0, h / m * force - gamma * h * stage_v - friction * e)
         du, dv = du + weight * h * stage_v, dv + weight * change
@@ -355,14 +324,11 @@ def runge_kutta(problem: Problem, state: State) -> State:
 
     # Releases before the step, (9), (12) and (13)
     v = np.where(released, 0.0, v)
-    threshold = np.maximum(problem.strength, problem.surface.mu_dynamic * problem.load)
-    before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
-    before = np.hypot(*motive_force(problem, before, k - 1))
-    now = np.hypot(*motive_force(problem, u, k))
-    theta = np.maximum(now - threshold, 0.0) / np.where(released, now - before, 1.0)
-    theta = np.where(before <= threshold, theta, 0.5)
+    u_before = np.where(np.hypot(*v) > 0.0, u - h * (v - dv / 2.0), u)
+    theta = release_theta(problem, size, u_before, k)
+    theta = np.where(np.isnan(theta), 0.5, theta)
     t_det = np.where(released, np.minimum(state.t_det, (k - theta) * h), state.t_det)
-    epsilon = h**2 / m * (problem.material.k_s + 6.0 * problem.material.k_int) / 8.0
+    epsilon = h**2 / m * (problem.k_s + 6.0 * problem.k_int) / 8.0
     theta = theta + epsilon * (0.5 - theta)
     extra = np.where(released, theta**2 / 2.0 - 0.125 + theta - 0.5, 0.0)
     du = du + extra * h * a
@@ -372,11 +338,10 @@ def runge_kutta(problem: Problem, state: State) -> State:
     new, u = v + dv, u + du
     turned = contact & (np.sum(new * e, axis=0) <= 0.0)
     lost = np.where(turned, np.sum(new**2, axis=0) / 2.0, 0.0)
-    du_e = np.sum(du * e, axis=0)
-    slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + du_e)
+    slip = np.where(turned, 0.0, np.where(released, 0.0, slip) + np.sum(du * e, axis=0))
     new = np.where(turned, 0.0, new)
     after, loss = State(k + 1, u, new, {"slip": slip}, t_det), m * (friction_work / h + lost)
-    return _with_ledger(problem, after, state, released, loss, path)
+    return _with_ledger(problem, state, after, released, loss, path)
 
 
 def _direction(problem: Problem, force: Array, v: Array, friction: Array, released: Mask) -> Array:
@@ -384,7 +349,7 @@ def _direction(problem: Problem, force: Array, v: Array, friction: Array, releas
 
     Under weakening laws, the velocity in the middle of the step solves the implicit equation.
     """
-    m, h, gamma = problem.material.mass, problem.setup.step, problem.material.gamma
+    m, h, gamma = problem.m, problem.h, problem.gamma
     with np.errstate(invalid="ignore", divide="ignore"):
         ahead = v / np.hypot(*v)
         back = friction if problem.law.friction is coulomb else 0.0
@@ -392,7 +357,7 @@ def _direction(problem: Problem, force: Array, v: Array, friction: Array, releas
         on = np.sum(middle * ahead, axis=0) > 0.0
         sliding = np.where(on, middle / np.hypot(*middle), ahead)
         e = np.where(released, force / np.hypot(*force), sliding)
-    return np.where(problem.surface.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
+    return np.where(problem.contact & (released | (np.hypot(*v) > 0.0)), e, 0.0)
 
 
 INTEGRATORS = {"leapfrog": leapfrog, "rk4": runge_kutta}

@@ -120,14 +120,16 @@ def test_a_rectangle_has_a_draw_for_each_block():
     [
         (
             {"distribution": "uniform", "mu_static_std": 0.6},
-            "no uniform .* mu_static = 1.0 and mu_static_std = 0.6 without negative values; "
-            "mu_static_std must be at most 0.5774",
+            "mu_static_std must be at most 0.5774 with mu_static = 1.0 and .* uniform, .* not 0.6",
         ),
         (
             {"distribution": "weibull", "mu_dynamic": 0.0},
-            "no weibull .*; mu_dynamic must be positive",
+            "mu_dynamic must be positive with the distribution weibull, not 0.0",
         ),
-        ({"distribution": "weibull", "mu_static_std": 20.0}, "must be 1e-5 to 15 times the mean"),
+        (
+            {"distribution": "weibull", "mu_static_std": 20.0},
+            "must be 1e-5 to 15 times mu_static = 1.0 .* not 20.0",
+        ),
         (
             {"correlation_length": 9e-5},
             "must be at most the side of the surface, 8e-05 m, not 9e-05 m",

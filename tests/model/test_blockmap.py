@@ -14,11 +14,13 @@ CORNER = np.array([[1, 1, 0], [0, 0, 0]], bool)  # in contact at the lower left
 
 @pytest.fixture
 def saved(tmp_path):
-    """Save an array as .npy, or as the image that looks like it, and return the file."""
+    """Save an array as .npy or as the image that looks like it, or bytes, and return the file."""
 
     def save(values, name="corner.npy", mode=None):
         file = tmp_path / name
-        if file.suffix == ".npy":
+        if isinstance(values, bytes):
+            file.write_bytes(values)
+        elif file.suffix == ".npy":
             np.save(file, values, allow_pickle=True)
         else:
             image = Image.fromarray(values)
@@ -81,6 +83,8 @@ CLEAR = np.zeros((2, 2, 4), np.uint8)
         (np.ones((1, 4097), bool), "a.png", "is too large; a surface may have at most 4096"),
         (CORNER, "a-00000000.npy", "holds the mask a-.*, not that of its name"),
         (np.ones((0, 3), bool), "a.npy", r"must (have the shape|be an array of numbers)"),
+        (b"no image", "a.png", "is neither an image nor a NumPy array"),
+        (b"P5 64 64 255 torn", "a.png", "cannot be read"),
     ],
 )
 def test_invalid_masks_are_refused_in_one_sentence(saved, values, name, sentence):
@@ -101,28 +105,17 @@ def test_objects_are_never_loaded(tmp_path, monkeypatch):
     assert [file.name for file in tmp_path.iterdir()] == ["trap.npy"]
 
 
-@pytest.mark.parametrize(
-    ("content", "sentence"),
-    [
-        (b"no image", "is neither an image nor a NumPy array"),
-        (b"P5 64 64 255 torn", "cannot be read"),
-        (None, "does not exist"),
-    ],
-)
-def test_a_file_that_is_no_image_is_refused(tmp_path, content, sentence):
-    file = tmp_path / "islands.png"
-    if content:
-        file.write_bytes(content)
-    with pytest.raises(ValueError, match=f"islands.png {sentence}"):
-        BlockMap.mask(file)
-
-
 @pytest.mark.parametrize("values", [CORNER, np.ones((2, 2), complex), np.array([["1"]])])
 def test_coefficients_are_real_numbers(saved, values):
     with pytest.raises(ValueError, match=r"corner.npy must hold real numbers, not "):
         BlockMap.coefficients(saved(values))
-    with pytest.raises(ValueError, match=r"absent.npy does not exist"):
-        BlockMap.coefficients(Path("absent.npy"))
+
+
+@pytest.mark.parametrize("read", [BlockMap.mask, BlockMap.coefficients])
+@pytest.mark.parametrize("name", ["absent.npy", "absent.png"])
+def test_a_missing_file_is_refused(read, name):
+    with pytest.raises(ValueError, match=f"{name} does not exist"):
+        read(Path(name))
 
 
 def test_without_the_reader_a_topography_is_refused(tmp_path, monkeypatch):

@@ -137,7 +137,11 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         ),
         (
             {"mask": replace(CORNER, values=None), **STRIPS},
-            "mask cannot be combined with n_p, n_s, n_p2, n_s2",
+            "mask cannot be combined with n_p, n_s, n_p2, n_s2, since .*; leave out one of them",
+        ),
+        (
+            {"mask": replace(CORNER, values=None), "n_p2": 8},
+            "mask cannot be combined with n_p2, .*",
         ),
         ({"edges": "closed"}, "edges must be free or periodic, not 'closed'"),
         (
@@ -160,6 +164,7 @@ ONES = {"mu_static_field": field(np.ones((120, 120)))}
         (STRIPS | {"along_3": "x"}, "along_3 must be left out without n_p3, not 'x'"),
         (STRIPS | {"n_p3": 8, "n_s3": 2, "along_3": "z"}, "along_3 must be 'x' or 'y', not 'z'"),
         ({"varied": {"a-b": 1}}, "unknown constant 'a-b'; choose from youngs_modulus, .*, step"),
+        ({"varied": {"direction": 30}}, "direction is not a constant .* --direction, .*"),
         ({"varied": {"gamma": "much"}}, "gamma must be a number, not 'much'"),
     ],
 )

@@ -76,6 +76,11 @@ def test_a_continued_run_equals_the_uninterrupted_one(stopped, saved, integrator
     assert answer(pull(**how, checkpoint=file)) == answer(whole)
     assert len(saved) == 80 - TAKEN  # and no more was computed
     assert not file.exists()
+    saved.clear()
+    open_ended = how | {"duration": None}
+    assert answer(pull(**open_ended, checkpoint=stopped(**open_ended))) == answer(
+        pull(**open_ended)
+    )
 
 
 @pytest.mark.parametrize("kept", [True, False])
@@ -83,11 +88,6 @@ def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped, kept):
     prelude = compute_prelude(PILLARS.contact)
     how = {"checkpoint": stopped(prelude=prelude, duration=3e-4), "duration": 3e-4, "cores": 2}
     assert answer(pull(**how, prelude=prelude if kept else None)) == answer(pull(duration=3e-4))
-
-
-def test_a_continued_run_without_duration_ends_at_the_same_time(stopped):
-    file = stopped(duration=None)
-    assert answer(pull(duration=None, checkpoint=file)) == answer(pull(duration=None))
 
 
 @pytest.mark.parametrize(

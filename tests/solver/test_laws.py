@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from numba import njit
 
-from springblock import Material, specification
+from springblock import Material, Setup, Surface, specification
 from springblock.model.law import LawFile
-from springblock.model.material import LAWS
 from springblock.solver import laws
 from springblock.solver.friction import apply_friction
-from springblock.solver.laws import SlipWeakening, VelocityWeakening, from_file, law_of
+from springblock.solver.laws import SlipWeakening, VelocityWeakening, from_file
 
 STATIC, DYNAMIC = 1.0, 0.6
 DROP = STATIC - DYNAMIC
@@ -37,27 +36,6 @@ def released(law, force, static=STATIC):
 
 def slip(d_c, *slips):
     return SlipWeakening(np.array(slips or (0.0, 0.0)), 1.0 / d_c)
-
-
-def test_there_is_a_law_for_each_name():
-    """In units of l and of l per step."""
-    kinds = {"coulomb": type(None), "slip_weakening": SlipWeakening}
-    for name, constant in LAWS.items():
-        material = Material(law=name, **({constant: 2e-6} if constant else {}))
-        law = law_of(material, 1e-8, 1.0, np.ones(3, bool), lambda: np.zeros(3))
-        assert isinstance(law, kinds.get(name, VelocityWeakening))
-    assert law.scale == pytest.approx(2e-6 * 1e-8 / 1e-5, rel=1e-15)
-
-
-@pytest.mark.parametrize("law", [None, slip(0.5, 0.1, 0.2), VelocityWeakening(0.2)])
-def test_python_and_compiled_callers_agree(law):
-    """Python and numba dispatch on the type of the law in different ways."""
-    for s, speed, share in ((0.0, 0.3, -0.5), (0.1, 0.3, 0.0), (9.0, 0.01, -0.5)):
-        plain = laws.resistance(law, s, speed, share, STATIC, DYNAMIC)
-        assert plain == pytest.approx(resistance(law, s, speed, share), rel=1e-15)
-    assert laws.state_of(law, 1) == (law.slip[1] if isinstance(law, SlipWeakening) else 0.0)
-    laws.store_state(law, 1, 0.5, 0.2, True)
-    assert laws.state_of(law, 1) == (0.7 if isinstance(law, SlipWeakening) else 0.0)
 
 
 @pytest.mark.parametrize(
@@ -100,7 +78,9 @@ def test_a_file_of_velocity_weakening_is_the_built_in_law(scale, tmp_path):
             for law in (own, VelocityWeakening(scale))
         )
         assert found == pytest.approx(exact, rel=1e-12)
-    assert specification.Law.of(Material(law=file)).after({}, 1.0, 1.0) == {}  # it has no state
+    surface = Surface([[True]], 1.0, 0.6)
+    problem = specification.Problem(surface, Setup(Material(law=file)), "x")
+    assert problem.after({}, np.ones((1, 1))) == {}  # it has no state
 
 
 def test_of_two_solutions_the_larger_speed_holds():

@@ -50,7 +50,7 @@ def assert_same_to_the_bit(one, other, fields):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
 
 
-MOTION = ("ux", "uy", "wx", "wy", "t_det")
+MOTION = ("ux", "uy", "vx", "vy", "t_det")
 WEAKENING = {
     "slip": replace(FAST, law="slip_weakening", slip_distance=2e-8),
     "velocity": replace(FAST, law="velocity_weakening", speed_scale=0.1),
@@ -93,13 +93,13 @@ def test_a_row_at_rest_is_skipped_until_a_block_may_detach():
     state, constants = start(SURFACES["flat"], 0, material=Material())
     follow(state, constants, EVERY)  # the blocks of this slow scene stay at rest for long
     rows, blocks = leapfrog.make_rows(state.in_contact, False), state.blocks
-    assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.wx, blocks.wy))
+    assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.vx, blocks.vy))
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
     own, i = np.uint64(0), np.uint64(0)
     sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.grid.n_x, pull)
     assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.sliding[:] = False
-    rows.wake[:] = sure
+    rows.due[:] = sure
     leapfrog.wake(rows, sure - 1, False)
     assert not rows.awake.any()
     leapfrog.wake(rows, sure, False)

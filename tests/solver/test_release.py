@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from springblock.solver.release import force_in_patch, make_releases, release_share
+from springblock.solver.release import force_in_patch, make_releases, release_theta
 from springblock.solver.springs import Springs
 from springs import SPRINGS, STIFFNESS, spring_forces
 
@@ -39,9 +39,9 @@ def test_beyond_the_edges_there_are_no_springs(rng):
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
 def test_the_share_is_where_a_linear_rise_reaches_the_threshold(share):
     """The slider is at 1 now and was at 0.9; the block has not moved."""
-    found = release_share(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
+    found = release_theta(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
     assert found == pytest.approx(share, abs=1e-14)
 
 
 def test_a_block_beyond_its_threshold_one_step_earlier_was_sliding():
-    assert np.isnan(release_share(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
+    assert np.isnan(release_theta(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))

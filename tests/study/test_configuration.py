@@ -265,7 +265,7 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
             1.0,
             "material: unknown constant 'mu_statik'; choose from .*mu_static",
         ),
-        ("scenes.flat.direction", [float("nan")], "flat: direction must be .* finite"),
+        ("scenes.flat.direction", [float("nan")], "flat: direction must be .* degrees, not nan"),
         ("scenes.flat.duration", 1e-8, "scenes.flat: duration must be at least one"),
         ("scenes.flat.snapshot_times", [3e-7], "flat: snapshot_times must be a multiple of sample"),
         ("scenes.flat.snapshot_times", [1.0], "flat: snapshot_times must lie within the duration"),

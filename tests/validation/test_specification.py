@@ -89,7 +89,7 @@ class Kernel:
         m, spacing, law = self.material, self.material.spacing, self.state.law
         blocks, ledger = self.state.blocks, self.state.ledger
         fields = [unpadded(field, self.constants.grid) for field in blocks]
-        ux, uy, wx, wy, t_det = (np.array(field) for field in fields[:5])
+        ux, uy, vx, vy, t_det = (np.array(field) for field in fields[:5])
         if isinstance(law, FromFile):
             names, kept = self.material.law.initial, law.state.T[:, : len(blocks.ux)]
         else:
@@ -99,7 +99,7 @@ class Kernel:
         return specification.State(
             k=self.k,
             u=spacing * np.stack([ux, uy]),
-            v=spacing / STEP * np.stack([wx, wy]),
+            v=spacing / STEP * np.stack([vx, vy]),
             memory={
                 name: np.array(unpadded(field, self.constants.grid))
                 for name, field in zip(names, kept, strict=True)

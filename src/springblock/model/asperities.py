@@ -20,12 +20,6 @@ _MARGIN = 4.0
 _EXPONENTS = (0.2, 1e6)
 
 
-def _standard_normal(name: str, seed: int, shape: tuple[int, int]) -> Array:
-    """Draw (N_y, N_x) standard normals from the stream `name` of this seed."""
-    sequence = np.random.SeedSequence(seed, spawn_key=tuple(name.encode()))
-    return np.random.Generator(np.random.PCG64(sequence)).standard_normal(shape)
-
-
 def draw_friction(
     n_blocks: int | tuple[int, int],
     seed: int,
@@ -60,10 +54,8 @@ def draw_friction(
     if seed < 0:
         raise ValueError(f"seed must be zero or positive, not {seed}")
     shape = n_blocks if isinstance(n_blocks, tuple) else (n_blocks, n_blocks)
-    return (
-        _draw("mu_static", seed, shape, material or Material(), periodic),
-        _draw("mu_dynamic", seed, shape, material or Material(), periodic),
-    )
+    how = seed, shape, material or Material(), periodic
+    return _draw("mu_static", *how), _draw("mu_dynamic", *how)
 
 
 def _draw(
@@ -72,7 +64,9 @@ def _draw(
     rows, columns = shape
     width = _width(shape, material)
     margin = 0 if periodic else math.ceil(_MARGIN * width)
-    normal = _standard_normal(name, seed, (rows + margin, columns + margin))
+    stream = np.random.SeedSequence(seed, spawn_key=tuple(name.encode()))
+    generator = np.random.Generator(np.random.PCG64(stream))
+    normal = generator.standard_normal((rows + margin, columns + margin))
     if width > 0.0:
         normal = _correlated(normal, width)[:rows, :columns]
     law = distribution(name, material)
@@ -115,10 +109,7 @@ def check_draws(shape: tuple[int, int], material: Material) -> None:
 def distribution(name: str, material: Material) -> "rv_frozen | None":
     """Distribution of "mu_static" or "mu_dynamic"; None if it is normal or a single value.
 
-    Raises
-    ------
-    ValueError
-        If it cannot have the mean and the standard deviation of the material.
+    Means and standard deviations that it cannot have are refused with a ValueError.
     """
     mean, std = getattr(material, name), getattr(material, f"{name}_std")
     kind = material.distribution
@@ -126,23 +117,29 @@ def distribution(name: str, material: Material) -> "rv_frozen | None":
         return None
     import scipy.stats  # takes half a second to import, and normal draws do not need it
 
-    refusal = f"no {kind} distribution has {name} = {mean!r} and {name}_std = {std!r}"
     if mean == 0.0:
-        raise ValueError(f"{refusal}; {name} must be positive")
+        raise ValueError(f"{name} must be positive with the distribution {kind}, not {mean!r}")
     if kind == "lognormal":
         width = math.sqrt(math.log1p((std / mean) ** 2))
         return scipy.stats.lognorm(width, scale=mean * math.exp(-0.5 * width**2))
     if kind == "weibull":
-        exponent = _weibull_exponent(std / mean, refusal)
+        if not 1e-5 <= std / mean <= 15.0:
+            raise ValueError(
+                f"{name}_std must be 1e-5 to 15 times {name} = {mean!r} with the distribution "
+                f"weibull, not {std!r}"
+            )
+        exponent = _weibull_exponent(std / mean)
         return scipy.stats.weibull_min(exponent, scale=mean / math.gamma(1.0 + 1.0 / exponent))
     reach = math.sqrt(3.0) * std
     if reach > mean:
-        limit = f"{name}_std must be at most {mean / math.sqrt(3.0):.4g}"
-        raise ValueError(f"{refusal} without negative values; {limit}")
+        raise ValueError(
+            f"{name}_std must be at most {mean / math.sqrt(3.0):.4g} with {name} = {mean!r} and "
+            f"the distribution uniform, which must have no negative values, not {std!r}"
+        )
     return scipy.stats.uniform(mean - reach, 2.0 * reach)
 
 
-def _weibull_exponent(scatter: float, refusal: str) -> float:
+def _weibull_exponent(scatter: float) -> float:
     """Exponent of the Weibull distribution with this ratio of standard deviation to mean."""
     from scipy.optimize import brentq
 
@@ -150,8 +147,6 @@ def _weibull_exponent(scatter: float, refusal: str) -> float:
         first, second = (math.lgamma(1.0 + moment / exponent) for moment in (1, 2))
         return math.expm1(second - 2.0 * first) - scatter**2
 
-    if excess(_EXPONENTS[0]) < 0.0 or excess(_EXPONENTS[1]) > 0.0:
-        raise ValueError(f"{refusal}; the standard deviation must be 1e-5 to 15 times the mean")
     return float(brentq(excess, *_EXPONENTS, xtol=1e-13, rtol=1e-14))
 
 

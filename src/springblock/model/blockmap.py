@@ -19,7 +19,6 @@ from springblock.model.pattern import MAX_BLOCKS
 
 Array = NDArray[Any]
 
-_TOO_LARGE = f"is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
 #: Name of a mask cut by a study, which ends with its digest.
 _IS_NAMED = re.compile(r".*-[0-9a-f]{8}")
 _POINTS, _BYTES = 2**26, 2**28  #: largest topography, 8192 x 8192 points and some 260 MB
@@ -57,12 +56,6 @@ class Cut:
         The height of a block is that of the measured point at its centre; a block without a value
         is not in contact. Without `detrend` the heights are those of the file, tilt included; with
         it they are relative to a plane or a quadratic surface, fitted by least squares.
-
-        Raises
-        ------
-        ValueError
-            If the file cannot be read, has no units, lacks the channel, or is smaller than a block;
-            if not exactly one of bearing area and height is given; or if a value is not valid.
         """
         if (self.bearing_area is None) == (self.height is None):
             raise ValueError(f"{self.topography}: give either bearing_area or height")
@@ -124,11 +117,6 @@ class BlockMap:
         In a black and white image, white pixels are in contact, and the last row is y = 0, as the
         image is seen. In an array (.npy), non-zero values are in contact, and the first row is
         y = 0.
-
-        Raises
-        ------
-        ValueError
-            If the file is not a valid mask, with the reason.
         """
         values = _array(file) if file.suffix == ".npy" else _image(file)
         found = np.unique(values)
@@ -147,13 +135,7 @@ class BlockMap:
 
     @classmethod
     def coefficients(cls, file: Path) -> "BlockMap":
-        """Read friction coefficients, (N_y, N_x) float, [y, x], from a NumPy array (.npy).
-
-        Raises
-        ------
-        ValueError
-            If the file is not an array of real numbers of this shape.
-        """
+        """Read friction coefficients, (N_y, N_x) float, [y, x], from a NumPy array (.npy)."""
         values = _array(file)
         if values.dtype.kind not in "iuf":
             raise ValueError(f"{file} must hold real numbers, not {values.dtype}")
@@ -193,7 +175,9 @@ def _array(file: Path) -> Array:
     if values.ndim != 2 or not values.size:
         raise ValueError(f"{file} must have the shape (N_y, N_x), not {values.shape}")
     if max(values.shape) > MAX_BLOCKS:  # only the header has been read
-        raise ValueError(f"{file} {_TOO_LARGE}")
+        raise ValueError(
+            f"{file} is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
+        )
     return np.array(values)
 
 
@@ -214,7 +198,9 @@ def _image(file: Path) -> Array:
     except UnidentifiedImageError:
         raise ValueError(f"{file} is neither an image nor a NumPy array (.npy)") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
-        raise ValueError(f"{file} {_TOO_LARGE}") from None
+        raise ValueError(
+            f"{file} is too large; a surface may have at most {MAX_BLOCKS} x {MAX_BLOCKS} blocks"
+        ) from None
     except (OSError, SyntaxError, ValueError) as error:
         raise ValueError(f"{file} cannot be read: {error}") from None
     shades, opacity = pixels[..., 0], pixels[..., 3]
@@ -222,7 +208,8 @@ def _image(file: Path) -> Array:
     if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
         raise ValueError(
             f"{file} must be black and white, with 1 or 8 bits per pixel: only the values 0 and "
-            "255, no grey, colour or transparency"
+            "255, no grey, colour or transparency; choose a threshold and save the image again "
+            "with white for the pixels in contact and black for all others"
         )
     return shades[::-1]
 
@@ -249,7 +236,6 @@ def _measured(
         raise ValueError(
             f"to read {file} install SurfaceTopography: pip install 'springblock[topography]'"
         ) from None
-    no_units = f"{file} must contain the size of the surface and its unit of length"
     try:
         with open_topography(file) as reader:
             channels = {each.name: each for each in reader.channels}
@@ -265,12 +251,13 @@ def _measured(
     except ReadFileError:
         raise ValueError(f"{file} is not a topography that SurfaceTopography can read") from None
     except Exception as error:  # readers of some formats let any error pass
-        reason = no_units if "physical_sizes" in str(error) else f"{file} cannot be read: {error!r}"
-        raise ValueError(reason) from None
+        if "physical_sizes" not in str(error):
+            raise ValueError(f"{file} cannot be read: {error!r}") from None
+        read = None
+    if read is None or read.unit is None or read.physical_sizes is None:
+        raise ValueError(f"{file} must contain the size of the surface and its unit of length")
     if read.dim != 2:
         raise ValueError(f"{file} must be a map of heights, not a profile")
-    if read.unit is None or read.physical_sizes is None:
-        raise ValueError(no_units)
     try:
         metres = read.to_unit("m")
         if detrend is not None:

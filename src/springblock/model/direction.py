@@ -13,24 +13,17 @@ _NAMES = {0.0: "x", 90.0: "y", -180.0: "180"}
 def normalised(direction: str | float) -> str:
     """Return the canonical form of a direction: "x", "y" or degrees from x, as "15".
 
-    Whole turns are removed exactly, and an angle of 0 or 90 degrees becomes "x" or "y".
-
-    Raises
-    ------
-    TypeError, ValueError
-        If it is neither "x" nor "y" nor a finite number, possibly as text.
+    Whole turns are removed exactly, and an angle of 0 or 90 degrees becomes "x" or "y". Anything
+    but "x", "y" and finite numbers, possibly as text, is refused with a ValueError.
     """
     if isinstance(direction, str) and direction in _AXES:
         return direction
-    refusal = f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}"
-    if isinstance(direction, bool) or not isinstance(direction, REAL | str):
-        raise TypeError(refusal)
     try:
-        angle = float(direction)
-    except ValueError:
-        raise TypeError(refusal) from None
+        angle = math.nan if isinstance(direction, bool) else float(direction)
+    except (TypeError, ValueError):
+        angle = math.nan
     if not math.isfinite(angle):
-        raise ValueError(f"direction must be 'x', 'y' or a finite angle, not {direction!r}")
+        raise ValueError(f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}")
     angle = math.remainder(angle, 360.0)
     return _NAMES.get(angle, repr(angle).removesuffix(".0"))
 

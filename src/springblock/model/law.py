@@ -46,13 +46,7 @@ class LawFile:
 
     @classmethod
     def read(cls, file: Path, **constants: float) -> "LawFile":
-        """Read a law; `constants` replace values in the file.
-
-        Raises
-        ------
-        ValueError
-            If the file is not a valid law, with the reason, or has no such constant.
-        """
+        """Read a law; `constants` replace values in the file."""
         try:
             source = file.read_text(encoding="utf-8")
         except FileNotFoundError:
@@ -63,9 +57,10 @@ class LawFile:
         digest = hashlib.sha256(source.encode()).hexdigest()[:8]
         law = cls(f"{stem}-{digest}", file=file, source=source)
         law._check()
-        units = {name: unit for name, (_, unit) in law._module.get("CONSTANTS", {}).items()}
-        no_unit = {"1": ""}
-        units = {name: no_unit.get(unit, unit) for name, unit in units.items()}
+        units = {
+            name: "" if unit == "1" else unit
+            for name, (_, unit) in law._module.get("CONSTANTS", {}).items()
+        }
         return replace(law, units=units).vary(constants)
 
     @classmethod
@@ -89,18 +84,14 @@ class LawFile:
         return f"{self.name} ({', '.join(constants)})" if self.constants else self.name
 
     def vary(self, constants: Mapping[str, Any]) -> "LawFile":
-        """Return the law with other values of its constants.
-
-        Raises
-        ------
-        ValueError
-            If it has no such constant, or the value is not a finite number.
-        """
+        """Return the law with other values of its constants."""
         given = dict(self.given)
         for name, value in constants.items():
             if name not in self.constants:
-                known = ", ".join(self.constants) or "none"
-                raise ValueError(f"{self.file}: unknown constant {name!r}; choose from {known}")
+                raise ValueError(
+                    f"{self.file}: unknown constant {name!r}; choose from "
+                    f"{', '.join(self.constants) or 'none'}"
+                )
             if not _is_number(value):
                 raise ValueError(f"{name} must be a finite number, not {value!r}")
             given[name] = float(value)
@@ -182,13 +173,7 @@ class LawFile:
                     )
 
     def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
-        """Evaluate the law at several speeds with the mean coefficients.
-
-        Raises
-        ------
-        ValueError
-            If it fails, or returns an invalid friction coefficient or state.
-        """
+        """Refuse a law that fails with the mean coefficients at one of several speeds."""
         known = {**self.constants, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
         if self.file is None:
             raise ValueError(f"the file of the law {self} is not available, only its name")

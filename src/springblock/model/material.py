@@ -18,20 +18,15 @@ _MAY_VANISH |= {"correlation_length", "slip_distance", "speed_scale"}
 
 
 def as_law(given: Any) -> str | LawFile:
-    """Read a law: one of `LAWS`, a Python file, or the description of a file in a table.
-
-    Raises
-    ------
-    ValueError
-        If it is none of these, or the file is not a valid law.
-    """
+    """Read a law: one of `LAWS`, a Python file, or the description of a file in a table."""
     if isinstance(given, LawFile) or (isinstance(given, str) and given in LAWS):
         return given
     is_file = isinstance(given, str | Path) and str(given).endswith(".py")
     law = LawFile.read(Path(given)) if is_file else LawFile.named(str(given))
     if law is None:
-        known = ", ".join(LAWS)
-        raise ValueError(f"Material.law must be one of {known}, or a file FILE.py, not {given!r}")
+        raise ValueError(
+            f"Material.law must be one of {', '.join(LAWS)}, or a file FILE.py, not {given!r}"
+        )
     return law
 
 
@@ -83,20 +78,22 @@ class Material:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "law", as_law(self.law))
+        if self.distribution not in DISTRIBUTIONS:
+            raise ValueError(
+                f"Material.distribution must be one of {', '.join(DISTRIBUTIONS)}, "
+                f"not {self.distribution!r}"
+            )
         for name, value in self.items():
-            if name == "law":
-                continue
-            if name == "distribution":
-                if value not in DISTRIBUTIONS:
-                    known = ", ".join(DISTRIBUTIONS)
-                    raise ValueError(f"Material.{name} must be one of {known}, not {value!r}")
+            if name in ("distribution", "law"):
                 continue
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise TypeError(f"Material.{name} must be a number, not {value!r}")
             may_vanish = name in _MAY_VANISH
             if not (math.isfinite(value) and (value > 0.0 or (value == 0.0 and may_vanish))):
-                bound = "zero or positive" if may_vanish else "positive"
-                raise ValueError(f"Material.{name} must be finite and {bound}, not {value!r}")
+                raise ValueError(
+                    f"Material.{name} must be finite and "
+                    f"{'zero or positive' if may_vanish else 'positive'}, not {value!r}"
+                )
             object.__setattr__(self, name, float(value))
         self._check_derived()
         self._check_law()
@@ -136,25 +133,19 @@ class Material:
             yield field.name, value.described if isinstance(value, LawFile) else value
 
     def vary(self, constants: Mapping[str, Any]) -> "Material":
-        """Return a material with other constants, including those of its law.
-
-        Raises
-        ------
-        TypeError, ValueError
-            If there is no such constant, or its value is not valid.
-        """
+        """Return a material with other constants, including those of its law."""
         known = [field.name for field in fields(self)]
         own = {name: value for name, value in constants.items() if name in known}
-        others = {name: value for name, value in constants.items() if name not in known}
+        of_law = {name: value for name, value in constants.items() if name not in known}
         material = replace(self, **own)
-        if not others:
+        if not of_law:
             return material
         if not isinstance(material.law, LawFile):
             raise ValueError(
-                f"unknown constant {min(others)!r}; choose from {', '.join(known)}, or one of a "
+                f"unknown constant {min(of_law)!r}; choose from {', '.join(known)}, or one of a "
                 "law from a file"
             )
-        return replace(material, law=material.law.vary(others))
+        return replace(material, law=material.law.vary(of_law))
 
     @property
     def k_int(self) -> float:

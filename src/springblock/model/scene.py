@@ -14,6 +14,7 @@ from springblock.model.direction import normalised
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.pattern import Pattern
+from springblock.model.surface import as_coefficients
 
 LENGTHS = ("n_p", "n_s", "n_p2", "n_s2", "n_p3", "n_s3")  #: lengths of a scene, two per level
 _PATTERN = ("n_blocks", "level", *LENGTHS, "along_3", "varied", "direction")
@@ -74,21 +75,24 @@ class Scene:
             raise ValueError(f"edges must be {' or '.join(EDGES)}, not {self.edges!r}")
 
     def _check_levels(self) -> None:
+        if self.mask and self.names:
+            raise ValueError(
+                f"mask cannot be combined with {', '.join(self.names)}, since it defines all "
+                "blocks in contact; leave out one of them"
+            )
         for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
             for one, other in ((size, gap), (gap, size)):
                 if getattr(self, one) and not getattr(self, other):
                     raise ValueError(f"{one} = {getattr(self, one)} needs {other}")
         if self.n_p3 and not self.n_p2:
             raise ValueError(f"n_p3 = {self.n_p3} needs n_p2")
-        along = self.along_3 or ("y" if self.n_p3 else "")
-        if along not in (("x", "y") if self.n_p3 else ("",)):
-            fit = "'x' or 'y'" if self.n_p3 else "left out without n_p3"
-            raise ValueError(f"along_3 must be {fit}, not {self.along_3!r}")
-        object.__setattr__(self, "along_3", along)
+        if self.along_3 and not self.n_p3:
+            raise ValueError(f"along_3 must be left out without n_p3, not {self.along_3!r}")
+        if self.along_3 not in ("", "x", "y"):
+            raise ValueError(f"along_3 must be 'x' or 'y', not {self.along_3!r}")
+        object.__setattr__(self, "along_3", self.along_3 or ("y" if self.n_p3 else ""))
 
     def _check_maps(self) -> None:
-        if self.mask and self.names:
-            raise ValueError(f"mask cannot be combined with {', '.join(self.names)}")
         if self.mask and self.mask.values is not None:
             rows, columns = self.mask.values.shape
             if self.n_blocks not in (0, columns) or self.n_rows not in (0, rows):
@@ -99,27 +103,15 @@ class Scene:
             object.__setattr__(self, "n_blocks", columns)
             object.__setattr__(self, "n_rows", rows)
         for name in ("mu_static", "mu_dynamic"):
-            self._check_field(name, getattr(self, f"{name}_field"))
+            field = getattr(self, f"{name}_field")
+            for constant in (name, f"{name}_std"):
+                if field and constant in dict(self.varied):
+                    raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
+            if field and field.values is not None:
+                as_coefficients(str(field), field.values, self.contact)  # refuses invalid ones
         idle = {"distribution", "correlation_length"} & dict(self.varied).keys()
         if idle and not self.is_drawn:
             raise ValueError(f"{min(idle)} cannot be varied if all coefficients are from files")
-
-    def _check_field(self, name: str, field: BlockMap | None) -> None:
-        if field is None:
-            return
-        for constant in (name, f"{name}_std"):
-            if constant in dict(self.varied):
-                raise ValueError(f"{constant} cannot be varied if {name} is read from {field}")
-        if field.values is None:
-            return
-        if field.values.shape != self.shape:
-            raise ValueError(
-                f"{field} must have the shape (N_y, N_x) = {self.shape} of the surface, "
-                f"not {field.values.shape}"
-            )
-        within = field.values[self.contact]
-        if not (np.isfinite(within) & (within >= 0.0)).all():
-            raise ValueError(f"{field} must be finite and not negative on all blocks in contact")
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> "Scene":
@@ -169,10 +161,7 @@ class Scene:
 
     @property
     def contact(self) -> NDArray[np.bool_]:
-        """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x].
-
-        Raises ValueError if lengths do not fit, or only the name of a mask is known.
-        """
+        """Blocks in contact with the substrate, (N_y, N_x) bool, [y, x]."""
         if self.mask is None:
             return self.pattern.contact
         if self.mask.values is None:
@@ -181,7 +170,7 @@ class Scene:
 
     @property
     def pattern(self) -> Pattern:
-        """The pattern; raises ValueError if its lengths do not fit, or it has a mask instead."""
+        """The pattern of pillars and grooves; a mask has none."""
         if self.mask:
             raise ValueError(f"the mask {self.mask} is not a pattern of pillars and grooves")
         pattern = Pattern.flat(self.n_blocks, self.n_rows or None)
@@ -258,13 +247,13 @@ def in_order(constants: Mapping[str, Any]) -> Varied:
     """Sort constants in the order of `CONSTANTS`, and convert numbers given as text.
 
     Other names come last; they belong to a law from a file, and `Setup.vary` checks them.
-
-    Raises
-    ------
-    ValueError
-        If a name cannot be that of a constant, or a value is not a number.
     """
     for name in constants:
+        if name == "direction":
+            raise ValueError(
+                "direction is not a constant of the material; give it as the option --direction, "
+                "or as the key direction of a group of scenes"
+            )
         if not name.isidentifier():
             raise ValueError(f"unknown constant {name!r}; choose from {', '.join(CONSTANTS)}")
     names = [*CONSTANTS, *sorted(constants.keys() - set(CONSTANTS))]

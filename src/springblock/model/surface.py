@@ -51,8 +51,8 @@ class Surface:
                 f"least {_SHORTEST_PERIOD} blocks"
             )
         self.contact = mask
-        self.mu_static = _coefficients("mu_static", mu_static, mask)  #: (N_y, N_x), 0 elsewhere
-        self.mu_dynamic = _coefficients("mu_dynamic", mu_dynamic, mask)
+        self.mu_static = as_coefficients("mu_static", mu_static, mask)  #: (N_y, N_x), 0 elsewhere
+        self.mu_dynamic = as_coefficients("mu_dynamic", mu_dynamic, mask)
         self.periodic = periodic
 
     @classmethod
@@ -76,10 +76,7 @@ class Surface:
 def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
     """Return a copy of contact as bool, (N_y, N_x), converted from 0 and 1 if necessary.
 
-    Raises
-    ------
-    TypeError, ValueError
-        If it is not a mask of at most `MAX_BLOCKS` blocks a side with at least one in contact.
+    Masks of more than `MAX_BLOCKS` blocks a side, or without a block in contact, are refused.
     """
     mask = np.array(contact)
     if mask.dtype != np.bool_:
@@ -100,14 +97,17 @@ def as_mask(contact: ArrayLike) -> NDArray[np.bool_]:
     return mask
 
 
-def _coefficients(name: str, values: Any, mask: NDArray[np.bool_]) -> Array:
+def as_coefficients(name: str, values: Any, mask: NDArray[np.bool_]) -> Array:
+    """Return coefficients as float, (N_y, N_x), 0 outside the mask; refuse invalid ones by name."""
     mu = np.asarray(values)
     if mu.dtype.kind not in "iuf":
         raise TypeError(f"{name} must be an array of real numbers, not of {mu.dtype}")
     if mu.ndim == 0:
         mu = np.broadcast_to(mu, mask.shape)
     if mu.shape != mask.shape:
-        raise ValueError(f"{name} must have the shape {mask.shape} of contact, not {mu.shape}")
+        raise ValueError(
+            f"{name} must have the shape (N_y, N_x) = {mask.shape} of the surface, not {mu.shape}"
+        )
     in_contact = mu[mask]
     if not (np.isfinite(in_contact) & (in_contact >= 0.0)).all():
         raise ValueError(f"{name} must be finite and not negative on all blocks in contact")

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from springblock.files import read_arrays, whole_file
 from springblock.provenance import digest
-from springblock.simulation.checks import check_positive
 from springblock.simulation.motion import Motion
+from springblock.simulation.setup import check_positive
 from springblock.solver.lattice import Samples, State
 
 Array = NDArray[np.float64]
@@ -44,13 +44,7 @@ def check_belonging(path: Path, theirs: dict[str, Any], ours: dict[str, Any]) ->
 
 @dataclass
 class Checkpoint:
-    """Checkpoint file of a run and the interval at which it is written.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If the interval is not a positive number.
-    """
+    """Checkpoint file of a run and the interval at which it is written."""
 
     path: Path
     interval: float  #: wall-clock seconds between two checkpoints
@@ -80,10 +74,7 @@ class Checkpoint:
     def resume(self, motion: Motion) -> list[Array]:
         """Continue from the file, if there is one; return the snapshots up to then.
 
-        Raises
-        ------
-        ValueError
-            If the file is not a checkpoint, or belongs to another run, naming what differs.
+        Files that are no checkpoint, and those of another run, are refused with a ValueError.
         """
         if not self.path.exists():
             return []

@@ -1,7 +1,5 @@
 """Motion of a surface: the state of a run between two calls of the compiled time loop."""
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,15 +7,7 @@ from springblock.model.direction import heading
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS, on_cores
-from springblock.solver.lattice import (
-    Advance,
-    Constants,
-    Integrator,
-    Samples,
-    State,
-    prepare,
-    unpadded,
-)
+from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.law_file import FromFile
 
 Array = NDArray[np.float64]
@@ -27,35 +17,26 @@ class SimulationError(RuntimeError):
     """A run cannot be continued."""
 
 
-@dataclass
 class Motion:
-    """State of a run between two calls of the compiled time loop, and its samples so far."""
+    """State of a run between two calls of the compiled time loop, and its samples so far.
 
-    setup: Setup
-    advance: Advance
-    state: State
-    constants: Constants
-    samples: int = 0  #: recorded so far, without the initial one
-    record: list[Samples] = field(default_factory=lambda: [Samples.empty(1)])
+    It starts from rest; arguments are those of `simulate` and `prepare`.
+    """
 
-    @classmethod
-    def at_rest(
-        cls,
+    def __init__(
+        self,
         surface: Surface,
         setup: Setup,
         direction: str | float,
         cores: int = 1,
         keep_peak: bool = False,
-    ) -> "Motion":
-        """Start from rest; arguments are those of `simulate` and `prepare`."""
-        advance, method = on_cores(setup.integrator, cores), INTEGRATORS[setup.integrator]
-        how = setup.material, heading(direction), method, setup.step, keep_peak
-        return cls(setup, advance, *prepare(surface, *how))
-
-    @property
-    def method(self) -> Integrator:
-        """Integration scheme."""
-        return INTEGRATORS[self.setup.integrator]
+    ) -> None:
+        self.setup, self.method = setup, INTEGRATORS[setup.integrator]
+        self.advance = on_cores(setup.integrator, cores)
+        how = setup.material, heading(direction), self.method, setup.step, keep_peak
+        self.state, self.constants = prepare(surface, *how)
+        self.samples = 0  #: recorded so far, without the initial one
+        self.record = [Samples.empty(1)]
 
     @property
     def steps(self) -> int:
@@ -75,13 +56,7 @@ class Motion:
         return material.mass * material.spacing / (step * force_time)
 
     def proceed(self, until: int) -> None:
-        """Advance to sample `until`.
-
-        Raises
-        ------
-        SimulationError
-            If a spring breaks, or the law of friction returns an invalid coefficient.
-        """
+        """Advance to sample `until`; raise SimulationError if a spring breaks or the law fails."""
         if until == self.samples:
             return
         every, more, first = self.setup.every, until - self.samples, self.steps

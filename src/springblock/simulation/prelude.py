@@ -21,11 +21,10 @@ from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
 from springblock.model.surface import Surface, as_mask
-from springblock.simulation.checks import check_type
 from springblock.simulation.motion import Motion, SimulationError
-from springblock.simulation.setup import DEFAULT, Setup
+from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
-from springblock.solver.laws import strengths
+from springblock.solver.laws import threshold_of
 
 Array = NDArray[np.float64]
 
@@ -69,13 +68,7 @@ class Prelude:
 
     @classmethod
     def read(cls, path: Path) -> "Prelude":
-        """Read a file that `save` has written.
-
-        Raises
-        ------
-        ValueError
-            If the file is damaged or not a prelude.
-        """
+        """Read a file that `save` has written; refuse any other with a ValueError."""
         try:
             return cls(**{name: _together(part) for name, part in read_arrays(path).items()})
         except (TypeError, ValueError):
@@ -89,8 +82,10 @@ class Prelude:
         state, blocks, grid = motion.state, motion.state.blocks, motion.constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
         coefficients = (unpadded(field, grid)[bound] for field in (blocks.static, blocks.dynamic))
-        threshold = strengths(state.law, *coefficients) ** 2
-        holds = (self.peak * (1.0 + _SLACK) <= threshold).all(axis=1)
+        thresholds = np.array(
+            [threshold_of(state.law, *each) for each in zip(*coefficients, strict=True)]
+        )
+        holds = (self.peak * (1.0 + _SLACK) <= thresholds**2).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:
             return
@@ -150,9 +145,9 @@ def compute_prelude(
     check_type("setup", setup, Setup)
     mask, material = as_mask(contact), setup.material
     strongest = material.mu_static if mu_static is None else np.max(np.asarray(mu_static)[mask])
-    setup.check_length(mask, float(strongest))
+    setup.plan(mask, float(strongest))  # refuses a run that would be too long
     surface = Surface(mask, 1.0, 0.0, periodic)
-    motion = Motion.at_rest(surface, setup, direction, cores, keep_peak=True)
+    motion = Motion(surface, setup, direction, cores, keep_peak=True)
     state, blocks, peak = motion.state, motion.state.blocks, motion.state.peak
     assert peak is not None
     bound, load = blocks.static > 0.0, float(blocks.static.max())

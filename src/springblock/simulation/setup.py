@@ -1,6 +1,7 @@
 """Setup of a run: material, integrator, step and sample interval."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -8,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
+from springblock.model.direction import REAL
 from springblock.model.law import LawFile
 from springblock.model.material import Material
-from springblock.simulation.checks import check_positive, check_type, whole_multiple
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
@@ -18,6 +19,32 @@ PAPER = Material()
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
 #: Largest number of samples, the limit of a cell of a table.
 _MOST_SAMPLES = 2**31 - 1
+#: Largest number of blocks times snapshots in a run: 6 GB of fields.
+_MOST_IN_SNAPSHOTS = 2**27
+
+
+def check_type(name: str, value: Any, kind: type) -> None:
+    """Refuse a value of another type."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be a {kind.__name__}, not {value!r}")
+
+
+def check_positive(name: str, value: Any) -> None:
+    """Refuse a time that is not finite and positive."""
+    if isinstance(value, bool) or not isinstance(value, REAL):
+        raise TypeError(f"{name} must be a number of seconds, not {value!r}")
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"{name} must be finite and positive, not {value!r}")
+
+
+def _whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
+    """Return `value` divided by `unit`; raise ValueError unless it is a whole number."""
+    check_positive(name, value)
+    ratio = value / unit
+    count = round(ratio) if math.isfinite(ratio) else 0
+    if count < 1 or abs(ratio - count) > 1e-6 * count:
+        raise ValueError(f"{name} must be a multiple of {unit_name} = {unit!r} s, not {value!r} s")
+    return count
 
 
 @dataclass(frozen=True)
@@ -50,12 +77,17 @@ class Setup:
             known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
         check_positive("step", self.step)
-        self._check_law()
+        law = self.material.law
+        if isinstance(law, LawFile):
+            law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
+            if self.integrator != "leapfrog":
+                raise ValueError(
+                    f"integrator must be leapfrog with the law {law}, not {self.integrator!r}"
+                )
         if not is_stable(self.integrator, self.step, self.material):
-            stable = limit(self.integrator, self.material)
             raise ValueError(
-                f"step = {self.step:.4g} s is unstable: "
-                f"{self.integrator} needs less than {stable:.4g} s here"
+                f"step = {self.step:.4g} s is unstable: {self.integrator} needs less than "
+                f"{limit(self.integrator, self.material):.4g} s here"
             )
         _ = self.every
 
@@ -74,7 +106,7 @@ class Setup:
     @property
     def every(self) -> int:
         """Steps per sample."""
-        return whole_multiple("sample_interval", self.sample_interval, "step", self.step)
+        return _whole_multiple("sample_interval", self.sample_interval, "step", self.step)
 
     def loading_time(self, contact: NDArray[np.bool_], threshold: float) -> float:
         """Time t = mu F_n/(K_s v), s, at which a block without neighbours would detach.
@@ -86,51 +118,63 @@ class Setup:
             rate = np.float64(self.material.k_s * self.material.slider_velocity)
             return float(threshold * load / rate)
 
-    def check_length(
+    def plan(
         self,
         contact: NDArray[np.bool_],
         threshold: float,
         duration: float | None = None,
-        until: float = 0.0,
-    ) -> None:
-        """Refuse a run that would be too long.
+        snapshot_times: Sequence[float] = (),
+    ) -> tuple[int | None, list[int]]:
+        """Return the sample intervals of a run, if it has a duration, and those to each snapshot.
 
-        Without a duration, a run lasts for the loading time of its strongest block, whose
-        coefficient is `threshold`, and at least `until` its last snapshot, s.
+        Times are in s. Without a duration, a run is taken to last for the loading time of its
+        strongest block, whose coefficient is `threshold`, and until its last snapshot.
 
         Raises
         ------
         TypeError, ValueError
-            If the duration is not a positive time, or if the run would take more than a year on one
-            core or have more samples than a table can hold.
+            If a time is not valid, or the run would take more than a year on one core, have more
+            samples than a table can hold, or more snapshots than fit in memory.
         """
-        if duration is None:
-            loading = self.loading_time(contact, threshold)
-            reason, time = "loading time", max(loading, until, self.sample_interval)
-        else:
+        interval, intervals = self.sample_interval, math.inf
+        if duration is not None:
             check_positive("duration", duration)
-            reason, time = "duration", duration
-        steps, samples = time / self.step, time / self.sample_interval
+            intervals = duration / interval + 1e-6
+            if intervals < 1.0:
+                raise ValueError(
+                    f"duration must be at least one sample_interval = {interval!r} s, "
+                    f"not {duration!r} s"
+                )
+        at_samples = [
+            _whole_multiple("snapshot_times", time, "sample_interval", interval)
+            for time in snapshot_times
+        ]
+        if at_samples != sorted(set(at_samples)):
+            raise ValueError("snapshot_times must be in ascending order, without repetition")
+        if at_samples and at_samples[-1] > intervals:
+            raise ValueError(f"snapshot_times must lie within the duration of {duration!r} s")
+        if len(at_samples) * contact.size > _MOST_IN_SNAPSHOTS:
+            raise ValueError(
+                f"snapshot_times has {len(at_samples)} times; of {contact.size} blocks at most "
+                f"{_MOST_IN_SNAPSHOTS // contact.size} snapshots can be kept"
+            )
+        reason, time = "duration", duration
+        if time is None:
+            loading = self.loading_time(contact, threshold)
+            reason, time = "loading time", max(loading, interval, *snapshot_times)
+        steps, samples = time / self.step, time / interval
         if not steps * contact.size < _MOST_STEPS:
-            years = steps * contact.size / _STEPS_PER_YEAR
             raise ValueError(
                 f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
-                f"{steps:.2g} steps of {contact.size} blocks would take {years:.2g} years"
+                f"{steps:.2g} steps of {contact.size} blocks would take "
+                f"{steps * contact.size / _STEPS_PER_YEAR:.2g} years"
             )
         if samples > _MOST_SAMPLES:
             raise ValueError(
-                f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
+                f"sample_interval = {interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
-
-    def _check_law(self) -> None:
-        law = self.material.law
-        if isinstance(law, LawFile):
-            law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
-            if self.integrator != "leapfrog":
-                raise ValueError(
-                    f"integrator must be leapfrog with the law {law}, not {self.integrator!r}"
-                )
+        return None if duration is None else int(intervals), at_samples
 
 
 #: Setup of the paper.

@@ -11,13 +11,12 @@ from tqdm import tqdm
 from springblock.model.direction import heading
 from springblock.model.surface import Surface
 from springblock.simulation.checkpoint import Checkpoint, belonging
-from springblock.simulation.checks import check_type, count_samples, snapshot_samples
 from springblock.simulation.energy import Energy, elastic_energy
 from springblock.simulation.fields import Fields
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.prelude import Prelude, conditions
 from springblock.simulation.run import Realisation, first_minimum
-from springblock.simulation.setup import DEFAULT, Setup
+from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import SQUARES, WORK, unpadded
 from springblock.solver.shear import shear_forces
 
@@ -87,50 +86,45 @@ def simulate(
     """
     check_type("surface", surface, Surface)
     check_type("setup", setup, Setup)
-    contact, strongest, interval = surface.contact, surface.strongest, setup.sample_interval
-    stops = snapshot_samples(snapshot_times, interval, contact.size, duration)
-    setup.check_length(contact, strongest, duration, until=max(snapshot_times, default=0.0))
-    end = None if duration is None else count_samples(duration, interval)
-    limit = _LATEST * setup.loading_time(contact, strongest)
+    contact, strongest = surface.contact, surface.strongest
+    end, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
+    latest = _LATEST * setup.loading_time(contact, strongest)
 
-    motion = Motion.at_rest(surface, setup, direction, cores)
+    motion = Motion(surface, setup, direction, cores)
     here = conditions(contact, setup, heading(direction), surface.periodic)
     kept, snapshots = None, list[Array]()
     if checkpoint is not None:
         friction = surface.mu_static, surface.mu_dynamic
-        belongs = belonging(here, friction, duration=end, snapshot_times=stops)
+        belongs = belonging(here, friction, duration=end, snapshot_times=at_samples)
         kept = Checkpoint(Path(checkpoint), checkpoint_interval, belongs)
         snapshots = kept.resume(motion)
     if prelude is not None:
-        _check_prelude(prelude, here)
+        if prelude.conditions != here:
+            raise ValueError(
+                "this prelude belongs to another scene, material, integrator, step or "
+                "sample_interval"
+            )
         if not motion.samples:
-            prelude.start(motion, min([*stops, math.inf if end is None else end]) - 1)
+            prelude.start(motion, min([*at_samples, math.inf if end is None else end]) - 1)
     with tqdm(total=end, initial=motion.samples, unit=" samples", disable=not progress) as bar:
-        while len(snapshots) < len(stops) or not _is_over(motion, end, limit):
+        while len(snapshots) < len(at_samples) or not _is_over(motion, end, latest):
             pause = (motion.samples // _SAMPLES_PER_CALL + 1) * _SAMPLES_PER_CALL
             pause = pause if end is None else min(pause, end)
-            for stop in [stop for stop in stops if motion.samples < stop <= pause]:
-                motion.proceed(stop)
+            for sample in [each for each in at_samples if motion.samples < each <= pause]:
+                motion.proceed(sample)
                 snapshots.append(_snapshot(motion))
             motion.proceed(pause)
             bar.update(motion.samples - bar.n)
             if kept is not None and kept.is_due:
                 kept.save(motion, snapshots)
-    run = _result(motion, snapshots, stops)
+    run = _result(motion, snapshots, at_samples)
     if kept is not None:
         kept.path.unlink(missing_ok=True)
     return run
 
 
-def _check_prelude(prelude: Prelude, expected: str) -> None:
-    if prelude.conditions != expected:
-        raise ValueError(
-            "this prelude belongs to another scene, material, integrator, step or sample_interval"
-        )
-
-
-def _is_over(motion: Motion, end: int | None, limit: float) -> bool:
-    """Return whether the run is complete, see `simulate`."""
+def _is_over(motion: Motion, end: int | None, latest: float) -> bool:
+    """Return whether the run is complete, see `simulate`; it fails after the time `latest`, s."""
     if end is not None:
         return motion.samples >= end
     blocks, now = motion.state.blocks, motion.time
@@ -139,7 +133,7 @@ def _is_over(motion: Motion, end: int | None, limit: float) -> bool:
     if math.isfinite(last):
         force = np.hypot(*motion.recorded()[:2])
         return now > _WITHOUT_DROP * last or first_minimum(force) is not None
-    if now > limit:
+    if now > latest:
         stuck = int(np.isinf(t_det).sum())
         raise SimulationError(
             f"at t = {now:.4g} s {stuck} contact blocks have not detached; "
@@ -157,13 +151,13 @@ def _snapshot(motion: Motion) -> Array:
     return np.stack([motion.displacement(), velocity, force / setup.material.spacing**2])
 
 
-def _result(motion: Motion, snapshots: list[Array], stops: list[int]) -> Realisation:
+def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Realisation:
     """Return the results in SI units."""
-    grid, setup = motion.constants.grid, motion.setup
+    grid, setup, blocks = motion.constants.grid, motion.setup, motion.state.blocks
     material, step = setup.material, setup.step
     n_y, n_x = grid.shape
-    t_det = step * unpadded(motion.state.blocks.t_det, grid)
-    t_det = np.where(np.isfinite(t_det), t_det, np.nan)
+    t_det = unpadded(blocks.t_det, grid)  # in steps
+    detached_in = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64) // setup.every + 1
     time = setup.every * step * np.arange(motion.samples + 1.0)
     velocity, heat = motion.method.at_step(motion.state, motion.constants, motion.steps)
     velocity = motion.vectors(*velocity) * material.spacing / step
@@ -171,13 +165,21 @@ def _result(motion: Motion, snapshots: list[Array], stops: list[int]) -> Realisa
     energy = _energy(motion, velocity, heat)
     if not math.isfinite(energy.relative_residual):
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
-    fields = _fields(motion, snapshots, stops)
+    kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
+    fields = Fields(
+        time=setup.sample_interval * np.array(at_samples, float),
+        displacement=kept[:, 0],
+        velocity=kept[:, 1],
+        stress=kept[:, 2],
+        contact=unpadded(blocks.static, grid) > 0.0,
+        spacing=material.spacing,
+    )
     return Realisation(
         time=time,
         force=motion.newton * np.hypot(force_x, force_y),
-        detachments=_first_detachments(motion),
+        detachments=np.bincount(detached_in, minlength=motion.samples + 1),
         switches=switches,
-        t_det=t_det,
+        t_det=np.where(np.isfinite(t_det), step * t_det, np.nan),
         normal_force=material.block_load * n_y * n_x,
         energy=energy,
         steps=motion.steps,
@@ -188,26 +190,6 @@ def _result(motion: Motion, snapshots: list[Array], stops: list[int]) -> Realisa
         fields=fields,
         contact=fields.contact,
     )
-
-
-def _fields(motion: Motion, snapshots: list[Array], stops: list[int]) -> Fields:
-    grid, setup = motion.constants.grid, motion.setup
-    kept = np.array(snapshots).reshape(-1, 3, 2, *grid.shape)
-    return Fields(
-        time=setup.sample_interval * np.array(stops, float),
-        displacement=kept[:, 0],
-        velocity=kept[:, 1],
-        stress=kept[:, 2],
-        contact=unpadded(motion.state.blocks.static, grid) > 0.0,
-        spacing=setup.material.spacing,
-    )
-
-
-def _first_detachments(motion: Motion) -> NDArray[np.int64]:
-    """Number of first detachments in each sample interval, with 0 for the initial sample."""
-    t_det = motion.state.blocks.t_det
-    steps = np.ceil(t_det[np.isfinite(t_det)]).astype(np.int64)
-    return np.bincount(steps // motion.setup.every + 1, minlength=motion.samples + 1)
 
 
 def _energy(motion: Motion, velocity: Array, heat: float) -> Energy:

@@ -68,15 +68,7 @@ def _digest() -> str:
 
 
 def _cache_folder() -> Path:
-    """Return the folder for machine code, to which only this user can write.
-
-    Numba executes what it finds there.
-
-    Raises
-    ------
-    OSError, RuntimeError
-        If the folder cannot be created, or others can write to it.
-    """
+    """Return the folder for machine code, to which only this user can write: numba executes it."""
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
     shared = Path(home or Path.home() / ".cache") / "springblock"
     for folder in (shared, shared / _digest()):

@@ -9,7 +9,8 @@ in one step.
 from collections.abc import Callable
 from copy import deepcopy
 from itertools import count
-from typing import NamedTuple, Protocol
+from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -47,8 +48,8 @@ class Blocks(NamedTuple):
 
     ux: Array  #: displacement
     uy: Array
-    wx: Array  #: velocity
-    wy: Array
+    vx: Array  #: velocity
+    vy: Array
     t_det: Array  #: time of first detachment; infinite before
     static: Array  #: mu_s F_n; 0 outside the contact
     dynamic: Array  #: mu_d F_n; infinite for phantoms, which therefore never move
@@ -109,23 +110,6 @@ class Samples(NamedTuple):
 Advance = Callable[[State, Constants, int, int, int, Samples], tuple[int, int, int]]
 
 
-class Integrator(Protocol):
-    """Integration scheme: a module of this package (see CONTRIBUTING.md)."""
-
-    FORCE_EVALUATIONS: int  #: per step
-    WORK_FIELDS: int  #: number of work fields
-
-    def force_time(self, step: float, gamma: float) -> float:
-        """Time for which a force acts in one step, s."""
-
-    @property
-    def advance(self) -> Advance:
-        """Function that advances a state on one core."""
-
-    def at_step(self, state: State, constants: Constants, steps: int) -> tuple[Array, float]:
-        """Velocity, (2, lattice), after `steps` steps, and the frictional heat so far."""
-
-
 #: Threshold of a contact block with mu_s = 0: not zero, which stands for no contact.
 _NO_THRESHOLD = 1e-300
 
@@ -134,13 +118,13 @@ def prepare(
     surface: Surface,
     material: Material,
     heading: tuple[float, float],
-    integrator: Integrator,
+    integrator: ModuleType,
     step: float,
     keep_peak: bool = False,
 ) -> tuple[State, Constants]:
     """Return state and constants of a run in the kernels' units, at rest and unstrained.
 
-    `heading` is the unit vector of the slider velocity.
+    `heading` is the unit vector of the slider velocity; `integrator` is one of `integrators`.
     """
     contact, periodic = surface.contact, surface.periodic
     grid = Grid.of(contact.shape, periodic)
@@ -149,29 +133,24 @@ def prepare(
     compliance = step * integrator.force_time(step, material.gamma) / material.mass
     velocity_per_force = compliance / material.spacing
     load = material.block_load * n_y * n_x / np.count_nonzero(contact)  # F_n, N
+    shifts = count(step=9)  # see `aligned`
 
-    fields = count()
-
-    def padded(values: Array, beyond: float) -> Array:
-        lattice = field()
+    def field(values: Array | float = 0.0, beyond: float = 0.0) -> Array:
+        lattice = aligned((n_y + periodic) * int(grid.pitch), next(shifts))
         lattice[:] = beyond
         unpadded(lattice, grid)[:] = values
         return lattice
 
-    def field() -> Array:
-        return aligned((n_y + periodic) * int(grid.pitch), 9 * next(fields))
-
     static = np.maximum(surface.mu_static * load * velocity_per_force, _NO_THRESHOLD)
-    static = np.where(contact, static, 0.0)
     dynamic = surface.mu_dynamic * load * velocity_per_force
     blocks = Blocks(
         ux=field(),
         uy=field(),
-        wx=field(),
-        wy=field(),
-        t_det=padded(np.full((n_y, n_x), np.inf), np.inf),
-        static=padded(static, 0.0),
-        dynamic=padded(dynamic, np.inf),
+        vx=field(),
+        vy=field(),
+        t_det=field(np.inf, beyond=np.inf),
+        static=field(np.where(contact, static, 0.0)),
+        dynamic=field(dynamic, beyond=np.inf),
     )
     state = State(
         blocks=blocks,

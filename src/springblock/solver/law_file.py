@@ -6,7 +6,6 @@ of the row. T and V are as in `laws`.
 """
 
 import math
-from collections.abc import Callable
 from functools import cache
 from inspect import isfunction
 from typing import Any, NamedTuple
@@ -45,10 +44,7 @@ def from_file(
 ) -> FromFile:
     """Return a law for blocks at rest; the other arguments are fields of `FromFile`.
 
-    Raises
-    ------
-    ValueError
-        If numba cannot compile its functions, with the reason.
+    A law that numba cannot compile is refused with a ValueError that gives the reason.
     """
     initial = np.array(list(law.initial.values()))
     return FromFile(
@@ -113,7 +109,7 @@ def _friction(law, row, speed, static, dynamic):
     return law.load * mu
 
 
-def _resistance(law, row, speed, share, static, dynamic):
+def resistance(law, row, speed, share, static, dynamic):
     """Return T at the largest solution V, which a decelerating block reaches first.
 
     If friction decreases with V, a fixed-point iteration from above finds it. If friction
@@ -165,7 +161,7 @@ def _between(law, row, speed, share, static, dynamic, low, high):
     return friction
 
 
-def _share_of_end(law, row, speed, static, dynamic):
+def end_weight(law, row, speed, static, dynamic):
     """Return the least weight of the new velocity for which steep friction causes no ringing."""
     if speed == 0.0 or not law.contact[row]:
         return 0.5
@@ -174,23 +170,23 @@ def _share_of_end(law, row, speed, static, dynamic):
     return max(0.5, 1.0 - speed / max(fast - slow, speed))
 
 
-def _strength(law, static, dynamic):
+def threshold_of(law, static, dynamic):
     return max(static, _friction(law, len(law.state) - 1, 0.0, static, dynamic))
 
 
-def _state_at_release(law):
+def state_at_release(law):
     return len(law.state) - 1
 
 
-def _state_of(law, b):
+def state_of(law, b):
     return b
 
 
-def _state_before(law, row, moved):
+def state_before(law, row, moved):
     return row + len(law.state) // 2
 
 
-def _store_state(law, b, row, moved, slides):
+def store_state(law, b, row, moved, slides):
     if not law.contact[b]:
         return
     for i in range(law.state.shape[1]):
@@ -198,15 +194,3 @@ def _store_state(law, b, row, moved, slides):
         law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
     if slides:
         law.update(law.constants, law.state, np.int64(b), moved * law.speed, law.step)
-
-
-#: Functions by the names that `laws` uses.
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "resistance": _resistance,
-    "share_of_end": _share_of_end,
-    "strength": _strength,
-    "state_at_release": _state_at_release,
-    "state_of": _state_of,
-    "state_before": _state_before,
-    "store_state": _store_state,
-}

@@ -19,11 +19,10 @@ them. T is the velocity that mu F_n removes in one step, and V the mean speed of
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 from numba.extending import overload
 from numpy.typing import NDArray
 
@@ -77,22 +76,34 @@ def law_of(
     return None
 
 
-def strengths(law: Law, static: Array, dynamic: Array) -> Array:
-    """Return the `strength` of each of several blocks, (n,)."""
-    if isinstance(law, FromFile):
-        return np.array([strength(law, *each) for each in zip(static, dynamic, strict=True)])
-    return np.maximum(static, dynamic)
-
-
 def _bounded(scale: float) -> float:
     return min(max(scale, _LEAST), _MOST)
 
 
-def _resistance_dynamic(law, slip, speed, share, static, dynamic):
+def _of_each_law(functions: Mapping[type, Callable[..., Any]]) -> Any:
+    """Return the function that calls one of `functions`, by the type of its first argument.
+
+    A law that is not among them has the function of Coulomb's. Compiled callers choose when they
+    are compiled, and LLVM inlines the function; if numba inlined it instead, the assignment in
+    `_store_slip` would be lost.
+    """
+    usual = functions[type(None)]
+
+    def chosen(law, *arguments):
+        return functions.get(type(law), usual)(law, *arguments)
+
+    @overload(chosen, strict=False)
+    def compiled(law, *arguments):
+        return functions.get(getattr(law, "instance_class", type(None)), usual)
+
+    return chosen
+
+
+def _dynamic(law, slip, speed, share, static, dynamic):
     return dynamic
 
 
-def _resistance_after_slip(law, slip, speed, share, static, dynamic):
+def _after_slip(law, slip, speed, share, static, dynamic):
     """Return T after a slip; it drops to mu_d at once if a step from rest slips beyond d_c."""
     mean = speed + share * dynamic
     left = max(1.0 - slip * law.rate, 0.0)
@@ -100,7 +111,7 @@ def _resistance_after_slip(law, slip, speed, share, static, dynamic):
     return dynamic + max(static - dynamic, 0.0) * (0.0 if at_once else left)
 
 
-def _resistance_at_speed(law, slip, speed, share, static, dynamic):
+def _at_speed(law, slip, speed, share, static, dynamic):
     """Return T at the larger of the two solutions V, which a decelerating block reaches first."""
     drop, c, fastest = max(static - dynamic, 0.0), law.scale, speed + share * dynamic
     under_root = (fastest + c) * (fastest + c) + 4.0 * share * drop * c
@@ -136,61 +147,32 @@ def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
 
-#: Functions that laws without a state have in common.
-_STATELESS: dict[str, Callable[..., Any]] = {
-    "share_of_end": _half,
-    "strength": _stronger,
-    "state_at_release": _zero,
-    "state_of": _zero,
-    "state_before": _zero,
-    "store_state": _store_nothing,
-}
-#: Functions of each law by its type; their signatures are given at the end of this module.
-FUNCTIONS: dict[type, dict[str, Callable[..., Any]]] = {
-    type(None): _STATELESS | {"resistance": _resistance_dynamic},
-    SlipWeakening: _STATELESS
-    | {
-        "resistance": _resistance_after_slip,
-        "state_of": _slip_so_far,
-        "state_before": _slip_before,
-        "store_state": _store_slip,
-    },
-    VelocityWeakening: _STATELESS | {"resistance": _resistance_at_speed},
-    FromFile: law_file.FUNCTIONS,
-}
-
-
-def _of_each_law(name):
-    """Return a function that dispatches on the type of its first argument, compiled or not.
-
-    LLVM inlines it into compiled callers; if numba inlined it instead, the assignment in
-    `_store_slip` would be lost.
-    """
-
-    def chosen(law, *arguments):
-        return FUNCTIONS[type(law)][name](law, *arguments)
-
-    @overload(chosen, strict=False)
-    def compiled(law, *arguments):
-        return FUNCTIONS[type(None) if law is types.none else law.instance_class][name]
-
-    return chosen
-
-
+_COULOMB = type(None)
 #: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T. In the
 #: leapfrog `speed` is |v + w|/2, and friction reduces it by T/2: share is -1/2. If V is known,
 #: share is 0. T is infinite if no V solves the equation: the block stops.
-resistance = _of_each_law("resistance")
+resistance = _of_each_law(
+    {
+        _COULOMB: _dynamic,
+        SlipWeakening: _after_slip,
+        VelocityWeakening: _at_speed,
+        FromFile: law_file.resistance,
+    }
+)
 #: (law, state, speed, static, dynamic) -> weight θ of the velocity after a step in the one at which
 #: friction is evaluated: 1/2, but more where friction rises steeply with speed.
-share_of_end = _of_each_law("share_of_end")
+end_weight = _of_each_law({_COULOMB: _half, FromFile: law_file.end_weight})
 #: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
-strength = _of_each_law("strength")
+threshold_of = _of_each_law({_COULOMB: _stronger, FromFile: law_file.threshold_of})
 #: (law) -> state of a block that detaches: its slip, or the row of its state.
-state_at_release = _of_each_law("state_at_release")
+state_at_release = _of_each_law({_COULOMB: _zero, FromFile: law_file.state_at_release})
 #: (law, b) -> state of block b.
-state_of = _of_each_law("state_of")
+state_of = _of_each_law({_COULOMB: _zero, SlipWeakening: _slip_so_far, FromFile: law_file.state_of})
 #: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
-state_before = _of_each_law("state_before")
+state_before = _of_each_law(
+    {_COULOMB: _zero, SlipWeakening: _slip_before, FromFile: law_file.state_before}
+)
 #: (law, b, state, moved, slides): store the state of block b after a step from `state`.
-store_state = _of_each_law("store_state")
+store_state = _of_each_law(
+    {_COULOMB: _store_nothing, SlipWeakening: _store_slip, FromFile: law_file.store_state}
+)

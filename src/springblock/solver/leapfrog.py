@@ -39,9 +39,9 @@ from springblock.solver.laws import (
     state_before,
     state_of,
     store_state,
-    strength,
+    threshold_of,
 )
-from springblock.solver.release import effective_share, force_in_patch, make_releases, release_share
+from springblock.solver.release import effective_theta, force_in_patch, make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 from springblock.solver.stability import leapfrog_force_time
 
@@ -66,7 +66,7 @@ def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, floa
     """
     ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))
-    velocity = np.stack([blocks.wx + ahead.blocks.wx, blocks.wy + ahead.blocks.wy]) / 2.0
+    velocity = np.stack([blocks.vx + ahead.blocks.vx, blocks.vy + ahead.blocks.vy]) / 2.0
     return velocity, float(state.ledger[HEAT] + ahead.ledger[HEAT]) / 2.0
 
 
@@ -75,11 +75,8 @@ class Rows(NamedTuple):
 
     in_contact: NDArray[np.bool_]  #: (N_y,) whether any block is in contact
     awake: NDArray[np.bool_]  #: (N_y + 1,) whether its blocks are computed in this step
-    wake: NDArray[np.int64]  #: (N_y,) step in which it must be computed at the latest
+    due: NDArray[np.int64]  #: (N_y,) step in which it must be computed at the latest
     sliding: NDArray[np.bool_]  #: (N_y + 2,) whether any block moves, with a row beyond each edge
-    switching: NDArray[np.int64]  #: (N_y,) switches to sliding, also after an instant of rest
-    released: NDArray[np.int64]  #: (N_y,) switches of blocks at rest before the step
-    attached: NDArray[np.bool_]  #: (N_y,) whether any block has never detached
     x: Array  #: (N_y,) sums over its blocks, see `Totals`
     y: Array
     heat: Array
@@ -92,9 +89,7 @@ def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
     awake, sliding = np.ones(n + 1, np.bool_), np.ones(n + 2, np.bool_)
     awake[n] = periodic
     sliding[0] = sliding[n + 1] = False
-    wake, switching, released = np.zeros((3, n), np.int64)
-    attached, sums = np.ones(n, np.bool_), np.zeros((4, n))
-    return Rows(in_contact, awake, wake, sliding, switching, released, attached, *sums)
+    return Rows(in_contact, awake, np.zeros(n, np.int64), sliding, *np.zeros((4, n)))
 
 
 @njit(inline="always")
@@ -109,28 +104,58 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
 
 
 @kernel
-def _count_switches(blocks, dots, i, n):
-    """Return the switches to sliding in a row, and those of blocks at rest before the step.
+def _list_releases(blocks, law, released, count, band, s, row):
+    """List the blocks of a row that were at rest until this step; return their number so far.
 
-    `dots` holds w·v of each block: negative if it has reversed, zero if it was at rest.
+    F_mot and friction have accelerated them from rest in this one step.
     """
-    switches, released = np.int64(0), np.int64(0)
-    for x in range(ONE, n + ONE):
-        b, w_dot_v = i + x, dots[x]
-        slides = ((blocks.wx[b] != 0.0) | (blocks.wy[b] != 0.0)) & (blocks.static[b] > 0.0)
-        switches += np.int64(slides & (w_dot_v <= 0.0))
-        released += np.int64(slides & (w_dot_v == 0.0))
-    return switches, released
+    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+    for x in range(ONE, band.grid.n_x + ONE):
+        b = i + x
+        vx, vy = blocks.vx[b], blocks.vy[b]
+        if blocks.static[b] > 0.0 and (vx != 0.0 or vy != 0.0):
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+            force = math.hypot(fx, fy)
+            friction = resistance(
+                law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
+            )
+            left = 1.0 - friction / force
+            if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * math.hypot(fx, fy):
+                released.row[count], released.x[count] = np.int64(row), np.int64(x)
+                released.ax[count], released.ay[count] = vx, vy
+                count += 1
+    return count
 
 
 @kernel
-def _move_rows_in_contact(blocks, law, rows, band, s, dots, a):
+def _record_switches(blocks, law, released, count, band, s, dots, row, now):
+    """Record switches to sliding and first detachments in a row; list blocks released from rest.
+
+    `dots` holds w·v of each block: negative if it has reversed, zero if it was at rest. Returns the
+    switches, and the number of blocks released so far.
+    """
+    switches, from_rest = np.int64(0), False
+    i, t_det = row * band.grid.pitch, blocks.t_det
+    for x in range(ONE, band.grid.n_x + ONE):
+        b = i + x
+        slides = ((blocks.vx[b] != 0.0) | (blocks.vy[b] != 0.0)) & (blocks.static[b] > 0.0)
+        switched = slides & (dots[x] <= 0.0)
+        switches += np.int64(switched)
+        t_det[b] = now if switched & (t_det[b] > now) else t_det[b]
+        from_rest = from_rest | (slides & (dots[x] == 0.0))
+    if from_rest:
+        count = _list_releases(blocks, law, released, count, band, s, row)
+    return switches, count
+
+
+@kernel
+def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, now):
     """Kick and drift the blocks of those rows of a band that are awake and hold contacts.
 
-    `dots` is a work array for w·v of the blocks of a row.
+    `dots` is a work array for w·v of the blocks of a row. Returns what `move_band` returns.
     """
-    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    static, dynamic = blocks.static, blocks.dynamic
+    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
+    static, dynamic, switches = blocks.static, blocks.dynamic, np.int64(0)
     for row in range(band.start, band.stop):
         if not (rows.in_contact[row] and rows.awake[row]):
             continue
@@ -140,14 +165,14 @@ def _move_rows_in_contact(blocks, law, rows, band, s, dots, a):
         for x in range(ONE, band.grid.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            vx, vy = wx[b], wy[b]
-            trial_x, trial_y = a * vx + fx, a * vy + fy
+            old_x, old_y = vx[b], vy[b]
+            trial_x, trial_y = a * old_x + fx, a * old_y + fy
             new_x, new_y, slides, w_dot_v = apply_friction(
-                law, b, trial_x, trial_y, vx, vy, fx, fy, static[b], dynamic[b]
+                law, b, trial_x, trial_y, old_x, old_y, fx, fy, static[b], dynamic[b]
             )
             next_x, next_y = ux[b] + new_x, uy[b] + new_y
-            wx[b] = new_x
-            wy[b] = new_y
+            vx[b] = new_x
+            vy[b] = new_y
             ux[b] = next_x
             uy[b] = next_y
             dots[x] = w_dot_v
@@ -157,15 +182,15 @@ def _move_rows_in_contact(blocks, law, rows, band, s, dots, a):
             sum_y = add(sum_y, next_y)
             # Friction work: the impulse of friction times the mean velocity of the step.
             impulse_x, impulse_y = trial_x - new_x, trial_y - new_y
-            heat = add(heat, impulse_x * (vx + new_x) + impulse_y * (vy + new_y))
+            heat = add(heat, impulse_x * (old_x + new_x) + impulse_y * (old_y + new_y))
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.sliding[row + ONE] = slide
-        rows.switching[row], rows.released[row] = 0, 0
-        if switch:
-            counts = _count_switches(blocks, dots, i, band.grid.n_x)
-            rows.switching[row], rows.released[row] = counts
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.heat[row], rows.squares[row] = 0.5 * heat, squares
+        if switch:
+            more, count = _record_switches(blocks, law, released, count, band, s, dots, row, now)
+            switches += more
+    return switches, count
 
 
 @kernel
@@ -174,7 +199,7 @@ def _move_free_rows(blocks, rows, band, s, a):
 
     Blocks move as in `_move_rows_in_contact`, to the bit; sums may be taken in another order.
     """
-    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
     for row in range(band.start, band.stop):
         if rows.in_contact[row]:
             continue
@@ -183,11 +208,11 @@ def _move_free_rows(blocks, rows, band, s, a):
         for x in range(ONE, band.grid.width + ONE):
             b = i + x
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            new_x, new_y = a * wx[b] + fx, a * wy[b] + fy
+            new_x, new_y = a * vx[b] + fx, a * vy[b] + fy
             new_x, new_y = (new_x, new_y) if x <= band.grid.n_x else (0.0, 0.0)
             next_x, next_y = ux[b] + new_x, uy[b] + new_y
-            wx[b] = new_x
-            wy[b] = new_y
+            vx[b] = new_x
+            vy[b] = new_y
             ux[b] = next_x
             uy[b] = next_y
             sum_x = add(sum_x, next_x)
@@ -195,30 +220,6 @@ def _move_free_rows(blocks, rows, band, s, a):
             squares = add(squares, new_x * new_x + new_y * new_y)
         rows.x[row], rows.y[row] = _without_phantoms(ux, uy, i, band.grid, sum_x, sum_y)
         rows.squares[row] = squares
-
-
-@kernel
-def _list_releases(blocks, law, released, count, band, s, row):
-    """List the blocks of a row that were at rest until this step; return their number so far.
-
-    F_mot and friction have accelerated them from rest in this one step.
-    """
-    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
-    for x in range(ONE, band.grid.n_x + ONE):
-        b = i + x
-        wx, wy = blocks.wx[b], blocks.wy[b]
-        if blocks.static[b] > 0.0 and (wx != 0.0 or wy != 0.0):
-            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            force = math.hypot(fx, fy)
-            friction = resistance(
-                law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
-            )
-            left = 1.0 - friction / force
-            if math.hypot(wx - left * fx, wy - left * fy) <= _FROM_REST * math.hypot(fx, fy):
-                released.row[count], released.x[count] = np.int64(row), np.int64(x)
-                released.ax[count], released.ay[count] = wx, wy
-                count += 1
-    return count
 
 
 @kernel
@@ -233,25 +234,25 @@ def _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
     for j in range(5):
         for i in range(5):
             b = index_of(row + j - 2, x + i - 2, grid)
-            now[0, j, i] = blocks.ux[b] - blocks.wx[b] if b >= 0 else np.nan
-            now[1, j, i] = blocks.uy[b] - blocks.wy[b] if b >= 0 else np.nan
+            now[0, j, i] = blocks.ux[b] - blocks.vx[b] if b >= 0 else np.nan
+            now[1, j, i] = blocks.uy[b] - blocks.vy[b] if b >= 0 else np.nan
     for j in range(3):
         for i in range(3):
             b = index_of(row + j - 1, x + i - 1, grid)
             before[0, j, i], before[1, j, i] = now[0, j + 1, i + 1], now[1, j + 1, i + 1]
-            if b < 0 or (blocks.wx[b] == 0.0 and blocks.wy[b] == 0.0):
+            if b < 0 or (blocks.vx[b] == 0.0 and blocks.vy[b] == 0.0):
                 continue
             fx, fy = force_in_patch(now, j + 1, i + 1, constants.springs, slider)
-            wx, wy = blocks.wx[b], blocks.wy[b]
+            vx, vy = blocks.vx[b], blocks.vy[b]
             # Friction acted along v + w ∥ (1 + a) v⁺ - f, on the side of v⁺.
-            mean_x, mean_y = (1.0 + a) * wx - fx, (1.0 + a) * wy - fy
-            size, forwards = math.hypot(mean_x, mean_y), mean_x * wx + mean_y * wy
-            state = state_before(law, state_of(law, b), math.hypot(wx, wy))
+            mean_x, mean_y = (1.0 + a) * vx - fx, (1.0 + a) * vy - fy
+            size, forwards = math.hypot(mean_x, mean_y), mean_x * vx + mean_y * vy
+            state = state_before(law, state_of(law, b), math.hypot(vx, vy))
             speed, share = math.copysign(size, forwards) / (2.0 * a), 1.0 / (2.0 * a)
             friction = resistance(law, state, speed, share, blocks.static[b], blocks.dynamic[b])
             scale = math.copysign(friction / size, forwards)
-            before[0, j, i] -= (wx + scale * mean_x - fx) / a
-            before[1, j, i] -= (wy + scale * mean_y - fy) / a
+            before[0, j, i] -= (vx + scale * mean_x - fx) / a
+            before[1, j, i] -= (vy + scale * mean_y - fy) / a
 
 
 @kernel
@@ -268,22 +269,22 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
         _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
-        threshold = strength(law, blocks.static[b], blocks.dynamic[b])
-        released.share[m] = release_share(released, threshold, springs, slider, slide)
+        threshold = threshold_of(law, blocks.static[b], blocks.dynamic[b])
+        released.theta[m] = release_theta(released, threshold, springs, slider, slide)
     for m in range(count):
-        row, share = released.row[m], released.share[m]
+        row, theta = released.row[m], released.theta[m]
         b = index_of(row, released.x[m], constants.grid)
-        if np.isnan(share):
+        if np.isnan(theta):
             continue
         ax, ay = released.ax[m], released.ay[m]
         if blocks.t_det[b] == k:
-            blocks.t_det[b] = k - share
-        share = effective_share(share, epsilon)
-        slip, speed = 0.5 * share * share - epsilon / 8.0, 0.5 + share  # in units of a
+            blocks.t_det[b] = k - theta
+        theta = effective_theta(theta, epsilon)
+        slip, speed = 0.5 * theta * theta - epsilon / 8.0, 0.5 + theta  # in units of a
         further = slip + speed - 1.0  # displacement beyond that of the loop
         blocks.ux[b] += further * ax
         blocks.uy[b] += further * ay
-        blocks.wx[b], blocks.wy[b] = speed * ax, speed * ay
+        blocks.vx[b], blocks.vy[b] = speed * ax, speed * ay
         rows.x[row] += further * ax
         rows.y[row] += further * ay
         a2 = ax * ax + ay * ay
@@ -291,25 +292,11 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         state = state_at_release(law)
         friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, state, (slip + speed) * a1, True)
-        work = friction * a1 * (slip + 0.5 * (share - 0.5))  # along s, and for the change of speed
+        work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s, and for the change of speed
         extra = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)  # Q of (12)
         rows.heat[row] += work + extra
         rows.squares[row] += (speed * speed - 1.0) * a2
         close_edge(blocks.ux, blocks.uy, U(row), constants.grid)
-
-
-@kernel
-def _record_detachments(blocks, i, n, now):
-    """Record first detachments in a row; return whether any of its blocks has never detached."""
-    wx, wy, static, t_det = blocks.wx, blocks.wy, blocks.static, blocks.t_det
-    remaining = np.int64(0)
-    for x in range(ONE, n + ONE):
-        b = i + x
-        slides = ((wx[b] != 0.0) | (wy[b] != 0.0)) & (static[b] > 0.0)
-        first = t_det[b]
-        t_det[b] = now if slides & (first > now) else first
-        remaining += np.int64((static[b] > 0.0) & (t_det[b] > now))
-    return remaining > 0
 
 
 @kernel
@@ -326,22 +313,15 @@ def _steps_at_rest(static, s, own, i, n, pull):
 
 
 @kernel
-def _update_rows(blocks, law, rows, released, count, band, s, pull, now):
-    """Record switches, releases and detachments of a band; return what `move_band` returns."""
-    n, switches = band.grid.n_x, np.int64(0)
+def _settle_rows(blocks, rows, band, s, pull, now):
+    """Estimate for how long rows at rest stay so, and close the edges of all rows of a band."""
     for row in range(band.start, band.stop):
-        i = row * band.grid.pitch
-        if rows.in_contact[row] and rows.awake[row]:
-            switches += rows.switching[row]
-            if rows.released[row] > 0:
-                count = _list_releases(blocks, law, released, count, band, s, row)
-            if rows.switching[row] > 0 and rows.attached[row]:
-                rows.attached[row] = _record_detachments(blocks, i, n, now)
-            elif not rows.sliding[row + ONE] and rows.wake[row] <= now:
-                own = (row - band.start) * band.grid.pitch
-                rows.wake[row] = now + _steps_at_rest(blocks.static, s, own, i, n, pull)
+        i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+        computed = rows.in_contact[row] and rows.awake[row]
+        if computed and not rows.sliding[row + ONE] and rows.due[row] <= now:
+            steps = _steps_at_rest(blocks.static, s, own, i, band.grid.n_x, pull)
+            rows.due[row] = now + steps
         close_edge(blocks.ux, blocks.uy, row, band.grid)
-    return switches, count
 
 
 @kernel
@@ -353,9 +333,12 @@ def move_band(blocks, law, peak, rows, released, count, band, s, constants, now)
     a = math.exp(-constants.damping)
     pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
     update_peaks(peak, band, s)
-    _move_rows_in_contact(blocks, law, rows, band, s, one_row(s), a)
+    switches, count = _move_rows_in_contact(
+        blocks, law, rows, released, count, band, s, one_row(s), a, now
+    )
     _move_free_rows(blocks, rows, band, s, a)
-    return _update_rows(blocks, law, rows, released, count, band, s, pull, now)
+    _settle_rows(blocks, rows, band, s, pull, now)
+    return switches, count
 
 
 @kernel
@@ -364,14 +347,14 @@ def wake(rows, now, periodic):
 
     Only these are computed. Rows without contact count as moving throughout.
     """
-    n = len(rows.wake)
+    n = len(rows.x)
     if periodic:
         rows.sliding[0], rows.sliding[n + 1] = rows.sliding[n], rows.sliding[1]
     for row in range(n):
         disturbed = rows.sliding[row] or rows.sliding[row + 1] or rows.sliding[row + 2]
         if disturbed:
-            rows.wake[row] = now + 1  # estimated again when all are at rest
-        rows.awake[row] = disturbed or rows.wake[row] <= now
+            rows.due[row] = now + 1  # estimated again when all are at rest
+        rows.awake[row] = disturbed or rows.due[row] <= now
     if periodic:
         rows.awake[n] = rows.awake[0]
 

@@ -1,11 +1,12 @@
 """The leapfrog on several cores, for one large surface; results are those of one core to the bit.
 
-Each core advances a share of adjacent bands. Only the first and the last band of a share are
-coupled to rows of another share: all cores compute the forces on these two before any block moves,
-and then advance their shares.
+Each core advances a part of the rows, of adjacent bands. Only the first and the last band of a part
+are coupled to rows of another part: all cores compute the forces on these two before any block
+moves, and then advance their parts.
 """
 
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -21,12 +22,12 @@ from springblock.solver.lattice import (
     close_rows,
     tally,
 )
-from springblock.solver.leapfrog import Rows, make_rows, move_band, place_releases, totals, wake
+from springblock.solver.leapfrog import make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Releases, make_releases
 from springblock.solver.springs import ONE, Band, U, forces_on_band, scratch
 
 
-class Share(NamedTuple):
+class Part(NamedTuple):
     """Rows [start, stop) that one core advances, with its work arrays."""
 
     start: np.uint64
@@ -36,7 +37,7 @@ class Share(NamedTuple):
     released: Releases
 
 
-def shares(constants: Constants, cores: int) -> list[Share]:
+def parts_of(constants: Constants, cores: int) -> list[Part]:
     """Divide the bands of a lattice among this many cores, or one each if there are fewer bands."""
     size, (n_y, n_x) = int(constants.band_rows), constants.grid.shape
     bands = -(-n_y // size)
@@ -44,7 +45,7 @@ def shares(constants: Constants, cores: int) -> list[Share]:
     parts = []
     for start, stop in zip(cuts[:-1].tolist(), np.minimum(cuts[1:], n_y).tolist(), strict=True):
         released = make_releases((stop - start) * n_x)
-        parts.append(Share(U(start), U(stop), scratch(), scratch(), released))
+        parts.append(Part(U(start), U(stop), scratch(), scratch(), released))
     return parts
 
 
@@ -60,43 +61,43 @@ def _forces_on_end(blocks, rows, band, s, springs, slider):
 
 
 @kernel
-def _forces_at_ends(blocks, rows, share, constants, slider):
-    """Compute the forces on the first and the last band of a share, before any block moves.
+def _forces_at_ends(blocks, rows, constants, slider, part):
+    """Compute the forces on the first and the last band of a part, before any block moves.
 
     Returns row and column of a broken spring; column 0 if none is.
     """
-    first = band_from(share.start, constants)
-    row, column = _forces_on_end(blocks, rows, first, share.lower, constants.springs, slider)
-    if column > 0 or first.stop == share.stop:
+    first = band_from(part.start, constants)
+    row, column = _forces_on_end(blocks, rows, first, part.lower, constants.springs, slider)
+    if column > 0 or first.stop == part.stop:
         return row, column
-    last = band_from(_last_band(share, constants), constants)
-    return _forces_on_end(blocks, rows, last, share.upper, constants.springs, slider)
+    last = band_from(_last_band(part, constants), constants)
+    return _forces_on_end(blocks, rows, last, part.upper, constants.springs, slider)
 
 
 @njit(inline="always")
-def _last_band(share, constants):
+def _last_band(part, constants):
     """First row of the last band."""
     size = constants.band_rows
-    return (share.stop - ONE) // size * size
+    return (part.stop - ONE) // size * size
 
 
 @kernel
-def _move_share(blocks, law, peak, rows, share, constants, slider, now):
-    """Advance the rows of a share by one step.
+def _move_part(blocks, law, peak, rows, constants, slider, now, part):
+    """Advance the rows of a part by one step.
 
     Returns switches and releases, and row and column of a broken spring; column 0 if none is.
     """
-    springs, last = constants.springs, _last_band(share, constants)
+    springs, last = constants.springs, _last_band(part, constants)
     switches, count = np.int64(0), np.int64(0)
-    for start in range(share.start, share.stop, constants.band_rows):
+    for start in range(part.start, part.stop, constants.band_rows):
         band = band_from(start, constants)
-        s = share.upper if start == last and start > share.start else share.lower
-        if share.start < start < last:
+        s = part.upper if start == last and start > part.start else part.lower
+        if part.start < start < last:
             row, column = forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
             if column > 0:
                 return switches, count, row, column
         more, count = move_band(
-            blocks, law, peak, rows, share.released, count, band, s, constants, now
+            blocks, law, peak, rows, part.released, count, band, s, constants, now
         )
         switches += more
     return switches, count, U(0), U(0)
@@ -113,51 +114,30 @@ def advance(
 ) -> tuple[int, int, int]:
     """Advance as `leapfrog.advance` does, on this many cores."""
     (n_y, n_x), periodic = constants.grid.shape, constants.grid.periodic is not None
+    blocks, law, peak = state.blocks, state.law, state.peak
     rows, switches = make_rows(state.in_contact, periodic), 0
-    released, parts = make_releases(n_y * n_x), shares(constants, cores)
+    released, parts = make_releases(n_y * n_x), parts_of(constants, cores)
     with ThreadPoolExecutor(len(parts)) as executor:
         for k in range(first, first + steps):
-            if state.peak is None:
+            slider, count = (constants.slider_x * k, constants.slider_y * k), 0
+            if peak is None:
                 wake(rows, k, periodic)
-            more, count, row, column = _step(executor, state, rows, parts, released, constants, k)
-            if column > 0:
-                return k - first, row, column - 1
+            close_rows(blocks.ux, blocks.uy, constants.grid)
+            ends = partial(_forces_at_ends, blocks, rows, constants, slider)
+            for row, column in list(executor.map(ends, parts)):
+                if column > 0:
+                    return k - first, row, column - 1
+            move = partial(_move_part, blocks, law, peak, rows, constants, slider, k)
+            moved = list(executor.map(move, parts))
+            for part, (more, detached, row, column) in zip(parts, moved, strict=True):
+                if column > 0:
+                    return k - first, row, column - 1
+                for merged, own in zip(released[:5], part.released[:5], strict=True):
+                    merged[count : count + detached] = own[:detached]
+                switches, count = switches + more, count + detached
             if count > 0:
-                place_releases(state.blocks, state.law, rows, released, count, constants, k)
-            switches += more
+                place_releases(blocks, law, rows, released, count, constants, k)
             switches = tally(
                 state.ledger, samples, constants, totals(rows), switches, k, first, every
             )
     return steps, -1, -1
-
-
-def _step(
-    executor: Executor,
-    state: State,
-    rows: Rows,
-    parts: list[Share],
-    released: Releases,
-    constants: Constants,
-    k: int,
-) -> tuple[int, int, int, int]:
-    """Take one step; return switches and releases, and row and column of a broken spring."""
-    slider = constants.slider_x * k, constants.slider_y * k
-    blocks, law, peak = state.blocks, state.law, state.peak
-    close_rows(blocks.ux, blocks.uy, constants.grid)
-    broken = executor.map(
-        lambda part: _forces_at_ends(blocks, rows, part, constants, slider), parts
-    )
-    for row, column in list(broken):
-        if column > 0:
-            return 0, 0, row, column
-    switches = count = 0
-    moved = executor.map(
-        lambda part: _move_share(blocks, law, peak, rows, part, constants, slider, k), parts
-    )
-    for part, (more, detached, row, column) in zip(parts, list(moved), strict=True):
-        if column > 0:
-            return switches, count, row, column
-        for merged, own in zip(released[:5], part.released[:5], strict=True):
-            merged[count : count + detached] = own[:detached]
-        switches, count = switches + more, count + detached
-    return switches, count, 0, 0

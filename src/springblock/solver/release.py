@@ -33,7 +33,7 @@ class Releases(NamedTuple):
     x: NDArray[np.int64]  #: (N_y N_x,) column, from 1
     ax: Array  #: (N_y N_x,) velocity that the net force adds in one step
     ay: Array
-    share: Array  #: (N_y N_x,) θ
+    theta: Array  #: (N_y N_x,) θ
     now: Array  #: (2, 5, 5) displacements at step k, [y, x]; NaN beyond the edges
     before: Array  #: (2, 3, 3) displacements of the inner blocks at step k - 1
 
@@ -41,8 +41,8 @@ class Releases(NamedTuple):
 def make_releases(blocks: int) -> Releases:
     """Return work arrays for this many blocks, which take memory only when written to."""
     row, x = np.empty((2, blocks), np.int64)
-    ax, ay, share = np.empty((3, blocks))
-    return Releases(row, x, ax, ay, share, np.empty((2, 5, 5)), np.empty((2, 3, 3)))
+    ax, ay, theta = np.empty((3, blocks))
+    return Releases(row, x, ax, ay, theta, np.empty((2, 5, 5)), np.empty((2, 3, 3)))
 
 
 @njit(inline="always")
@@ -81,13 +81,13 @@ def force_in_patch(patch, y, x, springs, slider):
 
 
 @njit(inline="always")
-def effective_share(share, epsilon):
+def effective_theta(theta, epsilon):
     """Return θ_ε of (12), which tends to 1/2 at the stability limit, ε = 1."""
-    return share + epsilon * (0.5 - share)
+    return theta + epsilon * (0.5 - theta)
 
 
 @kernel
-def release_share(released, threshold, springs, slider, slide):
+def release_theta(released, threshold, springs, slider, slide):
     """Return θ of (9) for the central block; `slide` is the slider's displacement per step.
 
     NaN if the force exceeded the threshold one step earlier, too: the block was then sliding, and

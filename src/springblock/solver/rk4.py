@@ -32,7 +32,7 @@ from springblock.solver.lattice import (
     update_peaks,
 )
 from springblock.solver.laws import resistance, state_of, store_state
-from springblock.solver.release import effective_share, make_releases, release_share
+from springblock.solver.release import effective_theta, make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 
@@ -41,8 +41,8 @@ class Stage(NamedTuple):
 
     ux: Array  #: displacement
     uy: Array
-    wx: Array  #: velocity
-    wy: Array
+    vx: Array  #: velocity
+    vy: Array
     dx: Array  #: weighted sum of velocities over stages: the displacement in this step
     dy: Array
     ax: Array  #: weighted sum of accelerations: the change of velocity
@@ -70,23 +70,23 @@ def force_time(step: float, gamma: float) -> float:
 
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far."""
-    return np.stack([state.blocks.wx, state.blocks.wy]), float(state.ledger[HEAT])
+    return np.stack([state.blocks.vx, state.blocks.vy]), float(state.ledger[HEAT])
 
 
 @njit(inline="always")
-def _friction_direction(law, fx, fy, wx, wy, static, friction, damping):
+def _friction_direction(law, fx, fy, vx, vy, static, friction, damping):
     """Unit vector e that friction opposes in this step; zero for a block that stays at rest.
 
     For a sliding block, its direction of motion in the middle of the step, unless it reverses
     before. Under weakening laws a block is slow just after its release and turns within a step: its
     direction then solves the implicit equation, with friction along e itself.
     """
-    speed = math.sqrt(wx * wx + wy * wy)
+    speed = math.sqrt(vx * vx + vy * vy)
     if speed > 0.0:
-        ex, ey = wx / speed, wy / speed
+        ex, ey = vx / speed, vy / speed
         half = 0.5 / (1.0 + damping) ** 2  # half a step, less under strong damping
         back = friction if law is None else 0.0
-        mx, my = wx + half * (fx - back * ex), wy + half * (fy - back * ey)
+        mx, my = vx + half * (fx - back * ex), vy + half * (fy - back * ey)
         middle = math.sqrt(mx * mx + my * my)
         return (mx / middle, my / middle) if mx * ex + my * ey > 0.0 else (ex, ey)
     force = math.sqrt(fx * fx + fy * fy)
@@ -102,7 +102,7 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
     Stage velocities are those at the start of the step, and sums over stages are zero. Released
     blocks start with (10) of docs/model.md for θ = 1/2, which `_place_releases` corrects.
     """
-    wx, wy, static, dynamic = blocks.wx, blocks.wy, blocks.static, blocks.dynamic
+    vx, vy, static, dynamic = blocks.vx, blocks.vy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
     for row in range(band.start, band.stop):
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
@@ -111,21 +111,21 @@ def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
             if static[b] == 0.0:
                 continue
             fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-            rests = wx[b] == 0.0 and wy[b] == 0.0
-            half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (wx[b], wy[b])
+            rests = vx[b] == 0.0 and vy[b] == 0.0
+            half_x, half_y = (0.5 * fx, 0.5 * fy) if rests else (vx[b], vy[b])
             speed, slip = math.sqrt(half_x * half_x + half_y * half_y), state_of(law, b)
             share = -0.5 if rests else 0.0  # see `laws.resistance`
             friction = resistance(law, slip, speed, share, static[b], dynamic[b])
             ex[b], ey[b] = _friction_direction(
-                law, fx, fy, wx[b], wy[b], static[b], friction, damping
+                law, fx, fy, vx[b], vy[b], static[b], friction, damping
             )
             if rests and (ex[b] != 0.0 or ey[b] != 0.0):
                 t_det[b] = min(t_det[b], now)
                 excess = fx * ex[b] + fy * ey[b] - friction
                 ax, ay = excess * ex[b], excess * ey[b]
                 store_state(law, b, 0.0, 0.125 * excess, True)
-                wx[b], wy[b] = 0.5 * ax, 0.5 * ay
-                stage.wx[b], stage.wy[b] = wx[b], wy[b]
+                vx[b], vy[b] = 0.5 * ax, 0.5 * ay
+                stage.vx[b], stage.vy[b] = vx[b], vy[b]
                 stage.dx[b], stage.dy[b] = 0.125 * ax, 0.125 * ay
                 released.row[count], released.x[count] = np.int64(row), np.int64(x)
                 released.ax[count], released.ay[count] = ax, ay
@@ -145,10 +145,10 @@ def _reconstruct_displacements(blocks, stage, released, row, x, constants):
             b = index_of(row + j - 1, x + i - 1, constants.grid)
             ux, uy = (blocks.ux[b], blocks.uy[b]) if b >= 0 else (np.nan, np.nan)
             now[0, j + 1, i + 1], now[1, j + 1, i + 1] = ux, uy
-            if b >= 0 and (blocks.wx[b] != 0.0 or blocks.wy[b] != 0.0):
+            if b >= 0 and (blocks.vx[b] != 0.0 or blocks.vy[b] != 0.0):
                 ux, uy = (
-                    ux - blocks.wx[b] + 0.5 * stage.ax[b],
-                    uy - blocks.wy[b] + 0.5 * stage.ay[b],
+                    ux - blocks.vx[b] + 0.5 * stage.ax[b],
+                    uy - blocks.vy[b] + 0.5 * stage.ay[b],
                 )
             before[0, j, i], before[1, j, i] = ux, uy
 
@@ -169,23 +169,23 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
     epsilon = (constants.springs.k_s + 6.0 * constants.springs.kappa) / 8.0
     for m in range(count):
         b = index_of(released.row[m], released.x[m], constants.grid)
-        blocks.wx[b], blocks.wy[b] = 0.0, 0.0  # at rest before the step, for its neighbours
+        blocks.vx[b], blocks.vy[b] = 0.0, 0.0  # at rest before the step, for its neighbours
         store_state(law, b, 0.0, 0.0, False)
     for m in range(count):
         row, x = released.row[m], released.x[m]
         b = index_of(row, x, constants.grid)
         _reconstruct_displacements(blocks, stage, released, row, x, constants)
         threshold = max(blocks.static[b], blocks.dynamic[b])
-        share = release_share(released, threshold, constants.springs, slider, slide)
-        released.share[m] = 0.5 if np.isnan(share) else share
+        theta = release_theta(released, threshold, constants.springs, slider, slide)
+        released.theta[m] = 0.5 if np.isnan(theta) else theta
     heat = 0.0
     for m in range(count):
-        b, share = index_of(released.row[m], released.x[m], constants.grid), released.share[m]
+        b, theta = index_of(released.row[m], released.x[m], constants.grid), released.theta[m]
         if blocks.t_det[b] == k:
-            blocks.t_det[b] = k - share
-        share = effective_share(share, epsilon)
-        further = 0.5 * share * share - 0.125 + share - 0.5
-        blocks.wx[b], blocks.wy[b] = share * released.ax[m], share * released.ay[m]
+            blocks.t_det[b] = k - theta
+        theta = effective_theta(theta, epsilon)
+        further = 0.5 * theta * theta - 0.125 + theta - 0.5
+        blocks.vx[b], blocks.vy[b] = theta * released.ax[m], theta * released.ay[m]
         stage.dx[b] += further * released.ax[m]
         stage.dy[b] += further * released.ay[m]
         speed = math.hypot(released.ax[m], released.ay[m])
@@ -199,15 +199,15 @@ def _friction_in_stage(blocks, law, stage, b):
     """Friction of block b at the slip and the speed of the current stage."""
     ex, ey, slip = stage.ex[b], stage.ey[b], state_of(law, b)
     slip += (stage.ux[b] - blocks.ux[b]) * ex + (stage.uy[b] - blocks.uy[b]) * ey
-    speed = abs(stage.wx[b] * ex + stage.wy[b] * ey)
+    speed = abs(stage.vx[b] * ex + stage.vy[b] * ey)
     return resistance(law, slip, speed, 0.0, blocks.static[b], blocks.dynamic[b])
 
 
 @kernel
 def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
     """Compute one stage in a band; return its share of the heat and of the squared velocities."""
-    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
-    su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.wx, stage.wy, stage.ex, stage.ey
+    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
+    su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.vx, stage.vy, stage.ex, stage.ey
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total_heat, total = 0.0, 0.0
     for row in range(band.start, band.stop):
@@ -215,25 +215,25 @@ def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
         heat, squares = 0.0, 0.0
         for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
-            vx, vy = pu[b], pv[b]
+            stage_x, stage_y = pu[b], pv[b]
             friction = (
                 blocks.dynamic[b] if law is None else _friction_in_stage(blocks, law, stage, b)
             )
-            ax = s[FORCE_X + own + x] - damping * vx - friction * ex[b]
-            ay = s[FORCE_Y + own + x] - damping * vy - friction * ey[b]
+            ax = s[FORCE_X + own + x] - damping * stage_x - friction * ex[b]
+            ay = s[FORCE_Y + own + x] - damping * stage_y - friction * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
             ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
-            du[b] += weight * vx
-            dv[b] += weight * vy
+            du[b] += weight * stage_x
+            dv[b] += weight * stage_y
             qu[b] += weight * ax
             qv[b] += weight * ay
             if law is not None:  # Coulomb's heat is known at the end of the step
-                heat = add(heat, friction * (vx * ex[b] + vy * ey[b]))
-            squares = add(squares, vx * vx + vy * vy)
-            su[b] = ux[b] + reach * vx
-            sv[b] = uy[b] + reach * vy
-            pu[b] = wx[b] + reach * ax
-            pv[b] = wy[b] + reach * ay
+                heat = add(heat, friction * (stage_x * ex[b] + stage_y * ey[b]))
+            squares = add(squares, stage_x * stage_x + stage_y * stage_y)
+            su[b] = ux[b] + reach * stage_x
+            sv[b] = uy[b] + reach * stage_y
+            pu[b] = vx[b] + reach * ax
+            pv[b] = vy[b] + reach * ay
         total_heat, total = total_heat + heat, total + squares
         close_edge(su, sv, row, band.grid)
     return weight * total_heat, weight * total
@@ -254,9 +254,9 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
 
     Sums are taken row by row, which limits rounding; `heat` and `squares` are those of the stages.
     """
-    ux, uy, wx, wy = blocks.ux, blocks.uy, blocks.wx, blocks.wy
+    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
     static, ex, ey = blocks.static, stage.ex, stage.ey
-    su, sv, pu, pv = stage.ux, stage.uy, stage.wx, stage.wy
+    su, sv, pu, pv = stage.ux, stage.uy, stage.vx, stage.vy
     du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
     total_x, total_y = 0.0, 0.0
     for row in range(grid.n_y):
@@ -264,7 +264,7 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
         heat_of_row = 0.0
         for x in range(ONE, grid.n_x + ONE):
             b = i + x
-            new_x, new_y = wx[b] + qu[b], wy[b] + qv[b]
+            new_x, new_y = vx[b] + qu[b], vy[b] + qv[b]
             turned = (static[b] > 0.0) & (new_x * ex[b] + new_y * ey[b] <= 0.0)
             lost = 0.5 * (new_x * new_x + new_y * new_y)  # kinetic energy of a block that reverses
             slip, further = state_of(law, b), du[b] * ex[b] + dv[b] * ey[b]
@@ -274,7 +274,7 @@ def _finish_step(blocks, law, stage, grid, heat, squares):
             new_x, new_y = 0.0 if turned else new_x, 0.0 if turned else new_y
             next_x, next_y = ux[b] + du[b], uy[b] + dv[b]
             ux[b], uy[b], su[b], sv[b] = next_x, next_y, next_x, next_y
-            wx[b], wy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
+            vx[b], vy[b], pu[b], pv[b] = new_x, new_y, new_x, new_y
             du[b], dv[b], qu[b], qv[b] = 0.0, 0.0, 0.0, 0.0
         sum_x, sum_y = _displacement_of_row(ux, uy, i, grid.n_x)
         total_x, total_y, heat = total_x + sum_x, total_y + sum_y, heat + heat_of_row

@@ -17,7 +17,6 @@ from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
 from springblock.model.scene import LENGTHS, MAPS, TEXTS, Scene, Varied
 from springblock.model.surface import Surface
-from springblock.simulation.checks import count_samples, snapshot_samples
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
 
@@ -158,13 +157,9 @@ def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
     _check_draws(ensemble, own.material)
+    threshold = _threshold(scene, own.material)
     for duration in (None, ensemble.duration):  # its prelude and its realisations
-        until = max(ensemble.snapshot_times, default=0.0)
-        own.check_length(scene.contact, _threshold(scene, own.material), duration, until)
-    if ensemble.duration is not None:
-        count_samples(ensemble.duration, own.sample_interval)
-    blocks, times = scene.contact.size, ensemble.snapshot_times
-    snapshot_samples(times, own.sample_interval, blocks, ensemble.duration)
+        own.plan(scene.contact, threshold, duration, ensemble.snapshot_times)
 
 
 def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
