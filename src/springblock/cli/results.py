@@ -30,21 +30,18 @@ def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     if physics == (results is not None):
         raise click.UsageError("give either a folder or file of results, or --physics")
     if results is None:
-        _verify_physics()
-        return
-    if results.is_file():
-        _verify_bits(results, other)
-        return
-    found = [fault.reason for fault in audit.faults(results)]
-    complete = f"{results}: every file is complete, in its place and of the current code"
-    click.echo("\n".join(found or [complete]))
-    if other is not None:
-        found += _differences(results, other)
-    if found:
+        good = _has_the_same_physics()
+    elif results.is_file():
+        if other is None or not other.is_file():
+            raise ValueError(f"{results} is a file; give a second file to compare it with")
+        good = _are_the_same(f"{results} and {other}", results, other)
+    else:
+        good = _is_sound(results, other)
+    if not good:
         raise SystemExit(1)
 
 
-def _verify_physics() -> None:
+def _has_the_same_physics() -> bool:
     """Compare ensembles computed here with the recorded ones."""
     from springblock.accuracy import consistency  # loads numba
 
@@ -56,18 +53,30 @@ def _verify_physics() -> None:
         f"{len(apart)} of {len(found)} means differ significantly (together, at "
         f"{100 * consistency.LEVEL:g} %)" + ("" if apart else ": the same physics")
     )
-    if apart:
-        raise SystemExit(1)
+    return not apart
 
 
-def _verify_bits(file: Path, other: Path | None) -> None:
-    """Compare two files to the bit, by rows of the same scene and seed."""
-    if other is None or not other.is_file():
-        raise ValueError(f"{file} is a file; give a second file to compare it with")
-    found = comparison.compare(load(file), load(other))
-    click.echo(f"{file} and {other}: {_in_words(found)}")
-    if not found.same:
-        raise SystemExit(1)
+def _is_sound(results: Path, other: Path | None) -> bool:
+    """Print the faults of a folder, and how its tables differ from those of another."""
+    found = [fault.reason for fault in audit.faults(results)]
+    complete = f"{results}: every file is complete, in its place and of the current code"
+    click.echo("\n".join(found or [complete]))
+    same = []
+    if other is not None:
+        for file in sorted(results.glob("tables/*.parquet")):
+            name = file.relative_to(results)
+            same.append(_are_the_same(str(name), file, other / name))
+    return not found and all(same)
+
+
+def _are_the_same(name: str, first: Path, second: Path) -> bool:
+    """Print how two tables differ, and return whether they are equal to the bit."""
+    if not second.exists():
+        click.echo(f"{name}: missing in the second")
+        return False
+    found = comparison.compare(load(first), load(second))
+    click.echo(f"{name}: {_in_words(found)}")
+    return found.same
 
 
 def _in_words(found: comparison.Comparison) -> str:
@@ -81,23 +90,6 @@ def _in_words(found: comparison.Comparison) -> str:
         size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
         lines.append(f"  {name}: {how_many}, {size}")
     return "\n".join(lines)
-
-
-def _differences(results: Path, other: Path) -> list[str]:
-    """Compare the tables of two studies to the bit; return those that differ."""
-    different = []
-    for file in sorted((results / "tables").rglob("*.parquet")):
-        name = file.relative_to(results)
-        found = "missing in the second"
-        if (other / name).exists():
-            compared = comparison.compare(load(file), load(other / name))
-            found = _in_words(compared)
-            if compared.same:
-                click.echo(f"{name}: {found}")
-                continue
-        different.append(f"{name}: {found}")
-        click.echo(different[-1])
-    return different
 
 
 @click.command("repair")
