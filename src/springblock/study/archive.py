@@ -106,9 +106,7 @@ def _crate(study: Path, files: list[str], made: list[str], configuration: str) -
     paper = about["references"][0]
     doi = f"https://doi.org/{paper['doi']}"
     root["citation"] = add(doi, "ScholarlyArticle", name=paper["title"])
-    root["conformsTo"] = [
-        add(url, "CreativeWork", name=url.split("/", 4)[4]) for url in _PROFILES
-    ]
+    root["conformsTo"] = [add(url, "CreativeWork", name=url.split("/", 4)[4]) for url in _PROFILES]
     entities = {name: _add_file(crate, study, name) for name in files}
     times = [(study / name).stat().st_mtime for name in made]
     began, ended = (datetime.fromtimestamp(when(times), UTC) for when in (min, max))
