@@ -1,10 +1,9 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
 import json
-import shutil
 from collections.abc import Callable
 from dataclasses import fields, replace
-from functools import partial, wraps
+from functools import wraps
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -27,7 +26,7 @@ from springblock.cli.options import (
 )
 from springblock.files import MENDING
 from springblock.io.fields import check_name, write_fields
-from springblock.io.parquet import load, origin_of, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.asperities import draw_friction
@@ -36,7 +35,6 @@ from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.provenance import configuration_digest, same_code
-from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.motion import SimulationError
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
@@ -171,8 +169,8 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     "--checkpoint",
     "minutes",
     type=click.FloatRange(min=0.0, min_open=True),
-    help="Minutes between checkpoints in the folder OUTPUT.checkpoint, from which the same command "
-    "continues; it is removed at the end.",
+    help="Minutes between checkpoints in the file OUTPUT.checkpoint, from which the same command "
+    "continues; it is removed at the end. One seed.",
 )
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
@@ -194,27 +192,22 @@ def simulate_batch(
         raise click.BadParameter(f"--last-seed {last_seed} is below --first-seed {first_seed}")
     if len(seeds) > _MOST_SEEDS:
         raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
-    _check_fields(field_file, output, snapshot_times, seeds)
     single = len(seeds) == 1
+    if minutes is not None and not single:
+        raise ValueError(f"--checkpoint takes one seed, not {len(seeds)}; `sweep` continues others")
+    _check_fields(field_file, output, snapshot_times, seeds)
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
-    metadata = metadata_of(setup.constants | asked)
-    row = partial(realised, scene, setup, field_file=field_file, cores=cores, progress=single)
-    row = partial(row, prelude=prelude and _prelude(prelude), **asked)
-    folder = output.with_name(f"{output.name}.checkpoint")
+    how = {"prelude": prelude and _prelude(prelude), "cores": cores, "progress": single, **asked}
     if minutes is not None:
-        belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
-        belongs |= {"fields": str(field_file)} if field_file else {}
-        row = partial(row, checkpoint_interval=60.0 * minutes)
-        row = partial(_kept_row, folder, json.dumps(belongs), row)
+        how["checkpoint"] = output.with_name(f"{output.name}.checkpoint")
+        how["checkpoint_interval"] = 60.0 * minutes
     counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
     with logging_redirect_tqdm(), counted as bar:
-        rows = [row(seed=seed) for seed in bar]
-    write(batch_table(rows), output, metadata)
+        rows = [realised(scene, setup, seed, field_file, **how) for seed in bar]
+    write(batch_table(rows), output, metadata_of(setup.constants | asked))
     click.echo(_in_words(rows))
-    if minutes is not None:
-        shutil.rmtree(folder)
 
 
 def _prelude(file: Path) -> Prelude:
@@ -270,21 +263,6 @@ def realised(
         made_by = {"source": f"springblock {code_version('simulate')}", "seed": str(seed)}
         write_fields(run.fields, field_file, **made_by, scene=str(scene), **setup.constants)
     return batch_row(scene, setup, seed, run)
-
-
-def _kept_row(folder: Path, belongs: str, compute: Callable[..., Row], seed: int) -> Row:
-    """Return the row of a realisation, read from `folder` or simulated and kept there.
-
-    `belongs` says, in JSON, which runs the folder holds.
-    """
-    file = folder / f"seed={seed}.parquet"
-    if file.exists():
-        table = load(file)
-        check_belonging(file, json.loads(origin_of(table)["belongs"]), json.loads(belongs))
-        return table.to_pylist()[0]
-    row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))
-    write(batch_table([row]), file, {"belongs": belongs})
-    return row
 
 
 def batch_table(rows: list[Row]) -> pa.Table:

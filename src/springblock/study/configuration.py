@@ -163,7 +163,7 @@ def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
     elif len(seeds) > 1:
         raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
     strongest = own.material.mu_static
-    known = scene.mu_static_field and scene.mu_static_field.values
+    known: Any = scene.mu_static_field and scene.mu_static_field.values
     if known is not None:
         strongest = float(known[scene.contact].max())
     for duration in (None, ensemble.duration):  # its prelude and its realisations
