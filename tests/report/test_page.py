@@ -207,8 +207,8 @@ def test_a_film_is_told_in_words(tmp_path):
     said = media.in_words(run)
     assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 blocks")
     assert f"The force is largest at {1e6 * run.t_max:.1f} µs" in said
-    still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block lets go
-    assert media.in_words(still).endswith("None of them lets go.")
+    still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block detaches
+    assert media.in_words(still).endswith("None of them detaches.")
 
 
 def test_captions_are_those_that_pictures_keep(picture):

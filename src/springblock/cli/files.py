@@ -9,7 +9,7 @@ from springblock.cli.options import INPUT, OUTPUT
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of
 from springblock.model.scene import Scene
-from springblock.report.dictionary import columns, page, tables
+from springblock.report.dictionary import columns, page
 
 _SHOWN = 12  #: largest number of scenes listed
 
@@ -47,4 +47,4 @@ def _list_scenes(table: pa.Table) -> None:
 @click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
     """Write the meaning and unit of every column of every table."""
-    write_text(output, page(tables()))
+    write_text(output, page())

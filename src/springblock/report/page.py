@@ -56,7 +56,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
     Raises
     ------
     ValueError
-        Where a file has another suffix.
+        Where a file has another suffix, or the table of own scenes is missing.
     """
     kinds: dict[str, list[Path]] = {".png": [], ".md": [], ".parquet": []}
     for file in files:
@@ -71,6 +71,8 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
         for file in kinds[".md"]
     }
     rows = {name: table.to_pylist() for name, table in data.items()}
+    if own and "realisations" not in rows:
+        raise ValueError("a report on own scenes needs the table realisations.parquet")
     content = own_scenes.content(rows) if own else _of_study(rows, figures, pages)
     return rendered(
         "own.html" if own else "page.html",
