@@ -3,7 +3,6 @@
 import re
 import shutil
 import subprocess
-import zipfile
 
 import pyarrow.parquet as pq
 
@@ -11,7 +10,6 @@ from springblock import Material
 from springblock.io.schemas import BATCH
 from springblock.plotting import figures
 from springblock.solver.integrators import INTEGRATORS
-from springblock.study.archive import archive
 from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
@@ -109,20 +107,13 @@ def test_a_finished_study_has_nothing_to_do(study):
 
 
 def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
-    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
+    """As `make redraw` does in an archive, which lacks the records of Snakemake; to the byte."""
     folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
-    for name in ("CITATION.cff", "environment.lock"):
-        shutil.copy(ROOT / name, folder)
-    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
-    subprocess.run(["git", "add", "--", ".", ":!results"], cwd=folder, check=True)
-    archive(folder, folder / "results", folder / "tiny.yaml", tmp_path / "study.zip")
-    with zipfile.ZipFile(tmp_path / "study.zip") as file:
-        file.extractall(tmp_path / "unpacked")
-    results = tmp_path / "unpacked/results"
+    results = folder / "results"
     pages = [*results.glob("figures/*"), results / "claims.md"]
     before = {file: file.read_bytes() for file in pages}
     assert len(before) > 20
-    unpacked = Study(tmp_path / "unpacked")
+    unpacked = Study(folder)
     unpacked.run("--touch")
     for file in before:
         file.unlink()

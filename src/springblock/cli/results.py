@@ -1,15 +1,12 @@
-"""springblock verify, repair and archive: check, repair and pack results."""
+"""springblock verify and repair: check and repair results."""
 
 from pathlib import Path
 
 import click
 
 from springblock.analysis import comparison
-from springblock.cli.options import INPUT, OUTPUT, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
-
-FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 
 
 @click.command("verify")
@@ -93,7 +90,7 @@ def _in_words(found: comparison.Comparison) -> str:
 
 
 @click.command("repair")
-@click.argument("results", type=FOLDER)
+@click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
 def repair(results: Path) -> None:
     """Set aside unusable files of RESULTS, for `snakemake` to make them again.
 
@@ -104,20 +101,3 @@ def repair(results: Path) -> None:
         click.echo(fault.reason)
     files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
     click.echo(f"{files} set aside in {results / 'set-aside'}" if found else "no faults found")
-
-
-@click.command("archive")
-@click.argument("results", type=FOLDER)
-@defaulted(
-    "--configuration",
-    type=INPUT,
-    default=Path("config/config.yaml"),
-    help="Configuration of the study.",
-)
-@click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
-def archive_study(results: Path, configuration: Path, output: Path) -> None:
-    """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
-    from springblock.study.archive import archive  # needs the packages of the study
-
-    number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
-    click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

@@ -8,7 +8,7 @@ import click
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from springblock.analysis.ensembles import OBSERVABLES, Ensemble, changes, ensembles, telling
+from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import OUTPUT, defaulted
 from springblock.files import whole_file
@@ -18,7 +18,6 @@ from springblock.io.schemas import SUMMARY
 from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
-_SHOWN = 5  #: largest number of unpaired ensembles listed
 _OF = defaulted(
     "--of",
     type=click.Choice(OBSERVABLES),
@@ -81,7 +80,10 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         raise ValueError(f"{first} and {second} have no ensemble in common")
     shared = [id(part) for each in found for part in (each.first, each.second)]
     for path, members in ((first, one), (second, other)):
-        _tell_alone(path, [each for each in members if id(each) not in shared])
+        names = telling(each.names for each in members)
+        for alone in (each for each in members if id(each) not in shared):
+            told = (f"{name} = {value}" for name in names if (value := alone.names.get(name)))
+            click.echo(f"only in {path}: {', '.join(told) or 'one ensemble'}")
     click.echo("Second minus first:")
     _report(differences(found, of), output)
 
@@ -101,17 +103,6 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
 
 def _holds_realisations(file: Path) -> bool:
     return set(SUMMARY.names) <= set(pq.read_schema(file).names)
-
-
-def _tell_alone(path: Path, members: Sequence[Ensemble]) -> None:
-    """List the ensembles that only one side has."""
-    names = telling(each.names for each in members)
-    for each in members[:_SHOWN]:
-        told = {name: each.names[name] for name in names if each.names.get(name)}
-        scene = ", ".join(f"{name} = {value}" for name, value in told.items())
-        click.echo(f"only in {path}: {scene or 'one ensemble'}")
-    if len(members) > _SHOWN:
-        click.echo(f"only in {path}: {len(members) - _SHOWN} more")
 
 
 def _report(rows: Sequence[Row], output: Path | None) -> None:
