@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from springblock.cli.options import INPUT, OUTPUT
+from springblock.cli.options import INPUT, OUTPUT, print_columns
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of
 from springblock.report.dictionary import columns, page
@@ -21,11 +21,7 @@ def info(file: Path) -> None:
     click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
     for key, value in origin_of(table).items():
         click.echo(f"{key}: {value}")
-    cells = [[cell.strip("`") for cell in line] for line in columns(table.schema)]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    for *short, meaning in cells:
-        padded = (cell.ljust(width) for cell, width in zip(short, widths, strict=False))
-        click.echo("  ".join([*padded, meaning]).rstrip())
+    print_columns([[cell.strip("`") for cell in line] for line in columns(table.schema)])
 
 
 @click.command("dictionary")

@@ -56,8 +56,10 @@ class Job(NamedTuple):
     def run(self) -> int:
         """Simulate the seeds, and return their number."""
         prelude = loaded(self.scene, self.setup)
-        how: Any = {"prelude": prelude, "duration": self.duration}
-        rows = [realised(self.scene, self.setup, seed, **how) for seed in self.seeds]
+        rows = [
+            realised(self.scene, self.setup, seed, prelude=prelude, duration=self.duration)
+            for seed in self.seeds
+        ]
         write(batch_table(rows), self.file, self.metadata)
         return len(self.seeds)
 

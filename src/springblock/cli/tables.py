@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.cli.options import OUTPUT, defaulted
+from springblock.cli.options import OUTPUT, defaulted, print_columns
 from springblock.files import whole_file
 from springblock.io.parquet import load
 from springblock.io.rows import Row
@@ -108,10 +108,7 @@ def _holds_realisations(file: Path) -> bool:
 def _report(rows: Sequence[Row], output: Path | None) -> None:
     """Print rows, times in µs, and write them in SI units if a file is given."""
     head, cells = in_words(rows)
-    widths = [max(map(len, column)) for column in zip(head, *cells, strict=True)]
-    for line in (head, *cells):
-        padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
-        click.echo("  ".join(padded).rstrip())
+    print_columns([head, *cells])
     if output:
         _write([_numbers(row) for row in rows], output)
 

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
-from springblock.io.parquet import load
+from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
 from springblock.report import findings, markup, media
 from springblock.report import own as own_scenes
@@ -164,6 +164,6 @@ def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str])
 
 def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
     """Return what the table of realisations was made with."""
-    kept = data["realisations"].schema.metadata if "realisations" in data else {}
-    names = {"code version": b"code_version", "configuration": b"configuration_digest"}
-    return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}
+    known = origin_of(data["realisations"]) if "realisations" in data else {}
+    names = {"code version": "code_version", "configuration": "configuration_digest"}
+    return {name: known[key] for name, key in names.items() if key in known}
