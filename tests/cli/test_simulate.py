@@ -98,7 +98,7 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
             ["--fields", "a.nc", "--snapshot", 2e-7, "--last-seed", 4],
             "--fields a.nc takes one seed, not 2",
         ),
-        (["--checkpoint", 1, "--last-seed", 4], "--checkpoint takes one seed, not 2; `sweep`"),
+        (["--checkpoint", 1, "--last-seed", 4], "--checkpoint takes one seed, not 2; for more"),
         (["--material", "gama=3"], "unknown constant 'gama'; choose from youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
         (["--direction", "up"], "'--direction': direction must be 'x', 'y' or an angle"),

@@ -194,7 +194,9 @@ def simulate_batch(
         raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
     single = len(seeds) == 1
     if minutes is not None and not single:
-        raise ValueError(f"--checkpoint takes one seed, not {len(seeds)}; `sweep` continues others")
+        raise ValueError(
+            f"--checkpoint takes one seed, not {len(seeds)}; for more, use `springblock sweep`"
+        )
     _check_fields(field_file, output, snapshot_times, seeds)
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
