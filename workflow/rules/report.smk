@@ -28,7 +28,7 @@ rule report:
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
         claims=[] if OWN else rules.claims.output,
-        tables=[rules.aggregate.output, *([] if OWN else rules.correlations.input)],
+        tables=[rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]
             if config["accuracy"]

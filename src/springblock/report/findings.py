@@ -9,7 +9,7 @@ import numpy as np
 
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.question import by_scene, number
+from springblock.beyond.question import by_scene, is_even, number
 from springblock.claims.ranges import PLAIN, SCALED
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
@@ -45,9 +45,8 @@ def findings(tables: Tables) -> dict[str, dict[str, Any]]:
 
 def _family(runs: Runs) -> dict[int, Sequence[Row]]:
     """Runs on the flat surface, at 0, and on pillars as far apart as wide, along x, by n_p."""
-    plain = [s for s in runs if s.lengths.keys() <= {"n_p", "n_s"} and s.direction == "x"]
-    simple = [s for s in plain if s.n_s == s.n_p]
-    return {scene.n_p: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
+    plain = [s for s in runs if is_even(s) or (not s.lengths and s.direction == "x")]
+    return {scene.n_p: runs[scene] for scene in sorted(plain, key=lambda scene: scene.n_p)}
 
 
 def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
