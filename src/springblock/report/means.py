@@ -1,6 +1,6 @@
 """Rows of means of ensembles and of their changes, and these rows as text."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import pyarrow as pa
@@ -19,7 +19,7 @@ UNITS = {
 }
 
 
-def means(members: Sequence[Ensemble], of: Iterable[str], by: Sequence[str] = ()) -> list[Row]:
+def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
     """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
     names = by or telling(each.names for each in members)
     return [
@@ -31,7 +31,7 @@ def means(members: Sequence[Ensemble], of: Iterable[str], by: Sequence[str] = ()
 
 
 def differences(
-    changed: Sequence[Change], of: Iterable[str], ends: Sequence[Row] | None = None
+    changed: Sequence[Change], of: Sequence[str], ends: Sequence[Row] | None = None
 ) -> list[Row]:
     """Return a row for each change: its ensemble, its `ends` if any, and mean differences."""
     names = telling(each.names for each in changed)
@@ -47,7 +47,7 @@ def differences(
     ]
 
 
-def changes_over_ends(members: Sequence[Ensemble], of: Iterable[str]) -> list[Row]:
+def changes_over_ends(members: Sequence[Ensemble], of: Sequence[str]) -> list[Row]:
     """Return a row for each change from the lowest to the highest value of a parameter."""
     found = list(extremes(members))
     ends = [{"from": f"{name} = {low}", "to": high} for name, low, high, _ in found]
