@@ -119,11 +119,13 @@ docs: full
 	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
 	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
 
-archive: setup
-	$(BIN)/springblock archive results --output springblock-study.zip
+# Files that git tracks and the results, without logs, run times and what `repair` has set aside.
+archive:
+	git ls-files -z | tar --create --gzip --file springblock-study.tar.gz --exclude results/logs \
+	    --exclude results/benchmarks --exclude results/set-aside --null --files-from - results
 
-# Unpacked files have the times at which they were unpacked: once every file is compared with what it
-# says of itself, --touch says that nothing is out of date.
+# An archive lacks Snakemake's records: once every file is compared with what it says of itself,
+# --touch says that nothing is out of date.
 redraw: verify
 	$(BIN)/snakemake --touch
 	rm -rf results/figures results/*.md results/report.html

@@ -17,16 +17,7 @@ def test_info_says_what_a_batch_holds_and_what_made_it(springblock, batch):
     said = springblock("info", batch(0, 2))
     assert "3 rows" in said
     assert "code_version: " in said
-    assert "n_blocks-12/level-0/direction-x: 3" in said
     assert any(line.split()[:3] == ["t_max", "double", "s"] for line in said.splitlines())
-
-
-def test_info_says_what_a_prelude_holds(springblock, tmp_path):
-    quick = ("--n-blocks", 4, "--material", "slider_velocity=5e-3")
-    springblock("prelude", *quick, "--output", tmp_path / "prelude")
-    said = springblock("info", tmp_path / "prelude")
-    assert "before its first detachment" in said
-    assert "slider_velocity=0.005" in said
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import Prelude, draw_friction, read
+from springblock import Prelude, read
 from springblock.io.fields import read_fields
 from springblock.simulation.prelude import HOLDING
 
@@ -98,6 +98,7 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
             ["--fields", "a.nc", "--snapshot", 2e-7, "--last-seed", 4],
             "--fields a.nc takes one seed, not 2",
         ),
+        (["--checkpoint", 1, "--last-seed", 4], "--checkpoint takes one seed, not 2; for more"),
         (["--material", "gama=3"], "unknown constant 'gama'; choose from youngs_modulus"),
         (["--material", "gamma=much"], "'--material': gamma must be a number, not 'much'"),
         (["--direction", "up"], "'--direction': direction must be 'x', 'y' or an angle"),
@@ -132,72 +133,44 @@ def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_pa
     assert (about["seed"], about["scene"]) == ("0", "n_blocks = 6, level = 0, direction = x")
     assert (about["gamma"], about["law"]) == (5e3, "coulomb")
     np.testing.assert_array_equal(read(run)[0].snapshots, fields.displacement)
-    assert "stress_x (Pa): shear stress on the substrate along x" in springblock("info", plain)
     said = springblock(*asked, kept, "--fields", kept, refused=True)
     assert said.endswith(f"--fields and --output both name {kept}; choose two files")
 
 
-BATCH = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6, "--last-seed", 2)
+LONG = ("simulate", "--n-blocks", 24, "--n-p", 6, "--n-s", 6)
 OFTEN = ("--checkpoint", 1e-9)  # minutes
 
 
-def test_a_batch_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
-    """Killed in its second run: the first is kept, the second is taken up, the third is new."""
-    output, whole = tmp_path / "a.parquet", tmp_path / "whole.parquet"
-    folder = tmp_path / "a.parquet.checkpoint"
-    words = [str(word) for word in (*BATCH, *OFTEN, "--output", output)]
-    with subprocess.Popen([sys.executable, "-m", "springblock", *words]) as batch:
-        while not (folder / "seed=1.npz").exists():
-            assert batch.poll() is None
-            time.sleep(0.002)
-        batch.send_signal(signal.SIGKILL)
-    assert batch.returncode == -signal.SIGKILL
-    assert not output.exists()
-    assert (folder / "seed=0.parquet").exists()
-    springblock(*BATCH, *OFTEN, "--output", output)
-    springblock(*BATCH, "--output", whole)
-    assert output.read_bytes() == whole.read_bytes()
-    assert {file.name for file in tmp_path.iterdir()} == {output.name, whole.name}
-
-
 @pytest.fixture
-def interrupted(springblock, tmp_path, monkeypatch):
-    """Words of a batch whose second run fails; and the folder that it has left behind."""
-    words = (*BATCH, *OFTEN, "--output", tmp_path / "a")
+def interrupted(tmp_path):
+    """Words of a run that was killed, and the checkpoint that it has left behind."""
+    words = (*LONG, *OFTEN, "--output", tmp_path / "a.parquet")
+    kept = tmp_path / "a.parquet.checkpoint"
+    command = [sys.executable, "-m", "springblock", *map(str, words)]
+    with subprocess.Popen(command) as run:
+        while not kept.exists():
+            assert run.poll() is None
+            time.sleep(0.002)
+        run.send_signal(signal.SIGKILL)
+    assert run.returncode == -signal.SIGKILL
+    return words, kept
 
-    def failing(surface, seed, *how):
-        if seed == 1:
-            raise ValueError("enough")
-        return draw_friction(surface, seed, *how)
 
-    with monkeypatch.context() as patch:
-        patch.setattr("springblock.cli.simulate.draw_friction", failing)
-        assert "enough" in springblock(*words, refused=True)
-    return words, tmp_path / "a.checkpoint"
-
-
-def test_finished_runs_are_not_computed_again(springblock, interrupted, tmp_path, monkeypatch):
-    words, folder = interrupted
-    assert [file.name for file in folder.iterdir()] == ["seed=0.parquet"]
-    drawn = []
-
-    def noted(surface, seed, *how):
-        drawn.append(seed)
-        return draw_friction(surface, seed, *how)
-
-    monkeypatch.setattr("springblock.cli.simulate.draw_friction", noted)
+def test_a_run_that_was_killed_goes_on_to_the_same_bytes(springblock, interrupted, tmp_path):
+    words, kept = interrupted
+    whole = tmp_path / "whole.parquet"
     springblock(*words)
-    assert drawn == [1, 2]
-    assert pq.read_table(tmp_path / "a")["seed"].to_pylist() == [0, 1, 2]
+    springblock(*LONG, "--output", whole)
+    assert (tmp_path / "a.parquet").read_bytes() == whole.read_bytes()
+    assert not kept.exists()
 
 
-def test_the_checkpoint_of_another_batch_is_refused(springblock, interrupted):
-    words, folder = interrupted
+def test_the_checkpoint_of_another_run_is_refused(springblock, interrupted):
+    words, kept = interrupted
     other = ("--step", 1e-8, "--material", "gamma=4e3", "--snapshot", 1e-4)
-    named = "gamma, step, snapshot_times"
-    sentence = f"Error: {folder / 'seed=0.parquet'} belongs to a run with other {named}; remove it"
-    assert springblock(*words, *other, refused=True).startswith(sentence)
-    assert folder.exists()
+    refusal = springblock(*words, *other, refused=True)
+    assert refusal.startswith(f"Error: {kept} belongs to a run with other scene or setup, ")
+    assert kept.exists()
 
 
 def test_a_run_that_fails_is_named(springblock, tmp_path):

@@ -22,7 +22,7 @@ def test_a_row_holds_the_mean_of_an_ensemble_with_its_interval(springblock, batc
     rows = written(output)
     assert [float(row["slider_velocity"]) for row in rows] == [5e-4, 1e-3]
     assert said.splitlines()[0].split() == [
-        *("slider_velocity", "runs", "static_friction", "t_max", "(µs)", "t_avg", "(µs)")
+        *("slider_velocity", "(m/s)", "runs", "static_friction", "t_max", "(µs)", "t_avg", "(µs)")
     ]
     for row, file in zip(rows, (batch(0, 2), faster), strict=True):
         values = np.array([run.t_max for run in read(file)])

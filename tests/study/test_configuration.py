@@ -136,7 +136,6 @@ def surfaces(tmp_path, monkeypatch):
     np.save("strip.npy", np.eye(3, 5, dtype=bool))
     Path("again").mkdir()
     shutil.copy("corner.npy", "again")
-    np.save("diagonal.npy", np.eye(3, dtype=bool))
     np.save("strong.npy", np.full((3, 3), 1.5))
     np.save("weak.npy", np.full((3, 3), -0.5))
     Path("broken.png").write_bytes(b"no image")
@@ -217,15 +216,6 @@ def test_the_papers_groups_hold_its_own_surfaces(surfaces):
             ValueError, match=f"scenes.{group}: surfaces in this group must be square"
         ):
             check(changed(f"scenes.{group}", to=own), SCHEMA)
-
-
-def test_two_files_of_one_name_must_be_one_surface(surfaces, monkeypatch):
-    """As if their digests were equal, which has a probability of one in four thousand million."""
-    one, other = (surfaces(mask=file)["scenes"]["own"] for file in ("corner.npy", "diagonal.npy"))
-    both = PAPER | {"scenes": {"one": one, "other": other}}
-    monkeypatch.setattr("springblock.model.blockmap._name", lambda file, values: "same-00000000")
-    with pytest.raises(ValueError, match=r"diagonal.npy have the same name same-00000000"):
-        ensembles(both)
 
 
 def test_one_realisation_suffices_without_scatter():

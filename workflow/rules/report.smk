@@ -28,8 +28,7 @@ rule report:
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
         claims=[] if OWN else rules.claims.output,
-        own=rules.aggregate.output if OWN else [],
-        tables=[] if OWN else [rules.aggregate.output, *rules.correlations.input],
+        tables=[rules.aggregate.output, *rules.correlations.input],
         accuracy=(
             [rules.accuracy.output, rules.precision_table.output, rules.stability_table.output]
             if config["accuracy"]
@@ -53,9 +52,9 @@ rule report:
     params:
         code=code("report"),
         files=lambda wildcards, input: [
-            file for file in input if file not in {*input.films, *input.runs, *input.own}
+            file for file in input if file not in {*input.films, *input.runs}
         ],
-        own=lambda wildcards, input: " ".join(f"--own {quote(table)}" for table in input.own),
+        own="--own" if OWN else "",
         films=lambda wildcards, input: " ".join(
             f"--film {quote(film)} {quote(run)}"
             for film, run in zip(input.films, input.runs, strict=True)

@@ -104,18 +104,15 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     multiple=True,
     help="MP4 file, and the batch whose first run it shows. Can be repeated.",
 )
-@click.option("--own", type=INPUT, help="Table of realisations of a study of one's own scenes.")
+@click.option("--own", is_flag=True, help="Report on a study of one's own scenes.")
 @click.option("--output", type=OUTPUT, required=True, help="HTML file.")
 def report(
-    files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: Path | None, output: Path
+    files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: bool, output: Path
 ) -> None:
     """Write the HTML report from FILES: pictures (PNG), pages (Markdown) and tables (Parquet).
 
-    With --own the report begins with the means of that table, and FILES are pictures.
+    With --own it begins with means and changes of the table `realisations`.
     """
-    from springblock.report import own as of_own  # need the packages of the study
-    from springblock.report import page
+    from springblock.report.page import page  # needs the packages of the study
 
-    shown = dict(films)
-    text = of_own.page(own, files, shown) if own else page.page(files, shown)
-    write_text(output, text)
+    write_text(output, page(files, dict(films), own))

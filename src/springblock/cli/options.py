@@ -1,6 +1,6 @@
 """Options and error handling shared by several commands."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import partial, wraps
 from importlib.metadata import version
@@ -21,10 +21,7 @@ class _Output(click.Path):
 
     def convert(self, value: Any, *where: Any) -> Any:
         path: Any = super().convert(value, *where)
-        try:
-            check_output(path)
-        except (OSError, ValueError) as error:
-            self.fail(str(error), *where)
+        check_output(path)
         return path
 
 
@@ -127,6 +124,14 @@ def with_options(
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def print_columns(lines: Sequence[Sequence[str]]) -> None:
+    """Print lines of cells, each column as wide as its widest cell."""
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    for line in lines:
+        padded = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
+        click.echo("  ".join(padded).rstrip())
 
 
 def code_version(step: str) -> str:

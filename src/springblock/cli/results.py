@@ -1,15 +1,12 @@
-"""springblock verify, repair and archive: check, repair and pack results."""
+"""springblock verify and repair: check and repair results."""
 
 from pathlib import Path
 
 import click
 
 from springblock.analysis import comparison
-from springblock.cli.options import INPUT, OUTPUT, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
-
-FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 
 
 @click.command("verify")
@@ -30,21 +27,18 @@ def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     if physics == (results is not None):
         raise click.UsageError("give either a folder or file of results, or --physics")
     if results is None:
-        _verify_physics()
-        return
-    if results.is_file():
-        _verify_bits(results, other)
-        return
-    found = [fault.reason for fault in audit.faults(results)]
-    complete = f"{results}: every file is complete, in its place and of the current code"
-    click.echo("\n".join(found or [complete]))
-    if other is not None:
-        found += _differences(results, other)
-    if found:
+        good = _has_the_same_physics()
+    elif results.is_file():
+        if other is None or not other.is_file():
+            raise ValueError(f"{results} is a file; give a second file to compare it with")
+        good = _are_the_same(f"{results} and {other}", results, other)
+    else:
+        good = _is_sound(results, other)
+    if not good:
         raise SystemExit(1)
 
 
-def _verify_physics() -> None:
+def _has_the_same_physics() -> bool:
     """Compare ensembles computed here with the recorded ones."""
     from springblock.accuracy import consistency  # loads numba
 
@@ -56,18 +50,30 @@ def _verify_physics() -> None:
         f"{len(apart)} of {len(found)} means differ significantly (together, at "
         f"{100 * consistency.LEVEL:g} %)" + ("" if apart else ": the same physics")
     )
-    if apart:
-        raise SystemExit(1)
+    return not apart
 
 
-def _verify_bits(file: Path, other: Path | None) -> None:
-    """Compare two files to the bit, by rows of the same scene and seed."""
-    if other is None or not other.is_file():
-        raise ValueError(f"{file} is a file; give a second file to compare it with")
-    found = comparison.compare(load(file), load(other))
-    click.echo(f"{file} and {other}: {_in_words(found)}")
-    if not found.same:
-        raise SystemExit(1)
+def _is_sound(results: Path, other: Path | None) -> bool:
+    """Print the faults of a folder, and how its tables differ from those of another."""
+    found = [fault.reason for fault in audit.faults(results)]
+    complete = f"{results}: every file is complete, in its place and of the current code"
+    click.echo("\n".join(found or [complete]))
+    same = []
+    if other is not None:
+        for file in sorted(results.glob("tables/*.parquet")):
+            name = file.relative_to(results)
+            same.append(_are_the_same(str(name), file, other / name))
+    return not found and all(same)
+
+
+def _are_the_same(name: str, first: Path, second: Path) -> bool:
+    """Print how two tables differ, and return whether they are equal to the bit."""
+    if not second.exists():
+        click.echo(f"{name}: missing in the second")
+        return False
+    found = comparison.compare(load(first), load(second))
+    click.echo(f"{name}: {_in_words(found)}")
+    return found.same
 
 
 def _in_words(found: comparison.Comparison) -> str:
@@ -83,25 +89,8 @@ def _in_words(found: comparison.Comparison) -> str:
     return "\n".join(lines)
 
 
-def _differences(results: Path, other: Path) -> list[str]:
-    """Compare the tables of two studies to the bit; return those that differ."""
-    different = []
-    for file in sorted((results / "tables").rglob("*.parquet")):
-        name = file.relative_to(results)
-        found = "missing in the second"
-        if (other / name).exists():
-            compared = comparison.compare(load(file), load(other / name))
-            found = _in_words(compared)
-            if compared.same:
-                click.echo(f"{name}: {found}")
-                continue
-        different.append(f"{name}: {found}")
-        click.echo(different[-1])
-    return different
-
-
 @click.command("repair")
-@click.argument("results", type=FOLDER)
+@click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
 def repair(results: Path) -> None:
     """Set aside unusable files of RESULTS, for `snakemake` to make them again.
 
@@ -112,20 +101,3 @@ def repair(results: Path) -> None:
         click.echo(fault.reason)
     files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
     click.echo(f"{files} set aside in {results / 'set-aside'}" if found else "no faults found")
-
-
-@click.command("archive")
-@click.argument("results", type=FOLDER)
-@defaulted(
-    "--configuration",
-    type=INPUT,
-    default=Path("config/config.yaml"),
-    help="Configuration of the study.",
-)
-@click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
-def archive_study(results: Path, configuration: Path, output: Path) -> None:
-    """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
-    from springblock.study.archive import archive  # needs the packages of the study
-
-    number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
-    click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

@@ -1,10 +1,9 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
 import json
-import shutil
 from collections.abc import Callable
 from dataclasses import fields, replace
-from functools import partial, wraps
+from functools import wraps
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -27,7 +26,7 @@ from springblock.cli.options import (
 )
 from springblock.files import MENDING
 from springblock.io.fields import check_name, write_fields
-from springblock.io.parquet import load, rows_to_table, write
+from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
 from springblock.model.asperities import draw_friction
@@ -36,7 +35,6 @@ from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.provenance import configuration_digest, same_code
-from springblock.simulation.checkpoint import check_belonging
 from springblock.simulation.motion import SimulationError
 from springblock.simulation.prelude import Prelude, compute_prelude
 from springblock.simulation.run import Realisation
@@ -99,25 +97,20 @@ def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
     return Surface(scene.contact, mu[0], mu[1], scene.is_periodic)
 
 
+#: Columns of a batch that are properties of a run.
+_OF_RUN = ["static_friction", "dynamic_friction", "t_max", "t_avg", "t_first", "steps", "force"]
+_OF_RUN += ["detachments", "switches", "normal_force", "snapshot_times"]
+
+
 def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
     """Return the row of a run in a batch."""
     return {
         **scene.row,
         **setup.constants,
         "seed": seed,
-        "static_friction": run.static_friction,
-        "dynamic_friction": run.dynamic_friction,
-        "t_max": run.t_max,
-        "t_avg": run.t_avg,
-        "t_first": run.t_first,
+        **{name: getattr(run, name) for name in _OF_RUN},
         "energy_error": run.energy.relative_residual,
-        "steps": run.steps,
-        "force": run.force,
-        "detachments": run.detachments,
-        "switches": run.switches,
         "t_det": run.t_det.ravel(),
-        "normal_force": run.normal_force,
-        "snapshot_times": run.snapshot_times,
         "snapshots": run.snapshots.ravel(),
         "contact": scene.contact.ravel(),
     }
@@ -176,8 +169,8 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     "--checkpoint",
     "minutes",
     type=click.FloatRange(min=0.0, min_open=True),
-    help="Minutes between checkpoints in the folder OUTPUT.checkpoint, from which the same command "
-    "continues; it is removed at the end.",
+    help="Minutes between checkpoints in the file OUTPUT.checkpoint, from which the same command "
+    "continues; it is removed at the end. One seed.",
 )
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
@@ -200,27 +193,23 @@ def simulate_batch(
     if len(seeds) > _MOST_SEEDS:
         raise click.BadParameter(f"{len(seeds)} seeds in a batch; choose up to {_MOST_SEEDS}")
     single = len(seeds) == 1
+    if minutes is not None and not single:
+        raise ValueError(
+            f"--checkpoint takes one seed, not {len(seeds)}; for more, use `springblock sweep`"
+        )
+    _check_fields(field_file, output, snapshot_times, seeds)
     asked: dict[str, Any] = {"duration": duration}
     if snapshot_times:
         asked["snapshot_times"] = snapshot_times
-    _check_fields(field_file, output, snapshot_times, seeds)
-    begun = None if prelude is None else _prelude(prelude)
-    row = partial(realised, scene, setup, prelude=begun, cores=cores, progress=single, **asked)
-    row = partial(row, field_file=field_file)
-    metadata = metadata_of(setup.constants | asked)
-    folder = output.with_name(f"{output.name}.checkpoint")
+    how = {"prelude": prelude and _prelude(prelude), "cores": cores, "progress": single, **asked}
     if minutes is not None:
-        belongs = {**scene.row, **setup.constants, **asked, "code": metadata["code_version"]}
-        belongs |= {"fields": str(field_file)} if field_file else {}
-        row = partial(row, checkpoint_interval=60.0 * minutes)
-        row = partial(_kept_row, folder, belongs, row)
+        how["checkpoint"] = output.with_name(f"{output.name}.checkpoint")
+        how["checkpoint_interval"] = 60.0 * minutes
     counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
     with logging_redirect_tqdm(), counted as bar:
-        rows = [row(seed=seed) for seed in bar]
-    write(batch_table(rows), output, metadata)
+        rows = [realised(scene, setup, seed, field_file, **how) for seed in bar]
+    write(batch_table(rows), output, metadata_of(setup.constants | asked))
     click.echo(_in_words(rows))
-    if minutes is not None:
-        shutil.rmtree(folder)
 
 
 def _prelude(file: Path) -> Prelude:
@@ -240,8 +229,8 @@ def _in_words(rows: list[Row]) -> str:
         ("t_avg", " µs", 1e6),
     ):
         values = factor * np.array([row[name] for row in rows], dtype=float)
-        error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else 0.0
-        told.append(f"{name} {values.mean():.5g}" + (f" ± {error:.2g}" if error else "") + unit)
+        error = f" ± {values.std(ddof=1) / np.sqrt(len(rows)):.2g}" if len(rows) > 1 else ""
+        told.append(f"{name} {values.mean():.5g}{error}{unit}")
     runs = f" (means of {len(rows)} runs ± standard error)" if len(rows) > 1 else ""
     rising = sum(int(np.argmax(row["force"]) == len(row["force"]) - 1) for row in rows)
     note = f"; at the end the force still increases in {rising} of {len(rows)}" if rising else ""
@@ -276,18 +265,6 @@ def realised(
         made_by = {"source": f"springblock {code_version('simulate')}", "seed": str(seed)}
         write_fields(run.fields, field_file, **made_by, scene=str(scene), **setup.constants)
     return batch_row(scene, setup, seed, run)
-
-
-def _kept_row(folder: Path, belongs: dict[str, Any], compute: Callable[..., Row], seed: int) -> Row:
-    """Return the row of a realisation, read from `folder` or simulated and kept there."""
-    file, ours = folder / f"seed={seed}.parquet", json.dumps(belongs)
-    if file.exists():
-        table = load(file)
-        check_belonging(file, json.loads(table.schema.metadata[b"belongs"]), json.loads(ours))
-        return table.to_pylist()[0]
-    row = compute(seed=seed, checkpoint=file.with_suffix(".npz"))
-    write(batch_table([row]), file, {"belongs": ours})
-    return row
 
 
 def batch_table(rows: list[Row]) -> pa.Table:

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from multiprocessing import active_children, get_context
 from pathlib import Path
@@ -36,12 +37,12 @@ class Job(NamedTuple):
     setup: Setup
     seeds: range
     file: Path
-    asked: dict[str, Any]
+    duration: float | None  #: s
 
     @property
     def metadata(self) -> dict[str, str]:
         """Return the metadata of the file: code and configuration."""
-        return metadata_of(self.setup.constants | self.asked)
+        return metadata_of(self.setup.constants | {"duration": self.duration})
 
     @property
     def is_done(self) -> bool:
@@ -56,7 +57,7 @@ class Job(NamedTuple):
         """Simulate the seeds, and return their number."""
         prelude = loaded(self.scene, self.setup)
         rows = [
-            realised(self.scene, self.setup, seed, prelude=prelude, **self.asked)
+            realised(self.scene, self.setup, seed, prelude=prelude, duration=self.duration)
             for seed in self.seeds
         ]
         write(batch_table(rows), self.file, self.metadata)
@@ -101,13 +102,8 @@ _SWEPT = [
 ]
 
 
-def sweep_options(command: Any) -> Any:
-    """Add the options of surface, sweep and setup."""
-    return with_options([*SURFACE, *_SWEPT, *SETUP], command)
-
-
 @click.command("sweep")
-@sweep_options
+@partial(with_options, [*SURFACE, *_SWEPT, *SETUP])
 def sweep(
     directions: list[str],
     vary: list[Varied],
@@ -129,7 +125,7 @@ def sweep(
         for varied, direction in product(vary, directions)
     ]
     work = [
-        Job(scene, usual.vary(dict(scene.varied)), part, file, {"duration": duration})
+        Job(scene, usual.vary(dict(scene.varied)), part, file, duration)
         for scene in scenes
         for part, file in _batches(scene, seeds, output)
     ]

@@ -3,33 +3,21 @@
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import click
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from springblock.analysis.ensembles import (
-    OBSERVABLES,
-    Change,
-    Ensemble,
-    Names,
-    changes,
-    ensembles,
-    extremes,
-    mean,
-    telling,
-)
+from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.beyond.question import number
-from springblock.cli.options import OUTPUT, defaulted
+from springblock.cli.options import OUTPUT, defaulted, print_columns
 from springblock.files import whole_file
 from springblock.io.parquet import load
 from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
+from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
-_SHOWN = 5  #: largest number of unpaired ensembles listed
 _OF = defaulted(
     "--of",
     type=click.Choice(OBSERVABLES),
@@ -67,37 +55,10 @@ def table(
     Intervals are 95 % intervals of Student's t over seeds; each holds by itself.
     """
     members = ensembles(_rows(paths), by)
-    if of_ends:
-        _report_changes(members, of, output)
-        return
-    names = list(by) or telling(each.names for each in members)
-    columns = {"runs": [len(each.rows) for each in members]}
-    intervals = {name: [mean(each, name) for each in members] for name in of}
-    _report([each.names for each in members], names, columns, intervals, output)
-
-
-def _report_changes(members: list[Ensemble], of: tuple[str, ...], output: Path | None) -> None:
-    """Print a row for each change between the ends of a parameter."""
-    found = list(extremes(members))
-    if not found:
+    rows = changes_over_ends(members, of) if of_ends else means(members, of, by)
+    if not rows:
         raise ValueError("--changes: no parameter has two values")
-    changed = [each for *_, each in found]
-    columns: dict[str, list[Any]] = {
-        "from": [f"{name} = {low}" for name, low, _, _ in found],
-        "to": [high for _, _, high, _ in found],
-        **_sizes(changed),
-    }
-    intervals = {name: [each.of(name) for each in changed] for name in of}
-    every = [each.names for each in changed]
-    _report(every, telling(every), columns, intervals, output)
-
-
-def _sizes(changed: Sequence[Change]) -> dict[str, list[Any]]:
-    """Return the columns that say what the differences are from."""
-    return {
-        "runs": [f"{len(each.first.rows)}, {len(each.second.rows)}" for each in changed],
-        "difference": ["by seed" if each.paired else "of means" for each in changed],
-    }
+    _report(rows, output)
 
 
 @click.command("compare")
@@ -111,8 +72,6 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
     For each ensemble in both: the difference of means with its 95 % interval, paired where seeds
     and friction coefficients are the same. `springblock verify` compares to the bit.
     """
-    if first != second and (first in second.parents or second in first.parents):
-        raise ValueError(f"{first} and {second} share their realisations; give two apart")
     one, other = (ensembles(_rows([path])) for path in (first, second))
     differ, found = changes(one, other)
     for name, (ours, theirs) in differ.items():
@@ -121,12 +80,12 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         raise ValueError(f"{first} and {second} have no ensemble in common")
     shared = [id(part) for each in found for part in (each.first, each.second)]
     for path, members in ((first, one), (second, other)):
-        _tell_alone(path, [each for each in members if id(each) not in shared])
-    every = [each.names for each in found]
-    names = telling(every)
-    intervals = {name: [each.of(name) for each in found] for name in of}
+        names = telling(each.names for each in members)
+        for alone in (each for each in members if id(each) not in shared):
+            told = (f"{name} = {value}" for name in names if (value := alone.names.get(name)))
+            click.echo(f"only in {path}: {', '.join(told) or 'one ensemble'}")
     click.echo("Second minus first:")
-    _report(every, names, _sizes(found), intervals, output)
+    _report(differences(found, of), output)
 
 
 def _rows(paths: Sequence[Path]) -> list[Row]:
@@ -146,53 +105,35 @@ def _holds_realisations(file: Path) -> bool:
     return set(SUMMARY.names) <= set(pq.read_schema(file).names)
 
 
-def _tell_alone(path: Path, members: Sequence[Ensemble]) -> None:
-    """List the ensembles that only one side has."""
-    names = telling(each.names for each in members)
-    for each in members[:_SHOWN]:
-        told = {name: each.names[name] for name in names if each.names.get(name)}
-        scene = ", ".join(f"{name} = {value}" for name, value in told.items())
-        click.echo(f"only in {path}: {scene or 'one ensemble'}")
-    if len(members) > _SHOWN:
-        click.echo(f"only in {path}: {len(members) - _SHOWN} more")
-
-
-def _report(
-    members: Sequence[Names],
-    names: Sequence[str],
-    columns: dict[str, list[Any]],
-    intervals: dict[str, list[Interval]],
-    output: Path | None,
-) -> None:
-    """Print a row per ensemble, times in µs, and write it in SI units if a file is given.
-
-    The file has separate columns for the limits of intervals.
-    """
-    told: dict[str, list[Any]] = {name: [each.get(name, "") for each in members] for name in names}
-    kept: dict[str, list[Any]] = {name: [each.get(name) for each in members] for name in names}
-    told, kept = told | columns, kept | columns
-    for name, found in intervals.items():
-        unit, factor = (" (µs)", 1e6) if name.startswith("t_") else ("", 1.0)
-        told[name + unit] = [number(each, factor=factor) for each in found]
-        for i, end in enumerate(("", "_low", "_high")):
-            kept[name + end] = [float(each[i]) for each in found]
-    lines = [[name, *map(str, cells)] for name, cells in told.items()]
-    padded = [[cell.ljust(max(map(len, line))) for cell in line] for line in lines]
-    for row in zip(*padded, strict=True):
-        click.echo("  ".join(row).rstrip())
+def _report(rows: Sequence[Row], output: Path | None) -> None:
+    """Print rows, times in µs, and write them in SI units if a file is given."""
+    head, cells = in_words(rows)
+    print_columns([head, *cells])
     if output:
-        _write(kept, output)
+        _write([_numbers(row) for row in rows], output)
 
 
-def _write(columns: dict[str, list[Any]], output: Path) -> None:
+def _numbers(row: Row) -> Row:
+    """Return a row with separate columns for the limits of intervals."""
+    numbers: Row = {}
+    for name, value in row.items():
+        if isinstance(value, Interval):
+            ends = (name, f"{name}_low", f"{name}_high")
+            numbers |= dict(zip(ends, map(float, value), strict=True))
+        else:
+            numbers[name] = value
+    return numbers
+
+
+def _write(rows: list[Row], output: Path) -> None:
     """Write a table as CSV or Parquet."""
     with whole_file(output) as partial:
         if output.suffix == ".parquet":
-            pq.write_table(pa.table(columns), partial)
+            pq.write_table(pa.Table.from_pylist(rows), partial)
         elif output.suffix == ".csv":
             with partial.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file)
-                writer.writerow(columns)
-                writer.writerows(zip(*columns.values(), strict=True))
+                writer = csv.DictWriter(file, rows[0])
+                writer.writeheader()
+                writer.writerows(rows)
         else:
             raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")

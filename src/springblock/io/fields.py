@@ -19,16 +19,8 @@ _ABOUT = {
     "title": "Fields of a spring-block model of the onset of frictional sliding",
     "references": "https://doi.org/10.1016/j.ijsolstr.2022.111525",
 }
-#: Exceptions that scipy raises on a truncated file or one of another format.
-_UNREADABLE = (
-    AttributeError,
-    IndexError,
-    KeyError,
-    MemoryError,  # of impossible sizes
-    OSError,
-    TypeError,
-    ValueError,
-)
+#: Exceptions that scipy raises on a truncated file, one of another format or of impossible sizes.
+_UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, TypeError, ValueError)
 
 #: Units, meaning and dimensions of each variable. Coordinates have no attribute `axis`: ParaView
 #: would take X and Y for longitude and latitude.
@@ -97,17 +89,18 @@ def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
     """Values of each variable."""
     rows, columns = fields.contact.shape
     in_contact = np.where(fields.contact, 0.0, np.nan)
+    vectors = {
+        "displacement": fields.displacement,
+        "velocity": fields.velocity,
+        "stress": fields.stress + in_contact,
+    }
     return {
         "time": fields.time,
         "y": fields.spacing * (np.arange(rows) + 0.5),
         "x": fields.spacing * (np.arange(columns) + 0.5),
-        "displacement_x": fields.displacement[:, 0],
-        "displacement_y": fields.displacement[:, 1],
-        "velocity_x": fields.velocity[:, 0],
-        "velocity_y": fields.velocity[:, 1],
+        **{f"{name}_x": values[:, 0] for name, values in vectors.items()},
+        **{f"{name}_y": values[:, 1] for name, values in vectors.items()},
         "slip": fields.slip,
-        "stress_x": fields.stress[:, 0] + in_contact,
-        "stress_y": fields.stress[:, 1] + in_contact,
         "state": fields.state,
     }
 

@@ -110,10 +110,10 @@ def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
 
 
 def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
-    known: dict[str, Path] = {}
-    for path, table in zip(paths, tables, strict=True):
-        version = origin_of(table).get("code_version", "")
-        known.setdefault(version.rpartition("+")[2], path)
+    versions = (origin_of(table).get("code_version", "") for table in tables)
+    known = {
+        version.rpartition("+")[2]: path for version, path in zip(versions, paths, strict=True)
+    }
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(

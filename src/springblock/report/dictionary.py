@@ -1,8 +1,5 @@
 """What the tables of a study hold: every column with its unit and its meaning."""
 
-from collections.abc import Iterable
-from typing import NamedTuple
-
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
@@ -25,50 +22,35 @@ or 1 for pure numbers.
 """
 
 
-class Described(NamedTuple):
-    """A kind of table, where a study keeps it, and what one row of it is."""
-
-    name: str
-    where: str
-    row: str
-    schema: pa.Schema
-
-
-def tables() -> list[Described]:
-    """Every kind of table that a study writes."""
+def page() -> str:
+    """Write the dictionary of all tables, in Markdown."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
     from springblock.mechanism import tables as mechanism
 
-    kinds = [
-        ("realisations", "a realisation", SUMMARY),
-        ("correlation", "a distance along a kind of side", CORRELATION),
-        ("correlation_length", "a kind of side", CORRELATION_LENGTH),
-        ("claims", "a finding on a statement of the paper", claims.SCHEMA),
-        ("work_precision", "an error at one step", work_precision.SCHEMA),
-        ("production", "an error at full size at one step", production.SCHEMA),
-        ("mechanism", "a seed on pillars of one size", mechanism.FRICTION),
-        ("mechanism_variants", "the same with other gaps and constants", mechanism.FRICTION),
-        ("mechanism_peaks", "a seed on one surface with grooves", mechanism.PEAKS),
-        ("mechanism_budget", "a moment of one seed of one model", mechanism.BUDGET),
-        ("stability", "a stiff or extreme case", stability.SCHEMA),
-    ]
-    batches = "realisations/SCENE/batch-NUMBER.parquet"
-    return [
-        Described("batches", batches, "a realisation, with its curves and fields", BATCH),
-        *(Described(name, f"tables/{name}.parquet", row, schema) for name, row, schema in kinds),
-    ]
+    kinds = {
+        "realisations": ("a realisation", SUMMARY),
+        "correlation": ("a distance along a kind of side", CORRELATION),
+        "correlation_length": ("a kind of side", CORRELATION_LENGTH),
+        "claims": ("a finding on a statement of the paper", claims.SCHEMA),
+        "work_precision": ("an error at one step", work_precision.SCHEMA),
+        "production": ("an error at full size at one step", production.SCHEMA),
+        "mechanism": ("a seed on pillars of one size", mechanism.FRICTION),
+        "mechanism_variants": ("the same with other gaps and constants", mechanism.FRICTION),
+        "mechanism_peaks": ("a seed on one surface with grooves", mechanism.PEAKS),
+        "mechanism_budget": ("a moment of one seed of one model", mechanism.BUDGET),
+        "stability": ("a stiff or extreme case", stability.SCHEMA),
+    }
+    curves, batches = "a realisation, with its curves and fields", "realisations/SCENE/batch-NUMBER"
+    sections = [_section("batches", batches, curves, BATCH)]
+    sections += [_section(name, f"tables/{name}", *kind) for name, kind in kinds.items()]
+    return _PAGE.format(sections="\n\n".join(sections))
 
 
-def page(described: Iterable[Described]) -> str:
-    """Write the dictionary of all tables, in Markdown."""
-    return _PAGE.format(sections="\n\n".join(map(_section, described)))
-
-
-def _section(table: Described) -> str:
-    says = f"`results/{table.where}`: each row is {table.row}."
-    header = ["column", "type", "unit", "meaning"]
-    return f"## {table.name}\n\n{says}\n\n{markdown_table(header, columns(table.schema))}"
+def _section(name: str, file: str, row: str, schema: pa.Schema) -> str:
+    """Describe a kind of table: where a study keeps it, what one row is, and its columns."""
+    table = markdown_table(["column", "type", "unit", "meaning"], columns(schema))
+    return f"## {name}\n\n`results/{file}.parquet`: each row is {row}.\n\n{table}"
 
 
 def columns(schema: pa.Schema) -> list[list[str]]:

@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from springblock.accuracy.budget import Bias, finest_bias, measured
-from springblock.accuracy.conventions import ENSEMBLE
 from springblock.analysis.lowest import lowest
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.question import by_scene, number
+from springblock.beyond.question import by_scene, is_even, number
 from springblock.claims.ranges import PLAIN, SCALED
 from springblock.io.rows import Row, select
-from springblock.model.defaults import STEP
 from springblock.model.scene import Scene
 from springblock.plotting.style import MICRO
 
@@ -42,22 +39,14 @@ def findings(tables: Tables) -> dict[str, dict[str, Any]]:
         "order": _order(tables, family),
         "correlation": _correlation(tables),
         "peaks": _peaks(tables),
-        "errors": _errors(measured(tables.get("production", []), ("t_avg",))),
     }
-    rest_on = {"correlation": ["correlation_length", "claims"], "errors": ["production"]}
-    usual = ["realisations", "claims"]
-    return {
-        name: numbers | {"tables": [table for table in rest_on.get(name, usual) if table in tables]}
-        for name, numbers in found.items()
-        if numbers
-    }
+    return {name: numbers for name, numbers in found.items() if numbers}
 
 
 def _family(runs: Runs) -> dict[int, Sequence[Row]]:
     """Runs on the flat surface, at 0, and on pillars as far apart as wide, along x, by n_p."""
-    plain = [s for s in runs if s.lengths.keys() <= {"n_p", "n_s"} and s.direction == "x"]
-    simple = [s for s in plain if s.n_s == s.n_p]
-    return {scene.n_p: runs[scene] for scene in sorted(simple, key=lambda scene: scene.n_p)}
+    plain = [s for s in runs if is_even(s) or (not s.lengths and s.direction == "x")]
+    return {scene.n_p: runs[scene] for scene in sorted(plain, key=lambda scene: scene.n_p)}
 
 
 def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
@@ -147,23 +136,6 @@ def _peaks(tables: Tables) -> dict[str, Any]:
         "least": f"{ordered[0][1]['claimed_low']:g}",
         "along": [(size, _quoted(row)) for size, row in ordered],
         "others": [(row["case"].removeprefix("surface = "), _quoted(row)) for row in others],
-    }
-
-
-def _errors(cases: Mapping[tuple[str, str], list[Row]]) -> dict[str, Any]:
-    """Bias of the mean t_avg at the default step, beside its scatter."""
-    if not cases:
-        return {}
-    biases, scatter = {}, {}
-    for (_, scene), rows in cases.items():
-        (row,) = select(rows, step=STEP)
-        biases[scene] = Bias.of(row).high + finest_bias(rows)
-        scatter[scene] = row["deviation"] / row["scale"] / np.sqrt(ENSEMBLE)
-    return {
-        "title": f"The time step biases t_avg by at most {max(biases.values()):.2%}",
-        "step": f"{STEP:.0e}",
-        "seeds": ENSEMBLE,
-        "cases": [(name, f"{biases[name]:.2%}", f"{scatter[name]:.2%}") for name in biases],
     }
 
 

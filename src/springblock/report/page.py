@@ -14,9 +14,10 @@ from markupsafe import Markup
 
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
-from springblock.io.parquet import load
+from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
 from springblock.report import findings, markup, media
+from springblock.report import own as own_scenes
 
 #: Parts of the page in their order, before further pages, and the titles of those without a page.
 ORDER = ("claims", "figures", "mechanism", "accuracy", "beyond", "glossary")
@@ -28,7 +29,6 @@ SHOWN = {
     "order": ("figure_5",),
     "correlation": ("figure_7",),
     "peaks": ("figure_9",),
-    "errors": (),
 }
 #: Verdicts in the order in which they are listed.
 VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
@@ -47,15 +47,16 @@ class Part(NamedTuple):
     figures: list[dict[str, Any]]
 
 
-def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
+def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -> str:
     """Write the page of a study from its pictures, pages and tables, and films with their runs.
 
-    Files are told by their suffix: .png, .md or .parquet.
+    Files are told by their suffix: .png, .md or .parquet. With `own` it is a study of one's own
+    scenes, which has pictures and the table `realisations`.
 
     Raises
     ------
     ValueError
-        Where a file has another suffix.
+        Where a file has another suffix, or the table of own scenes is missing.
     """
     kinds: dict[str, list[Path]] = {".png": [], ".md": [], ".parquet": []}
     for file in files:
@@ -63,36 +64,48 @@ def page(files: Iterable[Path], films: Mapping[Path, Path]) -> str:
             raise ValueError(f"a report shows files of type {', '.join(kinds)}, not {file}")
         kinds[file.suffix].append(file)
     data = {file.stem: load(file) for file in kinds[".parquet"]}
-    rows = {name: table.to_pylist() for name, table in data.items()}
     figures = {file.stem: media.picture(file) for file in sorted(kinds[".png"])}
     known = {file.stem for file in kinds[".md"]}
     pages = {
         file.stem: markup.rendered(file.stem, file.read_text("utf-8"), known)
         for file in kinds[".md"]
     }
+    rows = {name: table.to_pylist() for name, table in data.items()}
+    if own and "realisations" not in rows:
+        raise ValueError("a report on own scenes needs the table realisations.parquet")
+    content = own_scenes.content(rows) if own else _of_study(rows, figures, pages)
+    return rendered(
+        "own.html" if own else "page.html",
+        **content,
+        n_runs=len(rows.get("realisations", [])),
+        figures=figures,
+        pages=pages,
+        films=[media.moving(file, batch) for file, batch in films.items()],
+        tables=[markup.shown(name, table) for name, table in data.items()],
+        files={file.stem: media.embedded(file) for file in kinds[".parquet"]},
+        origin=origin(data),
+    )
+
+
+def _of_study(
+    rows: findings.Tables, figures: Figures, pages: Mapping[str, markup.Page]
+) -> dict[str, Any]:
+    """Return findings, statements and the parts of the page of a study."""
     found = findings.findings(rows)
     placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
     judged = statements(rows.get("claims", []))
     mechanism = pages.get("mechanism", markup.Page(""))
     peaks = [text for heading, text in mechanism.answers.items() if "two load peaks" in heading]
-    return rendered(
-        "page.html",
-        findings=found,
-        SHOWN=SHOWN,
-        reasons={"friction": mechanism.opening, "peaks": peaks},
-        n_runs=len(rows.get("realisations", [])),
-        model=figures.get(MODEL),
-        figures=figures,
-        pages=pages,
-        statements=judged,
-        counted=counted(judged),
-        parts=_parts(figures, pages, placed),
-        films=[media.moving(file, batch) for file, batch in films.items()],
-        tables=[markup.shown(name, table) for name, table in data.items()],
-        files={file.stem: media.embedded(file) for file in kinds[".parquet"]},
-        origin=origin(data),
-        version=version("springblock"),
-    )
+    return {
+        "findings": found,
+        "SHOWN": SHOWN,
+        "reasons": {"friction": mechanism.opening, "peaks": peaks},
+        "model": figures.get(MODEL),
+        "statements": judged,
+        "counted": counted(judged),
+        "parts": _parts(figures, pages, placed),
+        "version": version("springblock"),
+    }
 
 
 def statements(table: Sequence[Row]) -> list[Row]:
@@ -151,6 +164,6 @@ def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str])
 
 def origin(data: Mapping[str, pa.Table]) -> dict[str, str]:
     """Return what the table of realisations was made with."""
-    kept = data["realisations"].schema.metadata if "realisations" in data else {}
-    names = {"code version": b"code_version", "configuration": b"configuration_digest"}
-    return {name: kept[key].decode() for name, key in names.items() if key in (kept or {})}
+    known = origin_of(data["realisations"]) if "realisations" in data else {}
+    names = {"code version": "code_version", "configuration": "configuration_digest"}
+    return {name: known[key] for name, key in names.items() if key in known}

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
-import numpy as np
 
 from springblock.io.schemas import AXES
 from springblock.model.asperities import check_draws
 from springblock.model.blockmap import BlockMap, Cut
 from springblock.model.law import LawFile
 from springblock.model.material import Material, as_law
-from springblock.model.scene import LENGTHS, MAPS, TEXTS, Scene, Varied
+from springblock.model.scene import LENGTHS, TEXTS, Scene, Varied
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.study.texts import check_texts
@@ -54,6 +53,14 @@ class Ensemble:
             i: range(max(first, i * size), min(last + 1, (i + 1) * size))
             for i in range(first // size, last // size + 1)
         }
+
+    def joined(self, other: "Ensemble") -> "Ensemble":
+        """Return the larger of two ensembles of the same scene, with the snapshots of both."""
+        if self.duration != other.duration:
+            raise ValueError(f"duration must be the same wherever {self.scene} occurs")
+        times = tuple(sorted({*self.snapshot_times, *other.snapshot_times}))
+        larger = max(self, other, key=lambda each: len(each.seeds))
+        return replace(larger, snapshot_times=times)
 
 
 def completed(configuration: Configuration) -> dict[str, Any]:
@@ -117,7 +124,7 @@ def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
                 if not is_own(configuration):
                     _check_for_figures(ensemble, group, usual)
     for name, sweep in configuration["figures"].get("sweeps", {}).items():
-        _check_sweep(f"figures.sweeps.{name}", sweep, configuration)
+        _check_sweep(f"figures.sweeps.{name}", sweep, groups)
 
 
 @contextmanager
@@ -129,21 +136,15 @@ def _named(key: str) -> Iterator[None]:
         raise ValueError(f"{key}: {reason}") from reason
 
 
-def _check_sweep(key: str, sweep: Mapping[str, Any], configuration: Configuration) -> None:
-    known = ", ".join(configuration["scenes"])
+def _check_sweep(key: str, sweep: Mapping[str, Any], groups: Mapping[str, list[Ensemble]]) -> None:
     for group in sweep["groups"]:
-        if group not in configuration["scenes"]:
+        if group not in groups:
+            known = ", ".join(groups)
             raise ValueError(f"{key}.groups: unknown group {group!r}; choose from {known}")
-    members = ensembles(configuration)
-    own = (
-        name
-        for group in sweep["groups"]
-        for each in members[group]
-        for name, _ in each.scene.varied
-    )
-    axes = list(dict.fromkeys([*AXES, *(name for name in own if name not in TEXTS)]))
-    if sweep["over"] not in axes:
-        known = ", ".join(axes)
+    members = chain.from_iterable(groups[group] for group in sweep["groups"])
+    own = [name for each in members for name, _ in each.scene.varied if name not in TEXTS]
+    if sweep["over"] not in [*AXES, *own]:
+        known = ", ".join(dict.fromkeys([*AXES, *own]))
         raise ValueError(f"{key}.over: unknown axis {sweep['over']!r}; choose one of {known}")
 
 
@@ -153,13 +154,19 @@ def is_own(configuration: Configuration) -> bool:
 
 
 def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
-    scene = ensemble.scene
+    scene, seeds, times = ensemble.scene, ensemble.seeds, ensemble.snapshot_times
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
-    _check_draws(ensemble, own.material)
-    threshold = _threshold(scene, own.material)
+    if scene.is_drawn:
+        check_draws(scene.shape, own.material)
+    elif len(seeds) > 1:
+        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
+    strongest = own.material.mu_static
+    known: Any = scene.mu_static_field and scene.mu_static_field.values
+    if known is not None:
+        strongest = float(known[scene.contact].max())
     for duration in (None, ensemble.duration):  # its prelude and its realisations
-        own.plan(scene.contact, threshold, duration, ensemble.snapshot_times)
+        own.plan(scene.contact, strongest, duration, times)
 
 
 def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
@@ -173,30 +180,13 @@ def _check_for_figures(ensemble: Ensemble, group: str, setup: Setup) -> None:
     if scene.level != _LEVELS.get(group, scene.level):
         raise ValueError(f"scenes must be of level {_LEVELS[group]}, not {scene.level}")
     # Without scatter one realisation suffices, and no figure needs its c(r).
-    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not _scatters(material)
+    scatters = material.mu_static_std > 0.0 or material.mu_dynamic_std > 0.0
+    is_single = group not in _LEVELS and len(ensemble.seeds) == 1 and not scatters
     if scene.sides and len(ensemble.seeds) < _CORRELATED and not is_single:
         raise ValueError(
             f"seeds must be at least {_CORRELATED}, for correlations on pillars of {scene.n_p} "
             f"blocks, not {len(ensemble.seeds)}"
         )
-
-
-def _scatters(material: Material) -> bool:
-    return material.mu_static_std > 0.0 or material.mu_dynamic_std > 0.0
-
-
-def _threshold(scene: Scene, material: Material) -> float:
-    """Return the largest static coefficient of a file, or the mean of drawn ones."""
-    known = None if scene.mu_static_field is None else scene.mu_static_field.values
-    return material.mu_static if known is None else float(known[scene.contact].max())
-
-
-def _check_draws(ensemble: Ensemble, material: Material) -> None:
-    scene, seeds = ensemble.scene, ensemble.seeds
-    if scene.is_drawn:
-        check_draws(scene.shape, material)
-    elif len(seeds) > 1:
-        raise ValueError(f"seeds must be 1, since no coefficients are drawn, not {len(seeds)}")
 
 
 def _sentence(error: jsonschema.ValidationError) -> str:
@@ -227,8 +217,9 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
         with _named(f"scenes.{group}"):
             parts = grids if isinstance(grids, list) else [grids or {}]
             groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
-            for ensemble in groups[group]:
-                _keep_largest(largest, ensemble)
+            for each in groups[group]:
+                known = largest.get(each.scene, each)
+                largest[each.scene] = known.joined(each)
     return {
         group: list(dict.fromkeys(largest[each.scene] for each in members))
         for group, members in groups.items()
@@ -262,20 +253,6 @@ def for_figures(
     }
 
 
-def _keep_largest(largest: dict[Scene, Ensemble], ensemble: Ensemble) -> None:
-    scene = ensemble.scene
-    known = largest.setdefault(scene, ensemble)
-    for key in MAPS:
-        one, other = getattr(known.scene, key), getattr(scene, key)
-        if one is not None and not np.array_equal(one.values, other.values, equal_nan=True):
-            raise ValueError(f"{one.file} and {other.file} have the same name {one}; rename one")
-    if known.duration != ensemble.duration:
-        raise ValueError(f"duration must be the same wherever {scene} occurs")
-    kept = tuple(sorted({*known.snapshot_times, *ensemble.snapshot_times}))
-    larger = max(known, ensemble, key=lambda either: len(either.seeds))
-    largest[scene] = replace(larger, snapshot_times=kept)
-
-
 def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
     if not grid:
         return
@@ -286,9 +263,11 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
     counts = seeds if isinstance(seeds, list) else [seeds] * len(n_p)
     if len(counts) != len(n_p):
         raise ValueError(f"seeds must have one number per n_p, {len(n_p)}, not {len(counts)}")
-    shapes = product(_sizes(configuration, grid), grid.get("n_rows", [0]))
+    of_mask = "mask" in grid or "topography" in grid  # which then gives N
+    n_blocks = grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
+    shapes = product(n_blocks, grid.get("n_rows", [0]))
     pillars, varied = zip(n_p, counts, strict=True), list(_varied(configuration, grid))
-    maps = {constants: list(_maps(configuration, grid, constants)) for constants in varied}
+    maps = {constants: _maps(configuration, grid, constants) for constants in varied}
     ways = product(shapes, pillars, n_s, product(*deeper), grid["direction"], varied)
     for (n, rows), (size, count), given, rest, direction, constants in ways:
         lengths = dict(zip(LENGTHS, (size, _gap(given, size), *rest), strict=True))
@@ -299,16 +278,10 @@ def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[E
             yield Ensemble(scene, range(first, first + count), duration, kept)
 
 
-def _sizes(configuration: Configuration, grid: Mapping[str, Any]) -> list[int]:
-    """Return the values of N in a grid; 0 to take it from a mask."""
-    of_mask = "mask" in grid or "topography" in grid
-    return grid.get("n_blocks", [0] if of_mask else [configuration["n_blocks"]])
-
-
 def _maps(
     configuration: Configuration, grid: Mapping[str, Any], constants: Varied
-) -> Iterator[dict[str, Any]]:
-    """Yield each mask of a grid, if any, with the coefficients from files."""
+) -> list[dict[str, Any]]:
+    """Return each mask of a grid, if any, with the coefficients from files."""
     own = {
         f"{name}_field": BlockMap.coefficients(Path(grid[name]))
         for name in ("mu_static", "mu_dynamic")
@@ -320,9 +293,7 @@ def _maps(
             raise ValueError(
                 f"masks {one.file} and {other.file} describe the same surface {one}; remove one"
             )
-    yield from ({"mask": mask} | own for mask in masks)
-    if not masks:
-        yield own
+    return [own | {"mask": mask} for mask in masks] or [own]
 
 
 def _masks(

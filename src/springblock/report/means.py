@@ -1,0 +1,75 @@
+"""Rows of means of ensembles and of their changes, and these rows as text."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pyarrow as pa
+
+from springblock.analysis.ensembles import Change, Ensemble, extremes, mean, telling
+from springblock.analysis.statistics import Interval
+from springblock.beyond.question import number
+from springblock.io.rows import Row
+from springblock.io.schemas import SCENE, SETUP
+
+#: Units of lengths and constants, by name.
+UNITS = {
+    field.name: unit
+    for field in (*SCENE, *SETUP)
+    if (unit := field.metadata[b"unit"].decode()) != "1" and not pa.types.is_string(field.type)
+}
+
+
+def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()) -> list[Row]:
+    """Return a row for each ensemble: what tells it apart, its number of runs and its means."""
+    names = by or telling(each.names for each in members)
+    return [
+        {name: each.names.get(name) for name in names}
+        | {"runs": len(each.rows)}
+        | {name: mean(each, name) for name in of}
+        for each in members
+    ]
+
+
+def differences(
+    changed: Sequence[Change], of: Sequence[str], ends: Sequence[Row] | None = None
+) -> list[Row]:
+    """Return a row for each change: its ensemble, its `ends` if any, and mean differences."""
+    names = telling(each.names for each in changed)
+    return [
+        {name: each.names.get(name) for name in names}
+        | end
+        | {
+            "runs": f"{len(each.first.rows)}, {len(each.second.rows)}",
+            "difference": "by seed" if each.paired else "of means",
+        }
+        | {name: each.of(name) for name in of}
+        for each, end in zip(changed, ends or [{}] * len(changed), strict=True)
+    ]
+
+
+def changes_over_ends(members: Sequence[Ensemble], of: Sequence[str]) -> list[Row]:
+    """Return a row for each change from the lowest to the highest value of a parameter."""
+    found = list(extremes(members))
+    ends = [{"from": f"{name} = {low}", "to": high} for name, low, high, _ in found]
+    return differences([change for *_, change in found], of, ends)
+
+
+def in_words(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
+    """Return the headings of rows, with units, and their cells; times are in µs."""
+    head = [_heading(name, value) for name, value in rows[0].items()]
+    return head, [[_cell(name, value) for name, value in row.items()] for row in rows]
+
+
+def _heading(name: str, value: Any) -> str:
+    unit = "µs" if _is_time(name, value) else UNITS.get(name)
+    return f"{name} ({unit})" if unit else name
+
+
+def _cell(name: str, value: Any) -> str:
+    if isinstance(value, Interval):
+        return number(value, factor=1e6 if _is_time(name, value) else 1.0)
+    return "" if value is None else str(value)
+
+
+def _is_time(name: str, value: Any) -> bool:
+    return isinstance(value, Interval) and name.startswith("t_")
