@@ -3,7 +3,7 @@
 kernel       one step with all blocks moving, N = 120: both integrators, the same leapfrog in C,
              LAMMPS, and a direct Runge-Kutta method; ratio to the leapfrog
 realisation  whole runs, from zero and with the prelude; ratio to as many steps of 1e-8 s in C
-scaling      a step of the leapfrog over N and over the share of blocks that move; ratio to N = 120
+scaling      a step of the leapfrog with all blocks moving; ratio to N = 120
 cores        a step of the leapfrog on one core and on all; ratio to one core
 
 Values are medians of the repetitions, in CPU time, or wall time for `cores`. All codes of a
@@ -48,7 +48,6 @@ WARM_UP = 40  #: steps before anything is timed, with all code compiled and all 
 #: that no block comes to rest.
 SPEED = 0.05
 THRESHOLDS = 1e-4
-NEVER = 1e9  #: a coefficient of friction that is never overcome
 
 SCENES = {
     "flat": Scene(N),
@@ -62,10 +61,8 @@ SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
 LONGER = 100  #: times as many on several cores, whose threads begin anew with every call
 LARGE = (500, 2000)  #: surfaces that several cores may share
-SHARES = (0.0, 0.25, 0.5, 0.75)
 
 PER_STEP = "ns per block and step"
-Flags = NDArray[np.bool_]
 Steps = Callable[[int], object]  #: takes so many steps
 Row = dict[str, str]  #: of the printed table
 
@@ -73,12 +70,9 @@ Row = dict[str, str]  #: of the printed table
 class Solver:
     """The compiled solver on a flat surface in motion, pulled along x."""
 
-    def __init__(self, integrator: str, n: int, still: Flags | None = None) -> None:
-        self.integrator, self.n, self.taken = integrator, n, 0
+    def __init__(self, integrator: str, n: int) -> None:
+        self.integrator, self.taken = integrator, 0
         contact, mu_static, mu_dynamic, velocity = in_motion(n)
-        if still is not None:
-            mu_static = np.where(still, NEVER, mu_static)
-            velocity = np.where(still, 0.0, velocity)
         how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
         self.state, self.constants = prepare(Surface(contact, mu_static, mu_dynamic), *how)
         blocks, grid = self.state.blocks, self.constants.grid
@@ -93,7 +87,7 @@ class Solver:
         self.taken += steps
 
 
-def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
+def in_motion(n: int) -> tuple[NDArray[np.bool_], Array, Array, Array]:
     """Contact, coefficients and velocities (2, N, N), in l per step, of a surface in motion."""
     noise = np.random.default_rng(n).standard_normal((2, n, n))
     mu_static, mu_dynamic = draw_friction(n, seed=0)
@@ -182,20 +176,13 @@ def realisation() -> Iterator[Row]:
 
 
 def scaling() -> Iterator[Row]:
-    """The leapfrog over the size of the surface, and over the share of blocks that move."""
-    rng = np.random.default_rng(0)
-    solvers = {f"N = {n}": Solver("leapfrog", n) for n in SIZES}
-    for share in SHARES:
-        spread = rng.permutation(N * N).reshape(N, N) >= share * N * N
-        rows = np.repeat(rng.permutation(N)[:, None] >= share * N, N, axis=1)
-        for how, still in (("at random", spread), ("by rows", rows)):
-            solvers[f"{100 * share:.0f} % moving {how}"] = Solver("leapfrog", N, still)
-    steps = {name: max(1, BLOCK_STEPS // solver.n**2) for name, solver in solvers.items()}
-    runs: Runs = {name: partial(each.advance, steps[name]) for name, each in solvers.items()}
+    """The leapfrog over the size of the surface."""
+    steps = {n: max(1, BLOCK_STEPS // n**2) for n in SIZES}
+    runs: Runs = {f"N = {n}": partial(Solver("leapfrog", n).advance, steps[n]) for n in SIZES}
     seconds = interleaved(runs, REPETITIONS)
-    cost = {name: 1e9 * seconds[name] / steps[name] / solvers[name].n ** 2 for name in solvers}
-    for name, each in cost.items():
-        yield row(name, each, PER_STEP, cost[f"N = {N}"])
+    cost = {n: 1e9 * seconds[f"N = {n}"] / steps[n] / n**2 for n in SIZES}
+    for n, each in cost.items():
+        yield row(f"N = {n}", each, PER_STEP, cost[N])
 
 
 def cores() -> Iterator[Row]:

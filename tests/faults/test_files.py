@@ -19,7 +19,6 @@ from faults.damages import (
 from springblock import simulate, write_fields
 from springblock.accuracy.specimens import uniform
 from springblock.files import read_sealed
-from springblock.model.blockmap import BlockMap
 from springblock.provenance import code_version
 from springblock.simulation.prelude import Prelude
 from springblock.study.audit import faults
@@ -75,18 +74,23 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert not list(faults(study.results))
 
 
-def test_fields_of_other_code_and_files_cut_short_are_set_aside(tmp_path):
+def test_bad_fields_and_masks_are_found(tmp_path):
+    """Fields of other code or cut short; a mask that is not that of its name."""
     fields = simulate(uniform(2, 1.0, 0.6), duration=1e-6, snapshot_times=[1e-6]).fields
     names = ("current", "older", "short")
     files = {name: tmp_path / f"fields/{name}.nc" for name in names}
     for name, file in files.items():
         version = "1.0.0+0123" if name == "older" else code_version("simulate")
         write_fields(fields, file, source=f"springblock {version}")
-    truncated(files["short"], None)
+    truncated(files["short"], tmp_path)
+    mask = tmp_path / "surfaces/islands-00000000.npy"
+    mask.parent.mkdir()
+    np.save(mask, np.arange(64).reshape(8, 8) % 3 > 0)
     found = {fault.file: fault.reason for fault in faults(tmp_path)}
-    assert found.keys() == {files["older"], files["short"]}
+    assert found.keys() == {files["older"], files["short"], mask}
     assert "was made by different code, springblock 1.0.0+0123" in found[files["older"]]
     assert "cut short" in found[files["short"]]
+    assert "not that of its name" in found[mask]
 
 
 def test_a_batch_with_a_seed_missing_is_not_aggregated(study, springblock, tmp_path):
@@ -133,17 +137,3 @@ def test_each_truncation_is_noticed(study, rng, place):
         file.write_bytes(content[:length])
         with pytest.raises(ValueError, match=r"damaged|checksum"):
             read(file)
-
-
-def test_a_mask_that_is_not_what_its_name_says_is_refused(springblock, tmp_path):
-    """As a study cuts it from a topography: under the name of what it holds."""
-    np.save(tmp_path / "islands.npy", np.arange(64).reshape(8, 8) % 3 > 0)
-    mask = tmp_path / "surfaces" / f"{BlockMap.mask(tmp_path / 'islands.npy').name}.npy"
-    mask.parent.mkdir()
-    content = bytearray((tmp_path / "islands.npy").read_bytes())
-    content[140] ^= 1
-    mask.write_bytes(content)
-    said = springblock("simulate", "--mask", mask, "--output", tmp_path / "a", refused=True)
-    assert "not that of its name" in said
-    (found,) = faults(tmp_path)
-    assert found.file == mask
