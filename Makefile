@@ -4,6 +4,7 @@ BIN := $(VENV)/bin
 PEERS := benchmarks/peers/peers.lock
 PARALLEL := --numprocesses auto --dist loadfile --no-loadscope-reorder
 INSTALL := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-user --no-compile --no-build-isolation
+APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends
 
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
@@ -41,12 +42,13 @@ test: setup $(if $(CI),browser)
 CHROMIUM = $(shell which chromium chromium-browser google-chrome google-chrome-stable) \
     $(wildcard /Applications/Google?Chrome.app)
 browser:
-	$(if $(strip $(CHROMIUM)),,apt-get --quiet update && \
-	    apt-get install --yes --quiet --no-install-recommends chromium)
+	$(if $(strip $(CHROMIUM)),,apt-get --quiet update && $(APT_INSTALL) chromium)
 
 # The quick study on a Slurm of one node, which is installed and started: as root on Debian, in a
 # quarter of an hour.
 test-slurm: setup
+	apt-get --quiet update
+	$(APT_INSTALL) munge slurm-client slurmctld slurmd
 	$(BIN)/python -m tests.slurm
 
 # Tests with the lowest versions that pyproject.toml allows, the newest, and pre-releases, in 40

@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-PACKAGES = ("munge", "slurm-client", "slurmctld", "slurmd")
 #: Where Debian's Slurm looks; Snakemake's plugin takes SLURM_CONF out of the environment.
 CONFIGURATION = Path("/etc/slurm/slurm.conf")
 _PATIENCE = 60.0  #: s until the node is ready, or the daemon back
@@ -110,23 +109,11 @@ def wait(what: str, done: Callable[[], bool], patience: float = _PATIENCE) -> No
         time.sleep(0.2)
 
 
-def install() -> None:
-    """Install Debian's packages where they are missing."""
-    if all(map(shutil.which, ("munged", "squeue", "slurmctld", "slurmd"))):
-        return
-    if not shutil.which("apt-get"):
-        raise Failed(f"Install {', '.join(PACKAGES)}, as Debian names them")
-    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for command in (["update"], ["install", "--yes", "--no-install-recommends", *PACKAGES]):
-        subprocess.run(["apt-get", "--quiet", *command], env=quiet, check=True)
-
-
 @contextmanager
 def one_node() -> Iterator[Cluster]:
     """Start a Slurm of one node, and stop it at the end; raises Failed."""
     if os.geteuid():
         raise Failed("Slurm's daemons must be started by root")
-    install()
     if os.path.lexists(CONFIGURATION):
         raise Failed(f"{CONFIGURATION} is there already: this machine has a Slurm of its own")
     folder = Path(tempfile.mkdtemp(prefix="springblock-slurm-"))
