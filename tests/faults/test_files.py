@@ -29,11 +29,7 @@ FAULTS = {
     "flipped bit in a batch": (BATCH, flipped, "its checksum does not match"),
     "batch of older code": (BATCH, of_older_code, "was made by different code"),
     "batch of another material": (BATCH, of_other_material, "gamma is 4000.0 in"),
-    "batch of another scene": (
-        BATCH,
-        partial(replaced, by=OTHER),
-        "holds n_blocks = 12, level = 1",
-    ),
+    "batch of another scene": (BATCH, partial(replaced, by=OTHER), "level = 1, n_p = 6"),
     "truncated prelude": (PRELUDE, truncated, "is not a prelude, or damaged"),
     "flipped bit in a prelude": (PRELUDE, flipped, "is not a prelude, or damaged"),
     "table in place of a prelude": (PRELUDE, partial(replaced, by=TABLE), "is not a prelude"),
