@@ -34,15 +34,18 @@ def until(condition, seconds=300.0):
 
 
 def processes(study):
-    """Processes that work in the folder of a study."""
-    found = psutil.process_iter(["cwd", "cmdline"])
-    return [each for each in found if each.info["cwd"] == str(study.folder.resolve())]
+    """Processes that work in the folder of a study, with their command lines."""
+    return {
+        process: " ".join(process.info["cmdline"] or ())
+        for process in psutil.process_iter(["cwd", "cmdline"])
+        if process.info["cwd"] == str(study.folder.resolve())
+    }
 
 
 def jobs(study):
-    """Those that simulate."""
-    words = {process: " ".join(process.info["cmdline"] or ()) for process in processes(study)}
-    return [each for each in words if "springblock simulate" in words[each]]
+    """Those that simulate: `springblock --code ... simulate ...`."""
+    job = re.compile(r"springblock --code \w+ simulate ")
+    return [process for process, words in processes(study).items() if job.search(words)]
 
 
 def date_back(study):
