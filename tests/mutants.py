@@ -1,83 +1,57 @@
-"""How many errors the tests catch: `make mutants`, or `python tests/mutants.py --only solver`.
+"""Errors in the code that the tests do not catch: `make mutants`.
 
-A mutant is a copy of the package with one error: a sign, a comparison, an index, a constant off by
-1 or by 1 %, a term left out, two coordinates swapped. Mutants are drawn at random, so many of each
-folder as `PLANS` says, and each is run against the tests of its module first. Standard output has a
-line for each mutant, a table by folder, and the tests that were never the first to fail.
+A mutant is a copy of the package with one error: another sign, comparison or index, a constant off
+by 1 or by 1 %, a term left out, two coordinates swapped. Mutants are drawn at random, so many of
+each folder as `FOLDERS` says, and each is run against the tests of its folder. Printed are a line
+for each mutant, with the first test that failed, and a table by folder.
 
-To compile the kernels anew takes half a minute for each mutant of the solver. These therefore run
-interpreted first, against the specification on a surface of 25 blocks; only those that survive are
-compiled and run against the tests of their module.
+Compiling the kernels takes half a minute. Mutants of the solver are therefore first tested
+interpreted, on few blocks.
 """
 
 import argparse
 import ast
-import multiprocessing
 import os
 import re
+import shlex
 import shutil
+import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import redirect_stderr, redirect_stdout
-from multiprocessing.connection import Connection
 from pathlib import Path
-from queue import SimpleQueue
 from typing import NamedTuple
 
-import numba
 import numpy as np
-import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src/springblock"
 SECONDS = 400  #: in which tests must end; a mutant whose tests do not is caught
-#: Each run of tests is a copy of one process that has loaded the libraries, but not the package.
-PROCESSES = multiprocessing.get_context("forkserver")
-PROCESSES.set_forkserver_preload(
-    ["numba", "pytest", "scipy.stats", "scipy.signal", "pyarrow.parquet", "matplotlib.pyplot"]
-)
 
-
-class Plan(NamedTuple):
-    """How mutants of a folder are tested: its share of all, and tests beside the module's own."""
-
-    share: float
-    tests: tuple[str, ...]
-    interpreted: tuple[str, ...] = ()  #: tests that run first, without compilation
-
-
-_STEPS = "tests/validation/test_specification.py -k each_step and"
-PLANS = {
-    "solver": Plan(
+#: Share of each folder in the mutants, and the tests that must catch them.
+FOLDERS = {
+    "solver": (
         0.35,
-        ("tests/simulation/test_simulation.py", "tests/validation/test_blocks.py"),
-        (
-            f"{_STEPS} flat and coulomb",
-            " ".join(f"tests/solver/test_{name}.py" for name in ("release", "springs", "laws")),
-            f"{_STEPS} flat",
-        ),
+        "tests/solver tests/simulation/test_simulation.py tests/validation/test_blocks.py "
+        "tests/validation/test_convergence.py tests/validation/test_law_files.py",
     ),
-    "analysis": Plan(0.25, ("tests/analysis",)),
-    "simulation": Plan(0.1, ("tests/simulation", "tests/validation/test_blocks.py")),
-    "model": Plan(0.13, ("tests/model", "tests/simulation/test_simulation.py")),
-    "claims": Plan(0.13, ("tests/claims",)),
-    "provenance.py": Plan(0.04, ()),
+    "analysis": (0.25, "tests/analysis tests/cli/test_tables.py tests/claims/test_rule.py"),
+    "simulation": (0.1, "tests/simulation tests/validation/test_blocks.py"),
+    "model": (
+        0.13,
+        "tests/model tests/simulation/test_simulation.py tests/validation/test_law_files.py",
+    ),
+    "claims": (0.13, "tests/claims"),
+    "provenance.py": (0.04, "tests/test_provenance.py"),
 }
-#: Tests of modules that have no file of their own name.
-OWN = {
-    "analysis/ensembles": "tests/cli/test_tables.py",
-    "analysis/estimate": "tests/claims/test_rule.py",
-    "model/law": "tests/validation/test_law_files.py",
-    "provenance": "tests/test_provenance.py",
-    "simulation/run": "tests/simulation/test_simulation.py",
-    "simulation/setup": "tests/simulation/test_simulation.py",
-    "simulation/simulate": "tests/simulation/test_simulation.py",
-    "solver/lattice": "tests/solver/test_leapfrog.py",
-    "solver/law_file": "tests/validation/test_law_files.py",
-    "solver/rk4": "tests/validation/test_convergence.py",
-}
+#: Tests of the solver that run interpreted.
+INTERPRETED = (
+    "tests/validation/test_specification.py -k 'each_step and flat and coulomb'",
+    "tests/solver/test_release.py tests/solver/test_springs.py tests/solver/test_laws.py",
+    "tests/validation/test_specification.py -k 'each_step and flat'",
+)
 
 _OTHER: dict[type[ast.AST], type[ast.AST]] = {
     ast.Lt: ast.LtE,
@@ -142,144 +116,87 @@ def errors(node: ast.AST) -> Iterator[tuple[dict | list, str | int, ast.AST, ast
 class Mutant(NamedTuple):
     """One error in one file of the package."""
 
+    folder: str  #: key of `FOLDERS`
     file: str  #: within the package
-    line: int
-    change: str
+    change: str  #: line, expression and its variant
     source: str  #: of the whole file
 
-    @property
-    def folder(self) -> str:
-        """Return the key of its plan."""
-        return self.file.partition("/")[0]
 
-
-def mutant(file: Path, number: int) -> Mutant:
+def mutant(folder: str, file: Path, number: int) -> Mutant:
     """Make one of the errors of a file."""
     tree = ast.parse(file.read_text())
     place, key, node, variant = list(errors(tree))[number]
-    change = f"{ast.unparse(node)}  ->  {ast.unparse(variant)}"
+    change = f"{node.lineno}: {ast.unparse(node)}  ->  {ast.unparse(variant)}"
     place[key] = ast.copy_location(variant, node)
     source = ast.unparse(ast.fix_missing_locations(tree))
-    return Mutant(file.relative_to(PACKAGE).as_posix(), node.lineno, change, source)
+    return Mutant(folder, file.relative_to(PACKAGE).as_posix(), change, source)
 
 
-def drawn(number: int, seed: int, only: str) -> list[Mutant]:
+def drawn(number: int, seed: int, only: str = "") -> Iterator[Mutant]:
     """Draw mutants, each folder's share of `number`, or all of them from the folder `only`."""
-    rng, found = np.random.default_rng(seed), []
-    for folder, plan in PLANS.items():
-        if only not in ("", folder):
-            continue
-        place = PACKAGE / folder
-        files = [place] if place.is_file() else sorted(place.glob("*.py"))
-        numbers = {file: len(list(errors(ast.parse(file.read_text())))) for file in files}
-        every = [(file, i) for file in files for i in range(numbers[file])]
-        share = number if only else round(number * plan.share)
-        found += [mutant(*every[i]) for i in rng.permutation(len(every))[:share]]
+    rng = np.random.default_rng(seed)
+    for folder, (share, _) in FOLDERS.items():
+        if only in ("", folder):
+            place = PACKAGE / folder
+            files = [place] if place.is_file() else sorted(place.glob("*.py"))
+            counts = {file: len(list(errors(ast.parse(file.read_text())))) for file in files}
+            every = [(file, i) for file in files for i in range(counts[file])]
+            chosen = rng.permutation(len(every))[: number if only else round(number * share)]
+            yield from (mutant(folder, *every[i]) for i in chosen)
+
+
+def failing(sources: Path, tests: str, interpreted: bool) -> str:
+    """Return the first test that fails against a copy of the sources, or nothing."""
+    options = ["-qx", "--tb=no", "-p", "no:cacheprovider", "-p", "no:xdist", *shlex.split(tests)]
+    options += ["-W", "ignore"] if interpreted else []
+    environment = {
+        "PYTHONPATH": str(sources),
+        "NUMBA_CACHE_DIR": str(sources.parent / "numba"),
+        "NUMBA_DISABLE_JIT": str(int(interpreted)),
+        "PYTHONDONTWRITEBYTECODE": "1",  # it would be found again by size and time, to the second
+    }
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "pytest", *options],
+            cwd=ROOT,
+            env=os.environ | environment,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+        )
+    except subprocess.TimeoutExpired:
+        return "no end"
+    failed = re.search(r"^(?:FAILED|ERROR) ([^\s\[]+)", done.stdout, re.MULTILINE)
+    return (failed[1] if failed else "crash") if done.returncode else ""
+
+
+def caught_by(mutant: Mutant, folder: Path) -> str:
+    """Return the first test that fails on a mutant, or nothing; copies are made in `folder`."""
+    sources = folder / threading.current_thread().name / "src"
+    shutil.rmtree(sources, ignore_errors=True)
+    shutil.copytree(PACKAGE, sources / PACKAGE.name)  # with its times: machine code is found again
+    (sources / PACKAGE.name / mutant.file).write_text(mutant.source)
+    runs = [(FOLDERS[mutant.folder][1], False)]
+    if mutant.folder == "solver":
+        runs = [*((tests, True) for tests in INTERPRETED), *runs]
+    found = next(filter(None, (failing(sources, *run) for run in runs)), "")
+    print(f"{mutant.file}:{mutant.change}: {found or 'SURVIVED'}", flush=True)
     return found
 
 
-class FirstFailure:
-    """Plugin of pytest that keeps the name of the first test that fails, without parameters."""
-
-    name = ""
-
-    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Keep the name of a test that fails."""
-        if report.failed:
-            self.name = self.name or report.nodeid.partition("[")[0]
-
-
-def run_tests(sources: Path, tests: str, interpreted: bool, answer: Connection) -> None:
-    """Run tests against a copy of the sources, in a process of their own; send what fails."""
-    path, _, words = tests.partition(" -k ")
-    options = ["-q", "-x", "--tb=no", "-p", "no:cacheprovider", "-p", "no:xdist", *path.split()]
-    options += ["-k", words] if words else []
-    options += ["-W", "ignore"] if interpreted else []
-    os.chdir(ROOT)
-    os.environ |= {"PYTHONPATH": str(sources), "NUMBA_CACHE_DIR": str(sources.parent / "numba")}
-    sys.path.insert(0, str(sources))
-    numba.config.DISABLE_JIT = interpreted
-    sys.dont_write_bytecode = True  # it is found again by size and time, to the second
-    first = FirstFailure()
-    with Path(os.devnull).open("w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):
-        code = pytest.main(options, plugins=[first])
-    passed = code in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED)
-    answer.send("" if passed else first.name or f"{path}::(import)")
-
-
-def failing(sources: Path, tests: str, interpreted: bool = False) -> str:
-    """Return the first test that fails against a copy of the sources, or nothing."""
-    here, there = PROCESSES.Pipe(duplex=False)
-    child = PROCESSES.Process(target=run_tests, args=(sources, tests, interpreted, there))
-    child.start()
-    there.close()
-    path = tests.partition(" ")[0]
-    try:
-        return here.recv() if here.poll(SECONDS) else f"{path}::(no end)"
-    except EOFError:
-        return f"{path}::(crash)"
-    finally:
-        child.kill()
-        child.join()
-
-
-def caught_by(mutant: Mutant, room: Path) -> str:
-    """Return the first test that fails on a mutant, or nothing; `room` is for copies."""
-    plan, stem = PLANS[mutant.folder], mutant.file.removesuffix(".py")
-    package, folder = room / "src/springblock", Path(stem).parent
-    for interpreted in (True, False) if plan.interpreted else (False,):
-        shutil.rmtree(room / "src", ignore_errors=True)
-        shutil.copytree(PACKAGE, package)  # with its time stamps: machine code is found again
-        (package / mutant.file).write_text(mutant.source)
-        own = OWN.get(stem, f"tests/{folder}/test_{Path(stem).name}.py")
-        tests = plan.interpreted if interpreted else (own, *plan.tests)
-        for each in tests:
-            exists = (ROOT / each.partition(" ")[0]).exists()
-            if exists and (found := failing(room / "src", each, interpreted)):
-                return found
-    return ""
-
-
-def report(mutants: list[Mutant], tests: list[str]) -> None:
-    """Print the table, the survivors, and tests of these mutants' files that never failed."""
-    print("\n| folder | drawn | caught |\n| --- | ---: | ---: |")
-    for folder in dict.fromkeys(mutant.folder for mutant in mutants):
-        found = [
-            test for mutant, test in zip(mutants, tests, strict=True) if mutant.folder == folder
-        ]
-        print(f"| {folder} | {len(found)} | {sum(map(bool, found))} |")
-    files = sorted({test.partition("::")[0] for test in tests if test})
-    print("\nTests in", *files, "that were never the first to fail:")
-    for file in files:
-        for name in re.findall(r"^def (test_\w+)", (ROOT / file).read_text(), re.MULTILINE):
-            if f"{file}::{name}" not in tests:
-                print(f"    {file}::{name}")
-
-
 def main() -> None:
-    """Draw mutants, test each of them, and report."""
+    """Draw mutants, test each of them, and print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--number", type=int, default=300)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--only", choices=list(PLANS), default="", help="folder to draw from")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    given = parser.parse_args()
-    mutants, rooms = drawn(given.number, given.seed, given.only), SimpleQueue()
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(given.jobs) as pool:
-        for job in range(given.jobs):
-            rooms.put(Path(folder, str(job)))
-
-        def tried(mutant: Mutant) -> str:
-            room = rooms.get()
-            found = caught_by(mutant, room)
-            rooms.put(room)
-            print(
-                f"{mutant.file}:{mutant.line}: {mutant.change}: {found or 'SURVIVED'}", flush=True
-            )
-            return found
-
-        tests = list(pool.map(tried, mutants))
-    report(mutants, tests)
+    parser.add_argument("--only", choices=list(FOLDERS), default="", help="folder to draw from")
+    mutants = list(drawn(**vars(parser.parse_args())))
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda mutant: caught_by(mutant, Path(folder)), mutants))
+    print("\n| folder | drawn | caught |\n| --- | ---: | ---: |")
+    for name in dict.fromkeys(mutant.folder for mutant in mutants):
+        caught = [bool(test) for m, test in zip(mutants, found, strict=True) if m.folder == name]
+        print(f"| {name} | {len(caught)} | {sum(caught)} |")
 
 
 if __name__ == "__main__":

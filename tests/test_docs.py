@@ -103,9 +103,10 @@ def test_findings_that_are_quoted_stand_in_a_page_of_results():
     assert [value for value in quoted if value not in computed] == []
 
 
-def test_verdicts_are_as_many_as_the_readme_says():
+def test_every_statement_has_a_verdict_and_the_readme_counts_them():
     summary = re.findall(r"^\| \[\d+\. .*? \| \*\*([a-z ]+)\*\*", PAGES["claims"], re.MULTILINE)
     counts = Counter(summary)
+    assert counts.total() == len(CLAIMS)
     sentence = re.search(r"Of \d+ statements[^.]*\.", PAGES["README"])[0]
     names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
     expected = [counts.total(), *(counts[name] for name in names)]

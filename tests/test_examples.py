@@ -159,37 +159,35 @@ def test_the_page_on_a_measured_surface_can_be_followed(study):
     assert (study / "measured.png").exists()
 
 
-def shown(value):
-    """Output that Jupyter would keep of a cell's last expression."""
-    data = {"text/plain": repr(value)}
-    if isinstance(value, Figure):
-        picture = io.BytesIO()
-        value.savefig(picture, format="png", dpi=80, metadata={"Software": None})
-        text = f"<Figure size {value.bbox.width:.0f}x{value.bbox.height:.0f}>"
-        data = {"image/png": base64.b64encode(picture.getvalue()).decode(), "text/plain": text}
-    return new_output("display_data", data=data)
-
-
 def run_cell(source, names):
-    """Run one cell, but for Jupyter's own commands; returns its outputs."""
-    tree = ast.parse(re.sub(r"^%.*$", "", source, flags=re.MULTILINE))
+    """Run one cell, but for Jupyter's own commands; returns what Jupyter would show of it."""
+    tree, printed = ast.parse(re.sub(r"^%.*$", "", source, flags=re.MULTILINE)), io.StringIO()
     last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
-    outputs, printed, value = [], io.StringIO(), None
+    outputs, value = [], None
     with redirect_stdout(printed):
         exec(compile(tree, "cell", "exec"), names)
         if last is not None:
             value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
     if printed.getvalue():
         outputs.append(new_output("stream", name="stdout", text=printed.getvalue()))
-    return outputs if value is None else [*outputs, shown(value)]
+    if value is None:
+        return outputs
+    data = {"text/plain": repr(value)}
+    if isinstance(value, Figure):
+        picture = io.BytesIO()
+        value.savefig(picture, format="png", dpi=80, metadata={"Software": None})
+        text = f"<Figure size {value.bbox.width:.0f}x{value.bbox.height:.0f}>"
+        data = {"image/png": base64.b64encode(picture.getvalue()).decode(), "text/plain": text}
+    return [*outputs, new_output("display_data", data=data)]
 
 
 def run_notebook(notebook):
-    """Run all cells in order, and put what they show in the place of what they have shown."""
+    """Run all cells in order, and store their outputs."""
     names = {}
-    for number, cell in enumerate(each for each in notebook.cells if each.cell_type == "code"):
+    code = (cell for cell in notebook.cells if cell.cell_type == "code")
+    for number, cell in enumerate(code, start=1):
         cell.outputs = run_cell(cell.source, names)
-        cell.execution_count = number + 1
+        cell.execution_count = number
 
 
 def test_the_notebook_shows_what_it_has_shown(tmp_path, monkeypatch):

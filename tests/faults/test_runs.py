@@ -19,16 +19,10 @@ from springblock.study.audit import faults
 from studies import FEWER, ROOT
 
 
-def begin(study, *options):
-    """Have the realisations of the flat surface computed again, with what comes after."""
-    without(study, BATCH, TABLE)
-    return study.start(*options)
-
-
-def without(study, *places):
-    """Remove files."""
-    for place in places:
-        (study.results / place).unlink()
+def without_realisations(study):
+    """Remove a batch of the flat surface and the table that has it."""
+    (study.results / BATCH).unlink()
+    (study.results / TABLE).unlink()
 
 
 def until(condition, seconds=300.0):
@@ -40,48 +34,41 @@ def until(condition, seconds=300.0):
 
 
 def processes(study):
-    """Processes that work in the folder of a study, by their command lines."""
+    """Processes that work in the folder of a study, with their command lines."""
     return {
-        process.pid: " ".join(process.info["cmdline"] or ())
+        process: " ".join(process.info["cmdline"] or ())
         for process in psutil.process_iter(["cwd", "cmdline"])
         if process.info["cwd"] == str(study.folder.resolve())
     }
 
 
 def jobs(study):
-    """Those that simulate."""
-    return [
-        number
-        for number, words in processes(study).items()
-        if "simulate" in words and "springblock" in words and "snakemake" not in words
-    ]
+    """Those that simulate: `springblock --code ... simulate ...`."""
+    job = re.compile(r"springblock --code \w+ simulate ")
+    return [process for process, words in processes(study).items() if job.search(words)]
 
 
-def forget(study):
-    """Lose what Snakemake remembers of a study."""
-    shutil.rmtree(study.folder / ".snakemake")
-
-
-def date_back(study, seconds=3600):
-    """Set the clock back: what is there comes from the future."""
+def date_back(study):
+    """Set the clock back by an hour: what is there comes from the future."""
     for file in study.results.rglob("*"):
-        later = file.stat().st_mtime_ns + seconds * 10**9
-        os.utime(file, ns=(later, later), follow_symlinks=False)
+        later = file.stat().st_mtime + 3600.0
+        os.utime(file, (later, later), follow_symlinks=False)
 
 
 def test_after_a_killed_job_and_a_killed_run_the_same_command_continues(study, undisturbed):
     """The job of the killed run outlives it; both write the same complete file."""
-    run = begin(study)
+    without_realisations(study)
+    run = study.start()
     until(lambda: jobs(study))
-    for number in jobs(study):
-        os.kill(number, signal.SIGKILL)
+    for job in jobs(study):
+        job.kill()
     said, _ = run.communicate()
     assert run.returncode != 0
     assert "simulate_batch" in said
     assert not (study.results / BATCH).exists()
     run = study.start()
     until(lambda: jobs(study))
-    os.kill(run.pid, signal.SIGKILL)
+    run.kill()
     assert "--unlock" in study.run(refused=True)
     subprocess.run(study.command("--unlock"), cwd=study, env=study.environment, check=True)
     study.run()
@@ -124,7 +111,7 @@ def test_results_that_cannot_be_written_stop_the_study(study):
     if os.geteuid() == 0 and sys.platform != "linux":
         pytest.skip("root may write anywhere")
     folder = (study.results / BATCH).parent
-    without(study, BATCH, TABLE)
+    without_realisations(study)
     folder.chmod(0o555)
     said = study.run(refused=True, preexec_fn=without_rights)
     assert "ermission denied" in said
@@ -133,8 +120,8 @@ def test_results_that_cannot_be_written_stop_the_study(study):
 
 def test_a_bad_file_stops_the_study_until_it_is_set_aside(study, undisturbed):
     """In one sentence; then it is made again."""
-    flipped(study.results / BATCH, study)
-    without(study, TABLE)
+    flipped(study.results / BATCH, study.results)
+    (study.results / TABLE).unlink()
     said = study.run(refused=True)
     assert re.search(rf"{BATCH} is damaged.*`snakemake repair`", said)
     assert "Traceback" not in said
@@ -145,27 +132,18 @@ def test_a_bad_file_stops_the_study_until_it_is_set_aside(study, undisturbed):
     assert not list(faults(study.results))
 
 
-def state(study):
-    """Every file of a study's folder with its time and size, except Snakemake's own."""
-    return {
-        file: (file.stat().st_mtime_ns, file.stat().st_size)
-        for file in study.folder.rglob("*")
-        if ".snakemake" not in file.parts and "__pycache__" not in file.parts
-    }
-
-
 def test_touch_does_not_accept_results_of_another_configuration(study):
     """A dry run, which lists what has to run again, writes nothing."""
     study.configure(step=1e-8)
     assert "--touch does not compare them" in study.run("--touch", refused=True)
-    before = state(study)
+    before = {file: file.stat().st_mtime_ns for file in study.results.rglob("*")}
     assert {"prelude", "simulate_batch", "aggregate"} <= study.planned().keys()
-    assert state(study) == before
+    assert {file: file.stat().st_mtime_ns for file in study.results.rglob("*")} == before
 
 
 def test_without_memory_the_same_results_are_kept_and_those_of_other_code_refused(study):
     """Before anything is planned, and whatever time stamps say."""
-    forget(study)
+    shutil.rmtree(study / ".snakemake")
     assert study.planned() == {}
     date_back(study)
     study.edit("solver/friction.py", "0.0", "0.5")
@@ -197,7 +175,7 @@ def test_a_changed_formula_runs_again_what_depends_on_it_and_a_comment_nothing(s
 def test_a_clock_set_back_stops_the_study_until_time_stamps_are_mended(study, undisturbed):
     """By the command that the page has."""
     date_back(study)
-    without(study, BATCH, TABLE)
+    without_realisations(study)
     assert "has older modification time" in study.run(refused=True)
     text = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
     (command,) = re.findall(r"^ +(find .*)$", text, re.MULTILINE)
