@@ -2,11 +2,14 @@
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
 from springblock.cli import main
+from springblock.io.parquet import write
+from springblock.report.page import page as written
 from studies import ROOT
 
 #: Pictures and films without words for those who do not see them.
@@ -58,17 +61,26 @@ def test_a_link_to_a_statement_opens_it(study, opened):
     assert target.locator("xpath=ancestor::details").get_attribute("open") is not None
 
 
-def test_tables_are_sorted(study, opened):
-    page = opened(study / "results/report.html")
+def test_tables_are_searched_and_sorted(opened, tmp_path):
+    """Numbers in columns are compared, and those that all rows share and that stand above them."""
+    held, report = tmp_path / "held.parquet", tmp_path / "report.html"
+    sizes = [20, 6, 100] * 10
+    made = {"n_p": sizes, "t_max": [1e-6 * n for n in sizes], "N": [120] * 30}
+    write(pa.table(made | {"surface": ["flat", "pillars"] * 15}), held, {})
+    report.write_text(written([held], {}), encoding="utf-8")
+    page = opened(report)
     page.locator("nav a[href='#tables']").click()
-    table = page.locator("#table-realisations")
+    table = page.locator("#table-held")
     table.locator("summary").first.click()
-    column = table.locator("thead th").all_inner_texts().index("static_friction")
-    for sign in 1, -1:  # up, then down
-        table.locator("th button", has_text="static_friction").click()
-        cells = table.locator(f"tbody td:nth-child({column + 1})").all_inner_texts()
-        friction = [sign * float(cell) for cell in cells]
-        assert friction == sorted(friction)
+    rows, searched = table.locator("tbody tr:visible"), table.locator("input[type=search]")
+    numbers = {"n_p=6": 10, "n_p > 6": 20, "t_max<=2e-5": 20, "N=120 n_p=6.0": 10, "N=12": 0}
+    words = {"FLAT": 15, "pillars n_p=6": 5, "nothing holds this": 0, "n_s=6": 0, "": 30}
+    for condition, number in (numbers | words).items():
+        searched.fill(condition)
+        assert rows.count() == number, condition
+    for first in "6", "100":  # up, then down
+        table.locator("th button", has_text="t_max").click()
+        assert rows.first.locator("td").first.inner_text() == first
 
 
 def test_a_search_of_the_report_leads_to_what_it_finds(study, opened):

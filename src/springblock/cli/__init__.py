@@ -30,6 +30,7 @@ COMMANDS = {
     "verify": "springblock.cli.results:verify",
     "repair": "springblock.cli.results:repair",
     "dictionary": "springblock.cli.files:dictionary",
+    "archive": "springblock.cli.results:archive_study",
 }
 
 

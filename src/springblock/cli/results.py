@@ -1,10 +1,11 @@
-"""springblock verify and repair: check and repair results."""
+"""springblock verify, repair and archive: check, repair and pack results."""
 
 from pathlib import Path
 
 import click
 
 from springblock.analysis import comparison
+from springblock.cli.options import INPUT, OUTPUT, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
 
@@ -101,3 +102,20 @@ def repair(results: Path) -> None:
         click.echo(fault.reason)
     files = "1 file is" if len(found) == 1 else f"{len(found)} files are"
     click.echo(f"{files} set aside in {results / 'set-aside'}" if found else "no faults found")
+
+
+@click.command("archive")
+@click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@defaulted(
+    "--configuration",
+    type=INPUT,
+    default=Path("config/config.yaml"),
+    help="Configuration of the study.",
+)
+@click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
+def archive_study(results: Path, configuration: Path, output: Path) -> None:
+    """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
+    from springblock.study.archive import archive  # needs the packages of the study
+
+    number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
+    click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

@@ -72,6 +72,8 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
     For each ensemble in both: the difference of means with its 95 % interval, paired where seeds
     and friction coefficients are the same. `springblock verify` compares to the bit.
     """
+    if first != second and (first in second.parents or second in first.parents):
+        raise ValueError(f"{first} and {second} share their realisations; give two apart")
     one, other = (ensembles(_rows([path])) for path in (first, second))
     differ, found = changes(one, other)
     for name, (ours, theirs) in differ.items():

@@ -2,7 +2,7 @@
 // Without this script the page is one long text; with it, one part at a time, with search, sorting and downloads.
 const parts = [...document.querySelectorAll(".part")];
 const links = [...document.querySelectorAll("nav a")];
-const plain = (text) => text.toLowerCase().replace(/_/g, "").replace(/\s+/g, " ");
+const plain = (text) => text.toLowerCase().replace(/_/g, "").replace(/\s*(<=|>=|[=<>])\s*/g, "$1").replace(/\s+/g, " ");
 
 function make(tag, properties) {
   return Object.assign(document.createElement(tag), properties);
@@ -66,6 +66,42 @@ function find() {
   }
 }
 
+// A table's search: words anywhere in a row, and conditions as n_p=6 or t_max<1e-4 on its columns.
+const HOLDS = {
+  "=": (a, b) => a === b || (a !== "" && Number(a) === Number(b)),
+  "<": (a, b) => parseFloat(a) < Number(b),
+  ">": (a, b) => parseFloat(a) > Number(b),
+  "<=": (a, b) => parseFloat(a) <= Number(b),
+  ">=": (a, b) => parseFloat(a) >= Number(b),
+};
+
+function condition(word, names, same) {
+  const [, name, sign, value] = word.match(/^([^<>=]+)(<=|>=|[=<>])(.+)$/) || [];
+  const column = names.indexOf(name);
+  if (column >= 0) return (row) => HOLDS[sign](plain(row.cells[column].textContent).trim(), value);
+  if (same.has(name)) return () => HOLDS[sign](plain(same.get(name)), value);
+  return (row, text) => text.includes(word);
+}
+
+function search(bar, table, rows, same) {
+  const input = make("input", { type: "search", placeholder: "words, or n_p=6" });
+  input.setAttribute("aria-label", "Rows that hold these words or conditions");
+  const count = make("output", { textContent: `${rows.length} rows` });
+  const names = [...table.tHead.rows[0].cells].map((head) => plain(head.textContent.split("(")[0]).trim());
+  let texts;
+  input.addEventListener("input", () => {
+    texts ||= rows.map((row) => plain(row.textContent));
+    const tests = plain(input.value).trim().split(" ").filter(Boolean).map((word) => condition(word, names, same));
+    let found = 0;
+    rows.forEach((row, i) => {
+      row.hidden = !tests.every((test) => test(row, texts[i]));
+      found += !row.hidden;
+    });
+    count.textContent = `${found} of ${rows.length} rows`;
+  });
+  bar.append(input, count);
+}
+
 function sort(table, body, rows) {
   table.querySelectorAll("thead th").forEach((head) => {
     const button = make("button", {});
@@ -97,6 +133,7 @@ for (const box of document.querySelectorAll("div.table")) {
   const data = box.closest(".data");
   const values = data ? [...data.querySelectorAll("[data-name]")].map((one) => [one.dataset.name, one.dataset.value]) : [];
   const bar = make("div", { className: "bar" });
+  if (rows.length >= 20) search(bar, table, rows, new Map(values.map(([name, value]) => [plain(name), value])));
   if (rows.length > 1) sort(table, table.tBodies[0], rows);
   const button = make("button", { className: "save", textContent: "Save as CSV" });
   const name = data ? data.id.replace("table-", "") : box.closest("[id]").id;
