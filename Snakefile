@@ -3,7 +3,7 @@
 
 from snakemake.utils import min_version
 
-min_version("9.3")
+min_version("9.20")
 
 
 # `config` holds what the user gives: files and the command line come before the base that they change.

@@ -130,7 +130,11 @@ def row(what: str, values: Array, unit: str, reference: Array | float, note: str
     """Return a row of the table from the values of all repetitions."""
     low, median, high = (f"{value:.3g}" for value in np.quantile(values, [0.25, 0.5, 0.75]))
     ratio = np.median(values / np.asarray(reference))
-    numbers = {"value": median, "quartiles": f"{low} - {high}", "ratio": f"{ratio:.2f}"}
+    numbers = {
+        "value": median,
+        "quartiles": f"{low} - {high}",
+        "ratio": "" if np.isnan(ratio) else f"{ratio:.2f}",
+    }
     return {"what": what, **numbers, "unit": unit, "note": note}
 
 

@@ -1,4 +1,4 @@
-"""Errors in the code that the tests do not catch: `make mutants`.
+"""Errors put into the code, and the tests that catch them: `make mutants`.
 
 A mutant is a copy of the package with one error: another sign, comparison or index, a constant off
 by 1 or by 1 %, a term left out, two coordinates swapped. Mutants are drawn at random, so many of
@@ -190,7 +190,8 @@ def main() -> None:
     parser.add_argument("--number", type=int, default=300)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", choices=list(FOLDERS), default="", help="folder to draw from")
-    mutants = list(drawn(**vars(parser.parse_args())))
+    given = parser.parse_args()
+    mutants = list(drawn(given.number, given.seed, given.only))
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda mutant: caught_by(mutant, Path(folder)), mutants))
     print("\n| folder | drawn | caught |\n| --- | ---: | ---: |")

@@ -32,7 +32,7 @@ def finished(study: Study) -> dict[str, str]:
     """Run a study to its end, and return the numbers of its tables."""
     if start(study).wait():
         sys.exit(f"The study in {study.folder} failed.")
-    return study.numbers("results/quick")
+    return study.numbers("results/quick") or sys.exit("The study has left no tables.")
 
 
 def main() -> None:

@@ -49,6 +49,7 @@ def test_a_run_does_not_start_beside_jobs_of_a_killed_one(study):
 
 def test_the_container_is_built_from_files_that_exist_with_a_tested_python():
     (files,) = re.findall(r"^%files\n(.*?)(?=^%)", CONTAINER, re.MULTILINE | re.DOTALL)
+    assert CONTAINER.count("--require-hashes -r") == 2  # setuptools, and all else
     for source, target in map(str.split, files.strip().splitlines()):
         assert (ROOT / source).exists()
         assert target == f"/opt/springblock/{source}"

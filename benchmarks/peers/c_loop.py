@@ -97,6 +97,7 @@ def differences(step: float = 1e-8) -> dict[str, float]:
         LEAPFROG.advance(state, constants, 0, CHECK_STEPS, 1, samples)
         if surface is pulled:
             pairs["first detachment"] = loop.t_det.min(), np.ceil(blocks.t_det.min())
+    # Of the last surface, the thrown blocks.
     pairs["displacement"] = loop.displacement, np.stack(ours[:2])
     pairs["velocity"] = loop.velocity, np.stack(ours[2:4])
     pairs["force"] = force, np.stack([samples.force_x, samples.force_y], axis=1)

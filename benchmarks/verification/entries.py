@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
+import click
 import numpy as np
 
 from benchmarks.timing import interleaved
@@ -31,7 +32,6 @@ STEPS = {
     "rk4": (4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9),
     PLAIN: (2e-8, 1e-8, 5e-9),
 }
-SICONOS_STEPS = STEPS["leapfrog"]
 REPETITIONS = 3  #: of our runs, for the median of their CPU time
 _SYSTEM_PYTHON = "/usr/bin/python3"  # for which Debian packages Siconos
 _PROGRAM = Path(__file__).parents[1] / "peers" / "siconos_blocks.py"
@@ -78,7 +78,9 @@ def solved_by_siconos(step: float, problem: Problem) -> tuple[Answer, int, float
 
 
 def page() -> str:
-    """Return all entries, in Markdown."""
+    """Return all entries, in Markdown; needs Siconos."""
+    if subprocess.run([_SYSTEM_PYTHON, "-I", "-c", "import siconos.kernel"]).returncode:
+        raise click.ClickException("the entries need Siconos, Debian's package python3-siconos")
     tables = (
         f"## {problem.name.capitalize()}\n\n{markdown_table(_HEADER, _lines(problem))}\n"
         for problem in PROBLEMS.values()
@@ -100,5 +102,5 @@ def _lines(problem: Problem) -> Iterator[Sequence[str]]:
             answer, evaluations = run()  # compiles
             (seconds,) = interleaved({integrator: run}, REPETITIONS).values()
             yield line(integrator, step, answer, evaluations, float(np.median(seconds)))
-    for step in SICONOS_STEPS:
+    for step in STEPS["leapfrog"]:
         yield line("Siconos", step, *solved_by_siconos(step, problem))

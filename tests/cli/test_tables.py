@@ -70,7 +70,7 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     assert found == pytest.approx(exact, rel=1e-9)
     springblock("table", slow, fast, "--changes", "--of", "static_friction", "--output", output)
     (same,) = written(output)
-    assert (same["from"], same["to"]) == ("slider_velocity = 0.0005", "0.001")
+    assert (same["from"], same["to"]) == ("slider_velocity = 0.0005 m/s", "0.001")
     assert row.items() <= same.items()
 
 

@@ -16,7 +16,7 @@ def test_changes_are_from_the_lowest_to_the_highest_value_seed_by_seed():
     made = [row | HOW for speed, friction in speeds.items() for row in rows(at(speed), friction)]
     head, (cells,) = in_words(changes_over_ends(ensembles(made), ["static_friction"]))
     assert head == ["from", "to", "runs", "difference", "static_friction"]
-    assert cells[:4] == ["slider_velocity = 0.00025", "0.001", "5, 5", "by seed"]
+    assert cells[:4] == ["slider_velocity = 0.00025 m/s", "0.001", "5, 5", "by seed"]
     assert cells[4].startswith("0.03")
 
 

@@ -10,6 +10,7 @@ from springblock.simulation.checkpoint import Checkpoint
 PILLARS = Pattern.pillars(12, 4, 2)
 LONG = 1.6e-4  #: s, 80 pauses; blocks slide from 126 µs on
 TAKEN = 70  #: pauses before the run is stopped, at 140 µs
+WHAT = "scene, material, integrator, step or sample_interval"
 EACH_PAUSE = 1e-9  #: s between two writings
 
 
@@ -94,9 +95,9 @@ def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped, kept):
     ("change", "named"),
     [
         ({"seed": 2}, "friction coefficients"),
-        ({"pattern": Pattern.pillars(12, 2, 1)}, "scene or setup, friction coefficients"),
-        ({"direction": "y"}, "scene or setup"),
-        ({"setup": Setup(step=1e-8)}, "scene or setup"),
+        ({"pattern": Pattern.pillars(12, 2, 1)}, f"{WHAT}, friction coefficients"),
+        ({"direction": "y"}, WHAT),
+        ({"setup": Setup(step=1e-8)}, WHAT),
         ({"duration": 2e-4}, "duration"),
         ({"snapshot_times": (2e-6,)}, "snapshot_times"),
     ],

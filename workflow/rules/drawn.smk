@@ -19,7 +19,6 @@ FIGURES = {
     and (figure.category != "Figures" or not OWN)
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
-    and (figure.category != "Beyond" or GROUPS_BEYOND)
 }
 #: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
 SWEPT = {

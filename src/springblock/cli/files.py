@@ -17,6 +17,8 @@ def info(file: Path) -> None:
 
     `springblock table` lists its ensembles.
     """
+    if file.suffix in (".npz", ".nc"):
+        raise ValueError(f"{file} is no table; info describes Parquet files")
     table = load(file)
     click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
     for key, value in origin_of(table).items():

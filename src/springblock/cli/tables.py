@@ -18,6 +18,7 @@ from springblock.io.schemas import SUMMARY
 from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
+_SHOWN = 5  #: largest number of ensembles listed that only one side has
 _OF = defaulted(
     "--of",
     type=click.Choice(OBSERVABLES),
@@ -56,7 +57,7 @@ def table(
     """
     members = ensembles(_rows(paths), by)
     rows = changes_over_ends(members, of) if of_ends else means(members, of, by)
-    if not rows:
+    if of_ends and not rows:
         raise ValueError("--changes: no parameter has two values")
     _report(rows, output)
 
@@ -83,9 +84,12 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
     shared = [id(part) for each in found for part in (each.first, each.second)]
     for path, members in ((first, one), (second, other)):
         names = telling(each.names for each in members)
-        for alone in (each for each in members if id(each) not in shared):
-            told = (f"{name} = {value}" for name in names if (value := alone.names.get(name)))
+        alone = [each for each in members if id(each) not in shared]
+        for each in alone[:_SHOWN]:
+            told = (f"{name} = {value}" for name in names if (value := each.names.get(name)))
             click.echo(f"only in {path}: {', '.join(told) or 'one ensemble'}")
+        if len(alone) > _SHOWN:
+            click.echo(f"only in {path}: {len(alone) - _SHOWN} more")
     click.echo("Second minus first:")
     _report(differences(found, of), output)
 
@@ -98,9 +102,10 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
         for file in ([path] if path.is_file() else sorted(path.rglob("*.parquet")))
     ]
     held = [file for file in files if file in paths or _holds_realisations(file)]
-    if not held:
+    rows = [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
+    if not rows:
         raise ValueError(f"{', '.join(map(str, paths))}: no realisations found")
-    return [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
+    return rows
 
 
 def _holds_realisations(file: Path) -> bool:

@@ -15,7 +15,7 @@ file, read by
     pd.read_parquet("results/tables/realisations.parquet")
     pd.read_parquet("results/realisations")  # all batches at once, curves and fields included
 
-`springblock info FILE` describes the content and the origin of a file. Units are SI, blocks,
+`springblock info FILE` describes the content and the origin of a table. Units are SI, blocks,
 or 1 for pure numbers.
 
 {sections}

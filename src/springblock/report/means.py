@@ -30,28 +30,28 @@ def means(members: Sequence[Ensemble], of: Sequence[str], by: Sequence[str] = ()
     ]
 
 
-def differences(
-    changed: Sequence[Change], of: Sequence[str], ends: Sequence[Row] | None = None
-) -> list[Row]:
-    """Return a row for each change: its ensemble, its `ends` if any, and mean differences."""
+def differences(changed: Sequence[Change], of: Sequence[str]) -> list[Row]:
+    """Return a row for each change: its ensemble, its numbers of runs and mean differences."""
     names = telling(each.names for each in changed)
     return [
         {name: each.names.get(name) for name in names}
-        | end
         | {
             "runs": f"{len(each.first.rows)}, {len(each.second.rows)}",
             "difference": "by seed" if each.paired else "of means",
         }
         | {name: each.of(name) for name in of}
-        for each, end in zip(changed, ends or [{}] * len(changed), strict=True)
+        for each in changed
     ]
 
 
 def changes_over_ends(members: Sequence[Ensemble], of: Sequence[str]) -> list[Row]:
     """Return a row for each change from the lowest to the highest value of a parameter."""
     found = list(extremes(members))
-    ends = [{"from": f"{name} = {low}", "to": high} for name, low, high, _ in found]
-    return differences([change for *_, change in found], of, ends)
+    rows = differences([change for *_, change in found], of)
+    return [
+        {"from": f"{name} = {low} {UNITS.get(name, '')}".rstrip(), "to": high} | row
+        for (name, low, high, _), row in zip(found, rows, strict=True)
+    ]
 
 
 def in_words(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:

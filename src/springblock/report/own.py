@@ -13,10 +13,15 @@ def content(tables: Tables) -> dict[str, Any]:
     members = ensembles(tables["realisations"])
     changes = changes_over_ends(members, ["static_friction"])
     return {
-        "means": in_words(means(members, ["static_friction", "t_max", "t_avg"])),
-        "changes": in_words(changes) if changes else (),
+        "means": _spaced(*in_words(means(members, ["static_friction", "t_max", "t_avg"]))),
+        "changes": _spaced(*in_words(changes)) if changes else (),
         "common": _common(members),
     }
+
+
+def _spaced(head: list[str], cells: list[list[str]]) -> tuple[list[str], list[list[str]]]:
+    """Return a table with the observable that is no symbol as two words."""
+    return [name.replace("static_friction", "static friction") for name in head], cells
 
 
 def _common(members: list[Ensemble]) -> list[str]:

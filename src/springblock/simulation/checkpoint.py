@@ -28,7 +28,7 @@ def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[
     """
     coefficients = b"".join(mu.tobytes() for mu in friction)
     return {
-        "scene or setup": surface,
+        "scene, material, integrator, step or sample_interval": surface,
         "friction coefficients": hashlib.sha256(coefficients).hexdigest(),
         **{name: repr(value) for name, value in asked.items()},
         "code": digest("simulate"),
