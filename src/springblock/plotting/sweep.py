@@ -158,5 +158,6 @@ def _axis(over: str, row: Row) -> str:
     units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
     units |= {"direction": "degrees"}
     of_law = law_units(row)
-    name, unit = (over, of_law[over]) if over in of_law else (in_math(over), units[over])
+    shown = "N" if over == "n_blocks" else in_math(over)
+    name, unit = (over, of_law[over]) if over in of_law else (shown, units[over])
     return name + ("" if unit in ("", "1") else f" ({unit})")
