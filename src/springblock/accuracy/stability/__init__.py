@@ -33,7 +33,7 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             parameter="what varies within the family. step: h over the stability limit; stiffness: "
-            "K_s/K_int; strain: displacement of a column over l; damping: gamma/omega, "
+            "K_s/K_int; strain: displacement of a column of blocks, over l; damping: gamma/omega, "
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
@@ -45,7 +45,7 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             value="value of the quantity; NaN without one",
-            closed_form="its closed form; NaN if unknown",
+            closed_form="exact or accurately integrated value; NaN if unknown",
             relative_error="value/closed_form - 1; NaN without either",
             tolerance="largest relative_error that is accepted, or NaN",
         ),
