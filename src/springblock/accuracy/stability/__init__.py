@@ -37,7 +37,7 @@ SCHEMA = pa.schema(
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
-            "size: N; rest: number of steps; overflow: the value that is too much",
+            "size: N; overflow: the value that is too much",
         ),
         *texts(expected="outcome that the case must have", outcome="outcome that it has"),
         *numbers("1", energy_error="energy missing over work; NaN without a run"),
@@ -60,7 +60,6 @@ FAMILIES = (
     one_block.weakenings,
     surfaces.loads,
     surfaces.sizes,
-    one_block.rests,
     surfaces.overflows,
 )
 
