@@ -12,6 +12,7 @@ compared with it step by step (`tests/validation/test_specification.py`):
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from inspect import signature
 from typing import Any, NamedTuple
 
@@ -88,6 +89,9 @@ LAWS: dict[str, Callable[..., float]] = {
 class Problem:
     """Surface, setup and sliding direction of a run, as the quantities of its equations."""
 
+    # SI units: m in kg, l in m, gamma in 1/s, k_int and k_s in N/m, h in s, v_slider (2, 1, 1).
+    # contact, mu, load, fresh, f_static and f_c have a value for each block, (N_y, N_x).
+
     def __init__(self, surface: Surface, setup: Setup, direction: str | float) -> None:
         material, contact = setup.material, surface.contact
         self.contact, self.periodic = contact, surface.periodic
@@ -109,9 +113,12 @@ class Problem:
             name: np.full(contact.shape, value) for name, value in self.law.initial.items()
         }
         self.f_static = surface.mu_static * self.load  #: mu_s F_n, N
-        #: F_c, beyond which a block at rest slides: mu_s F_n, or friction at rest if that is larger
-        at_rest = resistance(self, self.fresh, np.zeros(contact.shape)) * self.m / self.tau
-        self.f_c = np.maximum(self.f_static, at_rest)
+
+    @cached_property
+    def f_c(self) -> Array:
+        """F_c, N, beyond which a block at rest slides: mu_s F_n or, if larger, friction at rest."""
+        at_rest = resistance(self, self.fresh, np.zeros(self.contact.shape))
+        return np.maximum(self.f_static, at_rest * self.m / self.tau)
 
     def call(self, function: Callable[..., Any], memory: Memory, speed: Array, outputs: int) -> Any:
         """Call `friction` or `update` for each block, with the arguments that it names."""

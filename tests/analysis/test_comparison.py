@@ -17,3 +17,12 @@ def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
     with pytest.raises(ValueError, match="differ in their columns: seed"):
         compare(one, other.select(["t_max"]))
     assert compare(one, one.take([2, 0, 1])).same
+
+
+def test_cpu_times_make_no_difference():
+    """No study repeats them."""
+    one, other = (
+        pa.table({"error": [0.1], "cpu_seconds": [time], "prelude_seconds": [2.0 * time]})
+        for time in (1.0, 1.1)
+    )
+    assert compare(one, other).same

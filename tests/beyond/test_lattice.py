@@ -5,6 +5,7 @@ import numpy as np
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.statistics import Interval
 from springblock.beyond.lattice import (
+    Comparison,
     Lattice,
     answers,
     by_lattice,
@@ -100,6 +101,17 @@ def test_changes_are_those_from_the_first_lattice_finer_than_the_layer_to_the_la
     assert found["block"] == found["area"] == ("decreases", "-1.0 [-1.7, -0.3]")
     assert found["none"] == ("decreases", "decreases")
     assert found["layer"][0] == UNCHANGED
+
+
+def test_a_change_that_is_not_monotonic_is_named():
+    layers = [Lattice(10.0, l_z, 0.1, 0.0) for l_z in (10.0, 20.0, 40.0)]
+    compared = {"layer": Comparison("", "thickness", {at: {} for at in layers})}
+    for between, said in ((1.6, ""), (2.1, ", not monotonic"), (0.9, ", not monotonic")):
+        way = {
+            at: Interval(*np.array([value, value - 0.1, value + 0.1]))
+            for at, value in zip(layers, (2.0, between, 1.0), strict=True)
+        }
+        assert changes(compared, way)["layer"] == ("decreases", f"-1.00 [-1.14, -0.86]{said}")
 
 
 def test_values_without_scatter_are_exact():

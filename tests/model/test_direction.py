@@ -35,7 +35,10 @@ def test_a_direction_has_one_name_and_one_unit_vector_exact_at_right_angles(name
     assert math.hypot(*vector) == pytest.approx(1.0, rel=1e-15)
 
 
-@pytest.mark.parametrize("direction", ["up", "", None, True, "nan", -math.inf])
+@pytest.mark.parametrize(
+    "direction",
+    ["up", "", None, True, np.True_, b"15", np.array([15.0]), 10**400, "nan", -math.inf],
+)
 def test_invalid_directions_are_refused_by_name(direction):
     with pytest.raises(ValueError, match="direction must be 'x', 'y' or a") as refusal:
         normalised(direction)

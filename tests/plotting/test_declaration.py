@@ -63,12 +63,12 @@ SMALL, LARGE, WIDE = Scene(120, 2, 2), Scene(120, 20, 20), Scene(120, 20, 40)
 ALONG, OTHER = Scene(120, 58, 62, 8, 2), Scene(120, 58, 62, 10, 2)
 ACROSS, ASKEW = replace(ALONG, direction="y"), replace(OTHER, direction="45")
 CUT = replace(ALONG, n_p3=18, n_s3=2)
-CUT_ASKEW = replace(CUT, direction="45")
+CUT_ASKEW, CUT_ALONG = replace(CUT, direction="45"), replace(CUT, along_3="x")
 GROUPS = {
     "flat": [FLAT, UPWARDS],
     "pillars": [SMALL, LARGE, WIDE],
     "grooves": [ALONG, ACROSS, OTHER],
-    "third_level": [CUT, CUT_ASKEW],
+    "third_level": [CUT, CUT_ASKEW, CUT_ALONG],
 }
 
 
@@ -79,7 +79,7 @@ GROUPS = {
         ("figure_5", [LARGE]),
         ("figure_6", [FLAT, SMALL, LARGE]),
         ("figure_9", [ALONG, ACROSS, OTHER]),
-        ("supplement_levels", [CUT, CUT_ASKEW]),
+        ("supplement_levels", [CUT, CUT_ASKEW, CUT_ALONG]),
     ],
 )
 def test_a_figure_is_drawn_from_scenes_that_it_can_tell_apart(name, scenes):

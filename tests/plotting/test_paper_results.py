@@ -63,9 +63,9 @@ def ensemble(*peaks: float, runs: int = 4) -> list[Record]:
 def along_and_across(runs: int = 4):
     """Two configurations of grooves, one of which was slid along them alone."""
     return {
-        (8, 2, 0, 0, "x"): ensemble(80e-6, 110e-6, runs=runs),
-        (8, 2, 0, 0, "y"): ensemble(100e-6, runs=runs),
-        (4, 2, 0, 0, "x"): ensemble(90e-6, runs=runs),
+        (8, 2, 0, 0, "", "x"): ensemble(80e-6, 110e-6, runs=runs),
+        (8, 2, 0, 0, "", "y"): ensemble(100e-6, runs=runs),
+        (4, 2, 0, 0, "", "x"): ensemble(90e-6, runs=runs),
     }
 
 

@@ -92,7 +92,7 @@ def test_a_snapshot_is_the_end_of_a_shorter_run():
 
 def test_coefficients_and_masks_may_have_any_numeric_type():
     """Outside the contact coefficients are ignored."""
-    contact, mu_static = PILLARS.contact, drawn(PILLARS, seed=1).mu_static
+    contact, mu_static = PILLARS.contact.copy(), drawn(PILLARS, seed=1).mu_static
     mu_dynamic = np.full((N, N), 0.6)
     plain = simulate(Surface(contact, mu_static, mu_dynamic), duration=1.5e-4)
     for mask, static, dynamic in (
@@ -104,7 +104,7 @@ def test_coefficients_and_masks_may_have_any_numeric_type():
         assert same(plain, numbers)
         assert (numbers.contact == contact).all()
     surface = Surface(contact, mu_static, mu_dynamic)
-    mu_static[:] = np.nan  # a surface keeps what was checked
+    mu_static[:], contact[:] = np.nan, False  # a surface keeps what was checked
     assert same(plain, simulate(surface, duration=1.5e-4))
 
 

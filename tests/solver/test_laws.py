@@ -1,11 +1,14 @@
 """Laws of friction, one block and one step at a time."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from numba import njit
 
-from springblock import Material, Setup, Surface, specification
+from springblock import Material, Setup, Surface, simulate, specification
 from springblock.model.law import LawFile
+from springblock.model.material import LAWS
 from springblock.solver import laws
 from springblock.solver.friction import apply_friction
 from springblock.solver.laws import SlipWeakening, VelocityWeakening, from_file
@@ -109,6 +112,25 @@ def test_just_beyond_the_threshold_a_block_starts_slowly(law):
 def test_a_block_that_weakens_within_a_step_has_the_whole_stress_drop(law):
     """As under Coulomb's law, to the bit."""
     assert released(law, 1.0 + 1e-8) == released(None, 1.0 + 1e-8)
+
+
+@pytest.mark.parametrize("law", ["slip_weakening", "velocity_weakening"])
+def test_in_the_limit_of_its_constant_a_run_is_that_of_coulombs_law_to_the_bit(law):
+    surface = Surface.draw(np.ones((3, 3), bool), seed=1)
+    weakening, coulomb = (
+        simulate(surface, Setup(material))
+        for material in (Material(**{"law": law, LAWS[law]: 1e-300}), Material())
+    )
+    assert np.array_equal(weakening.t_det, coulomb.t_det)
+    assert np.array_equal(weakening.force, coulomb.force)
+
+
+def test_a_law_without_functions_is_an_error():
+    material = SimpleNamespace(law="viscous")
+    with pytest.raises(ValueError, match="'viscous' has no type"):
+        laws.law_of(material, 1.0, 1.0, np.ones(1, bool), None)
+    with pytest.raises(TypeError):
+        laws.resistance(material, 0.0, 1.0, -0.5, STATIC, DYNAMIC)
 
 
 def test_slip_accumulates_until_the_block_stops_and_heals():

@@ -36,11 +36,11 @@ def test_beyond_the_edges_there_are_no_springs(rng):
     np.testing.assert_allclose(found, STIFFNESS * spring_forces(u[:, 2:, 2:])[:, 0, 0], rtol=1e-12)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 1.0])
-def test_the_share_is_where_a_linear_rise_reaches_the_threshold(share):
+@pytest.mark.parametrize("theta", [0.0, 0.1, 0.5, 1.0])
+def test_theta_is_where_a_linear_rise_reaches_the_threshold(theta):
     """The slider is at 1 now and was at 0.9; the block has not moved."""
-    found = release_theta(surroundings(0.0, 0.0), 1.0 - 0.1 * share, ALONE, (1.0, 0.0), SLIDE)
-    assert found == pytest.approx(share, abs=1e-14)
+    found = release_theta(surroundings(0.0, 0.0), 1.0 - 0.1 * theta, ALONE, (1.0, 0.0), SLIDE)
+    assert found == pytest.approx(theta, abs=1e-14)
 
 
 def test_a_block_beyond_its_threshold_one_step_earlier_was_sliding():

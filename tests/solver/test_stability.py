@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from springblock.solver.stability import IS_STABLE, leapfrog_force_time
+from springblock import Material
+from springblock.solver.stability import IS_STABLE, leapfrog_force_time, limit
 
 MODES = 0.1, 2.0  # angular frequencies; damping makes the first one fast, too
 
@@ -32,6 +33,22 @@ def test_a_step_is_stable_while_no_mode_grows(name, step, gamma):
     told = [IS_STABLE[name](h, np.array(MODES), gamma) for h in steps]
     assert told == (growth < 1.0 + 1e-9).tolist()
     assert 0 < sum(told) < len(told)
+
+
+@pytest.mark.parametrize(("integrator", "reach"), [("leapfrog", 2.0), ("rk4", math.sqrt(8.0))])
+def test_without_damping_the_limit_is_that_of_the_imaginary_axis(integrator, reach):
+    material = Material(gamma=0.0)
+    assert limit(integrator, material) == pytest.approx(reach / material.omega_max, rel=1e-9)
+
+
+def test_overdamped_leapfrog_is_limited_by_its_springs_and_runge_kutta_by_the_fastest_decay():
+    """Runge-Kutta is stable on the real axis from -2.785293563, where R = 1, to 0."""
+    gamma = 10.0 * Material().omega_max
+    material = Material(gamma=gamma)
+    decay = gamma / 2.0 + math.sqrt(gamma**2 / 4.0 - material.omega_min**2)
+    springs = 2.0 * gamma / material.omega_max**2
+    assert limit("leapfrog", material) == pytest.approx(springs, rel=1e-9)
+    assert limit("rk4", material) == pytest.approx(2.785293563 / decay, rel=1e-9)
 
 
 def test_damping_shortens_the_time_for_which_a_force_acts():

@@ -41,7 +41,7 @@ number of blocks in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on three surfaces of 120 x 120 blocks. Each of these bounds
+{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
 is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
 {length_ensemble} for the decay length, is up to
 {errors}. It exceeds the estimated bias in {larger} of {n} cases.
@@ -104,8 +104,12 @@ def page(
         orders=_by_scene("order", ORDERED, select(precision, comparison="order"), _orders),
         finest=finest[0]["step"],
         floor=max(row["error"] for row in finest if row["quantity"] in ORDERED),
-        plain=_worst(select(plain, step=PAPER_STEP)),
-        plain_half=_worst(select(plain, step=PAPER_STEP / 2.0)),
+        plain=_static_friction(select(plain, step=PAPER_STEP)),
+        plain_half=_static_friction(select(plain, step=PAPER_STEP / 2.0)),
+        single_blocks=_ends("n_blocks", default),
+        single_seeds=min(row["realisations"] for row in default),
+        paired_blocks=scatter[0]["n_blocks"],
+        paired_seeds=min(row["realisations"] for row in select(paired, step=STEP)),
         **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
@@ -132,6 +136,7 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
         errors=_largest(_scatter, cases),
         larger=sum(larger),
         n=len(larger),
+        n_blocks=rows[0]["n_blocks"],
         **_KNOWN,
     )
 
@@ -160,6 +165,9 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         **_KNOWN,
         finest=finest,
         following=following,
+        n_blocks=rows[0]["n_blocks"],
+        seeds=_ends("realisations", rows),
+        flat_blocks=flat[0]["n_blocks"],
         flat_friction=missed["static_friction"],
         flat_t_avg=missed["t_avg"],
         values=_by_scene("value", _QUANTITIES, rows, _value),
@@ -204,11 +212,16 @@ def _orders(*rows: Row) -> str:
     return "; ".join(f"{r['error']:.1f} [{r['ci_low']:.1f}, {r['ci_high']:.1f}]" for r in each)
 
 
-def _worst(rows: Sequence[Row]) -> str:
-    """Return the largest error of a mean on each scene."""
-    means = [row for row in rows if row["quantity"] in MEANS]
-    worst = {scene: max(row["error"] for row in select(means, scene=scene)) for scene in SCENES}
-    return ", ".join(f"{error:.0%} ({scene})" for scene, error in worst.items())
+def _static_friction(rows: Sequence[Row]) -> str:
+    """Return the error of static friction on each scene."""
+    errors = {row["scene"]: row["error"] for row in select(rows, quantity="static_friction")}
+    return ", ".join(f"{errors[scene]:.1%} ({scene})" for scene in SCENES)
+
+
+def _ends(name: str, rows: Sequence[Row]) -> tuple[int, int]:
+    """Return the smallest and the largest value of a column."""
+    values = [row[name] for row in rows]
+    return min(values), max(values)
 
 
 def _paired_bias(bias: Row, scatter: Row) -> str:

@@ -7,6 +7,8 @@ import pyarrow as pa
 
 from springblock.model.scene import COLUMNS
 
+#: CPU times, which no second study repeats.
+_MEASURED = "cpu_seconds", "prelude_seconds"
 _KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns that identify a row
 
 
@@ -36,6 +38,8 @@ class Comparison(NamedTuple):
 def compare(first: pa.Table, second: pa.Table) -> Comparison:
     """Compare rows of the same scene, seed, side and distance; without such columns, by position.
 
+    CPU times are left out.
+
     Raises
     ------
     ValueError
@@ -48,7 +52,8 @@ def compare(first: pa.Table, second: pa.Table) -> Comparison:
     common = [key for key in places if key in others]
     ours = first.take(pa.array([places[key] for key in common], pa.int64()))
     theirs = second.take(pa.array([others[key] for key in common], pa.int64()))
-    differences = [_difference(name, ours[name], theirs[name]) for name in first.column_names]
+    names = [name for name in first.column_names if name not in _MEASURED]
+    differences = [_difference(name, ours[name], theirs[name]) for name in names]
     return Comparison(
         len(common),
         first.num_rows - len(common),

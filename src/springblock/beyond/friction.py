@@ -18,6 +18,7 @@ NEEDS = "group friction"
 Pillars = tuple[int, int]  #: n_p and n_s, blocks
 Map = Mapping[Pillars, Array]  #: static friction of each realisation, (k,)
 _FEWEST = 3  #: sizes with a minimum between them
+#: In the order of `fractions` in `explained`.
 _SHARES = ("size", "contact", "more by size", "interaction")
 
 

@@ -191,7 +191,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Changes:
     """Return how a value changes from the first to the last surface of each comparison, l <= l_z.
 
-    The words are the difference or, between values without scatter, the verb.
+    The words are the difference or, between values without scatter, the verb, and whether the means
+    between do not follow it.
     """
     changed = {}
     for kind, each in compared.items():
@@ -199,7 +200,10 @@ def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Change
         if len(known) >= 2:
             verb = direction(known[0], known[-1])
             apart = independent_difference(known[-1], known[0])
-            changed[kind] = verb, verb if apart.low == apart.high else number(apart)
+            words = verb if apart.low == apart.high else number(apart)
+            means = [float(value.mean) for value in known]
+            in_turn = sorted(means) in (means, means[::-1])
+            changed[kind] = verb, words if in_turn else f"{words}, not monotonic"
     return changed
 
 
@@ -229,7 +233,7 @@ def _conclusion(
     """Say how the friction-minimising size, friction and a decay length change."""
     wanted = "static friction", f"decay length on pillars of {broad:g} µm"
     values = [
-        f"{name.removesuffix(' (µm)')} {_refined(compared, by)}"
+        f"{name.removesuffix(' (µm)').replace('decay', 'the decay')} {_refined(compared, by)}"
         for name, by in changed.items()
         if name.startswith(wanted)
     ]

@@ -154,7 +154,7 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Tested by a proxy of the speed: the time from a tenth to nine tenths of the detachments is a
     smaller part of t_max along the grooves.
     """
-    name = f"{_LASTING} over t_max, along minus across"
+    name = f"{_LASTING} over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
         scenes = along, across(along)
         yield samples.compared(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)

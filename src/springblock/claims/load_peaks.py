@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from springblock.analysis.estimate import Estimate
+from springblock.analysis.estimate import UNKNOWN, Estimate
 from springblock.analysis.statistics import bootstrap_interval, load_peaks
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Evidence, Finding, Records
@@ -208,5 +208,7 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
         "the slope with n_p2, at fixed n_p, of the mean time between the load peaks over t_avg "
         f"(interval over {len(found)} surfaces)"
     )
-    change, source = partial_slope(n_p, n_p2, np.array(times)), surfaces.in_files(*found)
+    several = min(map(len, found.values())) > 1
+    change = partial_slope(n_p, n_p2, np.array(times)) if several else UNKNOWN
+    source = surfaces.in_files(*found)
     yield Finding({}, statistic, change, ranges.NEGATIVE, source, "1/block", "surfaces")

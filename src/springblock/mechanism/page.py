@@ -65,7 +65,7 @@ def _of_friction(table: pd.DataFrame) -> Fields:
         percent = 100.0 / part["simulation"].mean()
         changes = [written(percent * (part[to] - part[of]), 1) for of, to in _STEPS]
         steps.append([f"{n_p}", *changes])
-    transfer, overshoot, _ = (
+    transfer, overshoot, others = (
         {n_p: mean_interval(part[to] - part[of]) for n_p, part in sizes} for of, to in _STEPS
     )
     header = [f"{NAMES[of]} → {NAMES[to]}" for of, to in _STEPS]
@@ -74,6 +74,7 @@ def _of_friction(table: pd.DataFrame) -> Fields:
         "raised": listed([str(n_p) for n_p, change in transfer.items() if change.low > 0.0]),
         "lowered": sum(change.high < 0.0 for change in transfer.values()),
         "overshot": sum(change.high < 0.0 for change in overshoot.values()),
+        "less": sum(change.high < 0.0 for change in others.values()),
         "small": small,
         "small_error": error.loc[:small].max(),
         "worst_error": error.max(),
@@ -170,7 +171,8 @@ def _of_pawls() -> Fields:
 
 def _of_peaks(table: pd.DataFrame) -> Fields:
     """Return the fields on predicted and measured load peaks."""
-    tested = _surfaces(table[~table["trained"]])
+    trained, tested = (_surfaces(table[table["trained"] == which]) for which in (True, False))
+    ratio = (trained["mean"] / trained["predicted"])[trained["has_two"]]
     counts = _counts(tested)
     papers = tested[tested["varied"] == ""]
     hits, misses = papers[papers["is_right"]], papers[~papers["is_right"]]
@@ -183,6 +185,7 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
     lines = zip([*names, "all"], [*counts.to_numpy(), every], strict=True)
     return {
         "threshold": TWO_PEAKS,
+        "ratio": (ratio.min(), ratio.max()),
         "surfaces": len(tested) // 2,
         "peaks_seeds": table["seed"].nunique(),
         "wide": _WIDE,

@@ -19,8 +19,9 @@ def normalised(direction: str | float) -> str:
     if isinstance(direction, str) and direction in _AXES:
         return direction
     try:
-        angle = math.nan if isinstance(direction, bool) else float(direction)
-    except (TypeError, ValueError):
+        is_angle = not isinstance(direction, bool) and isinstance(direction, REAL | str)
+        angle = float(direction) if is_angle else math.nan
+    except (ValueError, OverflowError):
         angle = math.nan
     if not math.isfinite(angle):
         raise ValueError(f"direction must be 'x', 'y' or an angle in degrees, not {direction!r}")

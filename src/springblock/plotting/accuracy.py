@@ -177,10 +177,9 @@ def _draw_overview(ax: Axes, cases: DataFrame) -> None:
         look = style.METHODS[str(integrator)] | {"linestyle": ""}
         middle = families.index(family) + (-0.21 if integrator == "leapfrog" else 0.21)
         known = runs.dropna(subset="tolerance").sort_values("parameter", kind="stable")
-        share = known.relative_error.abs() / known.tolerance
-        share = share.fillna(0.0).clip(lower=_LEAST)  # 0/0: none is accepted, and none there
+        share = (known.relative_error.abs() / known.tolerance).clip(lower=_LEAST)
         aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0
-        ax.plot(middle + aside + 0.0 * share, share, **look)
+        ax.plot(np.full(len(share), middle) + aside, share, **look)
         for outcome in set(runs.outcome) & set(_ENDS):
             _mark(ax, [middle], outcome, **look)
     ax.axhline(1.0, color=GREY, linewidth=0.8)

@@ -51,7 +51,7 @@ class Declaration:
     draws: Literal["nothing", "pattern", "tables", "realisations", "correlations"] = "realisations"
     groups: tuple[str, ...] = ()  #: of scenes, all of which a study must have
     also: tuple[str, ...] = ()  #: groups that are drawn, too, where a study has them
-    keys: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()  #: attributes of scenes that tell the realisations apart
     batches: int | None = None  #: that hold the first realisation, the one drawn; None for all
     tables: tuple[str, ...] = ()
 

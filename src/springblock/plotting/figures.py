@@ -18,7 +18,7 @@ ENDS = """Realisations end after a set time, or after the first minimum that fol
     have."""
 
 #: Keys of grooved pillars.
-PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "direction")
+PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "along_3", "direction")
 
 #: By name, in the order of names in the report: `springblock figure NAME` draws one.
 FIGURES: dict[str, Declaration] = {
@@ -123,8 +123,8 @@ FIGURES: dict[str, Declaration] = {
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""As figure 9, with pawls and grooves of a third level, n_p3/n_s3, within those of
-        the second. The paper expects its effects to remain with further levels.""",
+        caption="""As figure 9, cut once more by grooves of a third level, n_p3/n_s3. The paper
+        expects its effects to remain with further levels.""",
         groups=("third_level",),
         keys=PATTERN,
         marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",

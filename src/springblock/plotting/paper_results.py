@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd
 
 BySize = Mapping[int, Sequence[Run]]  #: by n_p, 0 for the flat surface
-Grooves = tuple[int, int, int, int, str]  #: n_p2, n_s2, n_p3, n_s3 and sliding direction
+Grooves = tuple[int, int, int, int, str, str]  #: values of `figures.PATTERN`
 
 _BEFORE, _AFTER = 15e-6, 9e-6  #: s around t_max that figure 2 enlarges
 _TIME = r"mean first detachment $t_\mathrm{det}/t_\mathrm{max}$"
@@ -250,14 +250,14 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     All rows have the same axes; triangles stand above load peaks.
     """
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
-    rows = list(dict.fromkeys(key[:4] for key in found))
+    rows = list(dict.fromkeys(key[:-1] for key in found))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
     look: Look = {"width_ratios": (95, 57), "sharex": True}
     height = 22.0 + 43.0 * len(rows)
     picture, panels = style.panels(style.DOUBLE, height, ";".join(letters), **look)
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
         peaks = [f"{_pattern_name(row)}, lesser peak:"]
-        for direction, curve in [(key[4], found[key]) for key in found if key[:4] == row]:
+        for direction, curve in [(key[-1], found[key]) for key in found if key[:-1] == row]:
             color, name = style.direction_color(direction), style.direction_name(direction)
             curves.draw_single_forces(force, curve, color)
             curves.draw_load_peaks(force, curve, color, name)
@@ -278,15 +278,16 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     return picture
 
 
-def _pattern_name(lengths: Sequence[int]) -> str:
-    """Name size and gap of the levels above the pillars: n_p2, n_s2, n_p3, n_s3."""
+def _pattern_name(pattern: tuple[int, int, int, int, str]) -> str:
+    """Name the levels above the pillars, from the values of `figures.PATTERN` but the direction."""
+    *lengths, along_3 = pattern
     pairs = zip(lengths[::2], lengths[1::2], strict=True)
     levels = [
         f"$n_p^{{({level})}}/n_s^{{({level})}}$ = {size}/{gap}"
         for level, (size, gap) in enumerate(pairs, 2)
         if size
     ]
-    return ", ".join(levels)
+    return ", ".join(levels) + (f", cut along {along_3}" if along_3 else "")
 
 
 def _lesser_peak(runs: Sequence[Run]) -> str:

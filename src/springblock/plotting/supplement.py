@@ -9,17 +9,14 @@ from matplotlib.figure import Figure
 from springblock.analysis import statistics
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
-from springblock.plotting.paper_results import Grooves, figure_9
+from springblock.plotting.paper_results import figure_9
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO
-from springblock.simulation.run import Run
 
 _ROW = 62.0  #: mm, height of the panels of a surface and of its name
 _LINE = 120  #: characters that fit above a row
 
 
-def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
-    """Draw force and detachments on grooves of three levels."""
-    return figure_9(ensembles)
+supplement_levels = figure_9  #: of three levels
 
 
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:

@@ -24,6 +24,7 @@ from springblock.model.surface import Surface, as_mask
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
+from springblock.solver.law_file import FromFile
 from springblock.solver.laws import threshold_of
 
 Array = NDArray[np.float64]
@@ -81,10 +82,13 @@ class Prelude:
         """
         state, blocks, grid = motion.state, motion.state.blocks, motion.constants.grid
         bound = unpadded(blocks.static, grid) > 0.0
-        coefficients = (unpadded(field, grid)[bound] for field in (blocks.static, blocks.dynamic))
-        thresholds = np.array(
-            [threshold_of(state.law, *each) for each in zip(*coefficients, strict=True)]
+        static, dynamic = (
+            unpadded(field, grid)[bound] for field in (blocks.static, blocks.dynamic)
         )
+        thresholds = np.maximum(static, dynamic)
+        if isinstance(state.law, FromFile):
+            each = zip(static, dynamic, strict=True)
+            thresholds = np.array([threshold_of(state.law, *pair) for pair in each])
         holds = (self.peak * (1.0 + _SLACK) <= thresholds**2).all(axis=1)
         fit = np.flatnonzero(holds & (self.samples <= latest))
         if not fit.size:

@@ -73,6 +73,8 @@ def law_of(
         return SlipWeakening(field(), 1.0 / _bounded(material.slip_distance / material.spacing))
     if law == "velocity_weakening":
         return VelocityWeakening(_bounded(material.speed_scale * step / material.spacing))
+    if law != "coulomb":
+        raise ValueError(f"law: {law!r} has no type in solver/laws.py")
     return None
 
 
@@ -80,14 +82,13 @@ def _bounded(scale: float) -> float:
     return min(max(scale, _LEAST), _MOST)
 
 
-def _of_each_law(functions: Mapping[type, Callable[..., Any]]) -> Any:
+def _of_each_law(functions: Mapping[type, Callable[..., Any]], usual: Any = None) -> Any:
     """Return the function that calls one of `functions`, by the type of its first argument.
 
-    A law that is not among them has the function of Coulomb's. Compiled callers choose when they
-    are compiled, and LLVM inlines the function; if numba inlined it instead, the assignment in
-    `_store_slip` would be lost.
+    A law that is not among them has the function `usual`; without one, it is a TypeError. Compiled
+    callers choose when they are compiled, and LLVM inlines the function; if numba inlined it
+    instead, the assignment in `_store_slip` would be lost.
     """
-    usual = functions[type(None)]
 
     def chosen(law, *arguments):
         return functions.get(type(law), usual)(law, *arguments)
@@ -147,13 +148,12 @@ def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
 
-_COULOMB = type(None)
 #: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T. In the
 #: leapfrog `speed` is |v + w|/2, and friction reduces it by T/2: share is -1/2. If V is known,
 #: share is 0. T is infinite if no V solves the equation: the block stops.
 resistance = _of_each_law(
     {
-        _COULOMB: _dynamic,
+        type(None): _dynamic,
         SlipWeakening: _after_slip,
         VelocityWeakening: _at_speed,
         FromFile: law_file.resistance,
@@ -161,18 +161,16 @@ resistance = _of_each_law(
 )
 #: (law, state, speed, static, dynamic) -> weight θ of the velocity after a step in the one at which
 #: friction is evaluated: 1/2, but more where friction rises steeply with speed.
-end_weight = _of_each_law({_COULOMB: _half, FromFile: law_file.end_weight})
+end_weight = _of_each_law({FromFile: law_file.end_weight}, _half)
 #: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
-threshold_of = _of_each_law({_COULOMB: _stronger, FromFile: law_file.threshold_of})
+threshold_of = _of_each_law({FromFile: law_file.threshold_of}, _stronger)
 #: (law) -> state of a block that detaches: its slip, or the row of its state.
-state_at_release = _of_each_law({_COULOMB: _zero, FromFile: law_file.state_at_release})
+state_at_release = _of_each_law({FromFile: law_file.state_at_release}, _zero)
 #: (law, b) -> state of block b.
-state_of = _of_each_law({_COULOMB: _zero, SlipWeakening: _slip_so_far, FromFile: law_file.state_of})
+state_of = _of_each_law({SlipWeakening: _slip_so_far, FromFile: law_file.state_of}, _zero)
 #: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
-state_before = _of_each_law(
-    {_COULOMB: _zero, SlipWeakening: _slip_before, FromFile: law_file.state_before}
-)
+state_before = _of_each_law({SlipWeakening: _slip_before, FromFile: law_file.state_before}, _zero)
 #: (law, b, state, moved, slides): store the state of block b after a step from `state`.
 store_state = _of_each_law(
-    {_COULOMB: _store_nothing, SlipWeakening: _store_slip, FromFile: law_file.store_state}
+    {SlipWeakening: _store_slip, FromFile: law_file.store_state}, _store_nothing
 )

@@ -150,7 +150,8 @@ def _record_switches(blocks, law, released, count, band, s, dots, row, now):
 
 @kernel
 def _move_rows_in_contact(blocks, law, rows, released, count, band, s, dots, a, now):
-    """Kick and drift the blocks of those rows of a band that are awake and hold contacts.
+    """Kick and drift the blocks of those rows of a band that are awake and hold contacts; record
+    switches and first detachments, and list releases.
 
     `dots` is a work array for w·v of the blocks of a row. Returns what `move_band` returns.
     """

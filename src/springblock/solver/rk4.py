@@ -316,7 +316,7 @@ def _time_loop(state, stage, constants, first, steps, every, samples, every_row,
 def advance(
     state: State, constants: Constants, first: int, steps: int, every: int, samples: Samples
 ) -> tuple[int, int, int]:
-    """See `Integrator.advance`."""
+    """Advance a state on one core; arguments as of `Advance`."""
     (n_y, n_x), stage = constants.grid.shape, Stage(*state.work)
     every_row, released = np.ones(n_y + 1, np.bool_), make_releases(n_y * n_x)
     for field, values in zip(stage[:4], state.blocks[:4], strict=True):

@@ -33,11 +33,11 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             parameter="what varies within the family. step: h over the stability limit; stiffness: "
-            "K_s/K_int; strain: displacement of a column over l; damping: gamma/omega, "
+            "K_s/K_int; strain: displacement of a column of blocks, over l; damping: gamma/omega, "
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
-            "size: N; rest: number of steps; overflow: the value that is too much",
+            "size: N; overflow: the value that is too much",
         ),
         *texts(expected="outcome that the case must have", outcome="outcome that it has"),
         *numbers("1", energy_error="energy missing over work; NaN without a run"),
@@ -45,7 +45,7 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             value="value of the quantity; NaN without one",
-            closed_form="its closed form; NaN if unknown",
+            closed_form="exact or accurately integrated value; NaN if unknown",
             relative_error="value/closed_form - 1; NaN without either",
             tolerance="largest relative_error that is accepted, or NaN",
         ),
@@ -60,7 +60,6 @@ FAMILIES = (
     one_block.weakenings,
     surfaces.loads,
     surfaces.sizes,
-    one_block.rests,
     surfaces.overflows,
 )
 

@@ -1,4 +1,4 @@
-"""One block on its spring: damping, speed, coefficients, weakening and rest.
+"""One block on its spring: damping, speed, coefficients and weakening.
 
 Forces are compared with those of `slip`, which integrates the equation of one block by itself.
 """
@@ -128,6 +128,8 @@ def frictions(integrator: str) -> Iterator[Case]:
         name = f"block with mu_d = {ratio:g} mu_s"
         attempt = partial(spring_force, material=material, mu_dynamic=ratio)
         yield case(name, ratio, FORCE, attempt)
+    name = "sticking and slipping for a million steps"
+    yield case(name, ROUGH[1] / ROUGH[0], "mean force, F_n", stick_slip_forever)
     # Without a drop the block leaves at mu_d with v (1 - cos t), and may start late by a step.
     speed = 0.1
     material = pulled_at(speed, UNDAMPED)
@@ -153,9 +155,10 @@ def weakenings(integrator: str) -> Iterator[Case]:
     ):
         for rate in rates:
             name = f"block with {law.replace('_', ' ')} at {rate:g} {unit}"
-            # A slip that grows by exp(2) per step, at 1e4 K_s, begins late by the time until the
-            # block is weak.
-            late = 0.09 if rate == 1e4 else 0.0
+            # Slip grows as v/k³ sinh(k t), k² = rate, by exp(2) per step at 1e4 K_s: it may begin
+            # late by the time, 1/omega, until it is d_c = (mu_s - mu_d)/k² and the block weak.
+            growth = math.sqrt(rate)
+            late = math.asinh(DROP * growth / SPEED) / growth if rate == 1e4 else 0.0
             attempt = partial(spring_force, material=weakening(law, rate), late=late)
             yield case(name, rate, FORCE, attempt)
 
@@ -168,12 +171,6 @@ def weakening(law: str, rate: float) -> Material:
         constant *= material.omega_min
     weak: dict[str, Any] = {"law": law, LAWS[law]: constant}
     return replace(material, **weak)
-
-
-def rests(integrator: str) -> Iterator[Case]:
-    """A million steps, most of them at rest."""
-    name = "sticking and slipping for a million steps"
-    yield Case("rest", integrator, name, MILLION, "mean force, F_n", stick_slip_forever)
 
 
 def stick_slip_forever(integrator: str) -> Outcome:
