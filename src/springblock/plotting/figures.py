@@ -123,8 +123,9 @@ FIGURES: dict[str, Declaration] = {
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""As figure 9, cut once more by grooves of a third level, n_p3/n_s3. The paper
-        expects its effects to remain with further levels.""",
+        caption="""As figure 9, cut once more by grooves of a third level, n_p3/n_s3; the axis of
+        the force does not begin at zero. The paper expects its effects to remain with further
+        levels.""",
         groups=("third_level",),
         keys=PATTERN,
         marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",

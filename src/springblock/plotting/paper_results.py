@@ -245,10 +245,14 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
 
 
 def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
-    """Draw force and detachments on grooved pillars, a row for each pattern.
+    """Draw force and detachments on grooved pillars, a row for each pattern."""
+    return force_and_detachments(ensembles)
 
-    All rows have the same axes; triangles stand above load peaks.
-    """
+
+def force_and_detachments(
+    ensembles: Mapping[Grooves, Sequence[Run]], lowest_force: float = 0.0
+) -> Figure:
+    """Draw a row for each pattern, with the same axes; triangles stand above load peaks."""
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
     rows = list(dict.fromkeys(key[:-1] for key in found))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
@@ -267,7 +271,7 @@ def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
         force.text(0.02, 0.05, "\n".join(peaks), transform=force.transAxes)
         force.sharey(panels[0])
         blocks.sharey(panels[1])
-    _fit_forces(panels[0], list(found.values()))
+    _fit_forces(panels[0], list(found.values()), lowest_force)
     panels[1].set_ylim(0.0, 1.04 * max(ax.dataLim.y1 for ax in panels[1::2]))
     for ax in panels[-2:]:
         ax.set_xlabel("time (µs)")
@@ -297,10 +301,10 @@ def _lesser_peak(runs: Sequence[Run]) -> str:
     return f"{mean:.1f} %" + (f" [{low:.1f}, {high:.1f}]" if len(runs) > 1 else "")
 
 
-def _fit_forces(ax: Axes, every: Sequence[Curve]) -> None:
+def _fit_forces(ax: Axes, every: Sequence[Curve], lowest: float) -> None:
     """Fit an axis to mean forces from `_SHOWN` of the maximum on, with room for triangles."""
     means = [(MICRO * c.time, statistics.mean_of_rest(c.friction).mean) for c in every]
     start = min(time[np.argmax(mean >= _SHOWN * np.nanmax(mean))] for time, mean in means)
     end = max(time[np.isfinite(mean)][-1] for time, mean in means)
     highest = max(np.nanmax(mean) for _, mean in means)
-    ax.set(xlim=(start, end), ylim=(0.0, 1.15 * highest))
+    ax.set(xlim=(start, end), ylim=(lowest, highest + 0.15 * (highest - lowest)))

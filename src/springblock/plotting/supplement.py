@@ -9,14 +9,17 @@ from matplotlib.figure import Figure
 from springblock.analysis import statistics
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
-from springblock.plotting.paper_results import figure_9
+from springblock.plotting.paper_results import Grooves, force_and_detachments
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO
+from springblock.simulation.run import Run
 
 _ROW = 62.0  #: mm, height of the panels of a surface and of its name
 _LINE = 120  #: characters that fit above a row
 
 
-supplement_levels = figure_9  #: of three levels
+def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
+    """Draw force and detachments on grooves of three levels, with small differences of force."""
+    return force_and_detachments(ensembles, lowest_force=0.3)
 
 
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:
