@@ -21,10 +21,10 @@ def force(x):
 '''
 
 
-def digest_of(tmp_path, monkeypatch, source):
+def digest_of(tmp_path, monkeypatch, source, name="law.py"):
     folder = tmp_path / "solver"
     folder.mkdir(exist_ok=True)
-    (folder / "law.py").write_text(source)
+    (folder / name).write_text(source)
     monkeypatch.setattr(provenance, "_ROOT", tmp_path)
     provenance._of_folder.cache_clear()
     provenance.digest.cache_clear()
@@ -55,6 +55,13 @@ def test_formulas_and_nothing_else_change_a_digest(tmp_path, monkeypatch, old, n
         digest_of(tmp_path, monkeypatch, text) for text in (SOURCE, SOURCE.replace(old, new))
     )
     assert (before != after) == is_another
+
+
+@pytest.mark.parametrize("name", ["page.html", "page.css", "page.js", "page.md"])
+def test_what_pages_are_made_of_changes_a_digest(tmp_path, monkeypatch, name):
+    """Their texts, looks and scripts."""
+    before, after = (digest_of(tmp_path, monkeypatch, text, name) for text in ("a", "b"))
+    assert before != after
 
 
 def test_versions_are_compared_by_their_digests():

@@ -6,12 +6,23 @@ import numpy as np
 import pytest
 
 from claims import paper
-from claims.paper import ALONG, FLAT, peaks
+from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
+from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
-from springblock.claims.flat import not_all_nucleate
+from springblock.claims.flat import not_all_nucleate, weakest_first
 from springblock.claims.load_peaks import both_peaks
 from springblock.claims.pillars import _rings
-from springblock.claims.samples import first_patch, isolated, magnitude, position, rates
+from springblock.claims.rule import Evidence
+from springblock.claims.samples import (
+    compared,
+    difference,
+    first_patch,
+    isolated,
+    magnitude,
+    mean,
+    position,
+    rates,
+)
 from springblock.claims.sides import (
     events,
     misfits,
@@ -31,6 +42,33 @@ def test_a_block_is_isolated_while_its_neighbours_rest():
     assert isolated(run) == pytest.approx(2 / 3)
     assert not_all_nucleate.__wrapped__(run) == pytest.approx(1 / 3)
     assert np.isnan(isolated(replace(run, time=0.4 * np.arange(3.0))))
+
+
+def test_the_m_blocks_that_go_first_are_compared_with_the_m_weakest():
+    """Three go first: the two weakest, and the fourth in place of the third."""
+    weakest = np.argsort(draw_friction(6, RUN.seed, RUN.material)[0], axis=None)
+    t_det = np.full(36, 5.0)
+    t_det[weakest[[0, 1, 3]]] = 1.0
+    curve = {"time": 4.0 * np.arange(3.0), "force": np.array([0.0, 1.0, 0.0])}
+    run = replace(RUN, t_det=t_det.reshape(6, 6), **curve)
+    assert weakest_first.__wrapped__(run) == pytest.approx(2 / 3)
+
+
+def test_one_surface_slid_in_two_directions_is_compared_seed_by_seed():
+    """What differs from seed to seed, but not between the directions, adds no scatter."""
+    drawn, gain = 8.0 * np.arange(5.0), np.array([1.0, 3.0, 2.0, 3.0, 1.0])
+    forces = {ALONG: drawn, ACROSS: drawn + gain, PLAIN: drawn + gain}
+    runs = {
+        scene: [replace(RUN, scene=scene, seed=k, normal_force=force[k]) for k in range(5)]
+        for scene, force in forces.items()
+    }
+    evidence = Evidence(records=runs | {ALONG: runs[ALONG][::-1]})
+    first, second = (
+        compared(evidence, "", lambda run: run.normal_force, scene, ALONG).estimate
+        for scene in (ACROSS, PLAIN)
+    )
+    assert first == mean(gain)
+    assert second == difference(forces[PLAIN], drawn)
 
 
 def test_a_position_has_no_interval_where_its_ends_are_not_told_apart():

@@ -47,6 +47,7 @@ def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock
     ("others", "sentence"),
     [
         (("--seeds", 2, "--material", "gamma=0"), "has runs with other constants or code"),
+        (("--seeds", 2, "--duration", 1e-5), "has runs with other constants or code"),
         (("--vary", "step=a"), "step must be a number, not 'a'"),
         (("--direction", "x,z"), "direction"),
     ],

@@ -94,9 +94,14 @@ def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch
 def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
     springblock, batch, tmp_path
 ):
-    said = springblock("compare", batch(0, 2), batch(0, 2, "--vary", "mu_static=0.9"))
-    assert "mu_static: 1.0 in" in said
-    assert "of means" in said
+    """Nor are those drawn with another correlation, though mean and scatter are the same."""
+    for other, named in (
+        ("mu_static=0.9", "mu_static: 1.0 in"),
+        ("correlation_length=2e-5", "correlation_length: 0.0 in"),
+    ):
+        said = springblock("compare", batch(0, 2), batch(0, 2, "--vary", other))
+        assert named in said
+        assert "of means" in said
     for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))

@@ -46,9 +46,11 @@ def stopped(saved, tmp_path):
     return left_behind
 
 
-def pull(seed=1, pattern=PILLARS, setup=Setup(), **options) -> Realisation:  # noqa: B008
-    how = {"duration": LONG, "checkpoint_interval": EACH_PAUSE} | options
-    return simulate(drawn(pattern, seed), setup, **how)
+def pull(seed=1, pattern=PILLARS, setup=Setup(), slide=1.0, **options) -> Realisation:  # noqa: B008
+    """Pull a surface whose mu_dynamic is `slide` times as large as drawn."""
+    how, surface = {"duration": LONG, "checkpoint_interval": EACH_PAUSE}, drawn(pattern, seed)
+    surface.mu_dynamic *= slide
+    return simulate(surface, setup, **how | options)
 
 
 def answer(run):
@@ -95,6 +97,7 @@ def test_it_may_continue_without_its_prelude_and_on_more_cores(stopped, kept):
     ("change", "named"),
     [
         ({"seed": 2}, "friction coefficients"),
+        ({"slide": 0.9}, "friction coefficients"),
         ({"pattern": Pattern.pillars(12, 2, 1)}, f"{WHAT}, friction coefficients"),
         ({"direction": "y"}, WHAT),
         ({"setup": Setup(step=1e-8)}, WHAT),

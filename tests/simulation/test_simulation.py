@@ -77,6 +77,14 @@ def test_a_run_in_which_nothing_detaches_has_no_detachment_times():
     assert run.t_max == run.time[-1] == pytest.approx(1e-5, rel=1e-14, abs=0)
 
 
+def test_a_duration_of_whole_intervals_is_sampled_to_its_end():
+    """Also where their quotient rounds down: 1.2e-7 s over 4e-8 s gives 2.9999999999999996."""
+    for number, duration in ((3, 1.2e-7), (4, 1.6e-7)):
+        run = simulate(uniform(2, 1.0, 0.6), Setup(sample_interval=4e-8), duration=duration)
+        assert len(run.time) == number + 1
+        assert run.time[-1] == pytest.approx(duration, rel=1e-14, abs=0)
+
+
 def test_a_snapshot_is_the_end_of_a_shorter_run():
     scene = drawn(PILLARS, seed=1)
     times = (4e-6, 1.5e-4, 1.8e-4)
