@@ -26,8 +26,11 @@ def test_the_page_counts_surfaces_with_more_along_than_across():
     conclusion, hierarchy, table = peaks.answers(made)
     assert "across them** on 1 of 2 surfaces, and less prominent on 1" in conclusion
     assert "it is largest with pawls of 4 and grooves of 2 blocks: 94.99" in conclusion
-    assert "in 0 of 1 cases, and less prominent in 1. Where it exceeds 1 % on both" in hierarchy
-    assert "more prominent in 0 of 0 cases, and less prominent in 0; the" in hierarchy
+    assert (
+        "in 0 of 1 cases, and less prominent in 1. In the 0 cases in which it exceeds 1 % on both"
+        in hierarchy
+    )
+    assert "more prominent on pillars in 0 and less prominent in 0." in hierarchy
     assert len(table.splitlines()) == 4
 
 

@@ -41,12 +41,13 @@ number of blocks in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each of these bounds
-is the far end of a 95 % interval. The standard error of a mean over {ensemble} seeds, or
-{length_ensemble} for the decay length, is up to
+{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each bound is the
+far end of a 95 % interval plus the largest bias of the finest step. The standard error of a mean
+over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}. It exceeds the estimated bias in {larger} of {n} cases.
-Quote means with their intervals over seeds, and add the bias where hundreds of realisations
-are pooled. Compare ensembles only: single runs on patterned surfaces diverge at any step.
+Quote means with their intervals over seeds, and include the bias in the error where hundreds
+of realisations are pooled. Compare ensembles only: single runs on patterned surfaces diverge at
+any step.
 """
 
 #: Names of quantities that are not called by their symbol.

@@ -110,10 +110,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     elif not shares["more by size"].low > 0.0:
         words = "Size and contact fraction explain static friction equally well"
     yield (
-        f"**{words}**, among these {len(found)} surfaces: of its variance, size explains {size} "
-        f"beyond what contact fraction explains, contact fraction {contact} beyond what size "
-        f"explains (difference: {more}), and their interaction up to "
-        f"{100.0 * shares['interaction'].mean:.2g} %."
+        f"**{words}**, among the {len(found)} surfaces whose size and contact fraction both occur "
+        f"more than once: of its variance, size explains {size} beyond what contact fraction "
+        f"explains, contact fraction {contact} beyond what size explains (difference: {more}), and "
+        f"their interaction up to {100.0 * shares['interaction'].mean:.2g} %."
     )
     header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
     lines = []

@@ -58,9 +58,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     yield (
         f"**The lesser load peak is more prominent when sliding along the grooves than across "
-        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. Among these, it "
-        f"is largest{', though not significantly,' if alike[1:] else ''} with pawls of {most.n_p2} "
-        f"and grooves of {most.n_s2} blocks: {number(along[most], ' %')} of the largest force."
+        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. Along the "
+        f"grooves it is largest{', though not significantly,' if alike[1:] else ''} with pawls of "
+        f"{most.n_p2} and grooves of {most.n_s2} blocks: {number(along[most], ' %')} of the "
+        "largest force."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
@@ -71,9 +72,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         yield (
             "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
             f"over the whole surface in {more} of {len(pairs)} cases, and less prominent in "
-            f"{less}. Where it exceeds {_TWO:g} % on both, it is more prominent in {more_of_two} "
-            f"of {len(two)} cases, and less prominent in {less_of_two}; the other differences are "
-            "those of surfaces of which one at least has no second peak of this size."
+            f"{less}. In the {len(two)} cases in which it exceeds {_TWO:g} % on both, it is more "
+            f"prominent on pillars in {more_of_two} and less prominent in {less_of_two}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
