@@ -74,6 +74,7 @@ def killed_snakemake(cluster: Cluster, study: Study) -> None:
 def killed_controller(cluster: Cluster, study: Study) -> None:
     """Kill slurmctld, and start it again after forty seconds; the run goes on by itself."""
     running = start_batches(cluster, study)
+    time.sleep(10.0)  # Slurm stores its state every five seconds, and holds jobs started since then
     cluster.kill("slurmctld")
     time.sleep(40.0)
     cluster.start_controller()
