@@ -53,7 +53,7 @@ def test_the_page_on_errors_is_what_the_code_writes():
 
 def test_the_page_on_statements_is_what_the_code_writes():
     text = claims_page(rows(CLAIMS, Evidence()))
-    measured = ("|", "**", "<details>", "Data: ", "</details>", "Nothing has been changed")
+    measured = ("Of ", "|", "**", "<details>", "Data: ", "</details>", "Nothing has been changed")
     assert unmeasured(PAGES["claims"], measured) == unmeasured(text, measured)
     assert "no reason is given" not in PAGES["claims"]
 

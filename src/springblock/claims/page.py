@@ -1,6 +1,7 @@
 """The page of statements, written from the table `claims`."""
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from itertools import groupby
 from operator import itemgetter
@@ -10,7 +11,7 @@ import numpy as np
 
 from springblock.claims import register
 from springblock.claims.rule import capitalised, phrase
-from springblock.io.rows import Row, markdown_table
+from springblock.io.rows import Row, listed, markdown_table
 
 _SECTIONS = {
     "1": "Introduction",
@@ -22,6 +23,8 @@ _SECTIONS = {
     "5": "Conclusions",
 }
 
+_VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
+
 Part = tuple[int, list[Row]]  #: a statement's number, and its rows
 
 #: The rule, the intervals, and the statements that are not tested.
@@ -31,7 +34,11 @@ _PAGE = Path(__file__).with_name("page.md")
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     numbered = numbered_parts(table)
+    counts = Counter(part[0]["verdict"] for _, part in numbered)
+    first, *others = [f"{counts[verdict]} {verdict}" for verdict in _VERDICTS if counts[verdict]]
     return _PAGE.read_text(encoding="utf-8").format(
+        total=len(numbered),
+        tally=listed([first.replace(" ", " are ", 1), *others]),
         summary="\n\n".join(_contents(numbered)),
         changes=register.changes(table),
         sections="\n\n".join(_section(*part) for part in numbered),

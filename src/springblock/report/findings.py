@@ -59,7 +59,8 @@ def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, 
     size = int(least.place)
     rows = _tested(tables, "Lowest static friction at an intermediate n_p")
     below = [_quoted(row) for row in rows if row["verdict"] == "reproduced"]
-    at_least = f"Static friction is lowest on pillars of {size} blocks"
+    candidates = " or ".join(f"{each:g}" for each in sorted({size, *least.alike}))
+    at_least = f"Static friction is lowest on pillars of {candidates} blocks"
     return {
         "title": at_least if below else "Static friction and the size of pillars",
         "n_blocks": family[size][0]["n_blocks"],
