@@ -190,3 +190,9 @@ def test_other_files_are_refused(tmp_path, content):
     with pytest.raises(ValueError, match=r"^\S+rough.txt") as refusal:
         Cut(tmp_path / "rough.txt", 1e-5, bearing_area=0.5).mask()
     assert "\n" not in str(refusal.value)
+
+
+def test_a_file_in_no_known_format_is_refused(tmp_path):
+    (tmp_path / "rough.xyz").write_bytes(b"nothing")
+    with pytest.raises(ValueError, match="is not a topography that SurfaceTopography can read"):
+        Cut(tmp_path / "rough.xyz", 1e-5, bearing_area=0.5).mask()

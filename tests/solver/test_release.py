@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from springblock import Material, Surface
+from springblock.solver.integrators import INTEGRATORS
+from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.release import force_in_patch, make_releases, release_theta
 from springblock.solver.springs import Springs
 from springs import SPRINGS, STIFFNESS, spring_forces
@@ -45,3 +48,16 @@ def test_theta_is_where_a_linear_rise_reaches_the_threshold(theta):
 
 def test_a_block_beyond_its_threshold_one_step_earlier_was_sliding():
     assert np.isnan(release_theta(surroundings(0.0, -0.5), 0.95, ALONE, (1.0, 0.0), SLIDE))
+
+
+def test_a_block_that_reverses_within_a_step_detaches_anew_but_not_from_rest():
+    """Its spring, stretched by 1e-3 l, turns it against a friction a third as strong."""
+    surface, leapfrog = Surface([[True]], 0.1, 0.05), INTEGRATORS["leapfrog"]
+    state, constants = prepare(surface, Material(), (1.0, 0.0), leapfrog, 2e-8)
+    x, _, speed, _ = (unpadded(field, constants.grid) for field in state.blocks[:4])
+    x[:], speed[:] = -1e-3, -1e-9
+    samples = Samples.empty(1)
+    leapfrog.advance(state, constants, 0, 1, 1, samples)
+    assert speed[0, 0] > 0.0
+    assert samples.switches.tolist() == [1]
+    assert state.blocks.t_det.min() == 0.0  # the step, and no moment within it

@@ -56,11 +56,6 @@ class Prelude:
     force: Array  #: (2, samples of the last state) components of ΣF_s
     code_version: str = ""  #: version of the code, if computed by a command
 
-    @property
-    def constants(self) -> dict[str, Any]:
-        """Constants of its material, by name."""
-        return dict(json.loads(self.conditions)[4])
-
     def save(self, path: Path) -> None:
         """Write an .npz file, whole or not at all."""
         parts: dict[str, Any] = {name: _apart(part) for name, part in vars(self).items()}
