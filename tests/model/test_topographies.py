@@ -196,3 +196,12 @@ def test_a_file_in_no_known_format_is_refused(tmp_path):
     (tmp_path / "rough.xyz").write_bytes(b"nothing")
     with pytest.raises(ValueError, match="is not a topography that SurfaceTopography can read"):
         Cut(tmp_path / "rough.xyz", 1e-5, bearing_area=0.5).mask()
+
+
+def test_whatever_a_reader_fails_with_is_one_sentence(tmp_path, monkeypatch):
+    def fails(file):
+        raise KeyError("scan")
+
+    monkeypatch.setattr(SurfaceTopography, "open_topography", fails)
+    with pytest.raises(ValueError, match=r"rough.txt cannot be read: KeyError\('scan'\)"):
+        Cut(written(tmp_path, HEIGHTS), 1e-5, bearing_area=0.5).mask()
