@@ -17,10 +17,10 @@ def written() -> str:
     "said",
     [
         "lowest on pillars of 20 blocks",
-        "of the full simulation to 0.3% for n_p up to 6, and to 8.3% on all sizes",
+        "of the full model to 0.3 % for n_p up to 6, and to 8.3 % on all sizes",
         "0.30, at n_p = 6",
         "transfer raises friction on pillars of 20 blocks and lowers it on 2 of 3 sizes; "
-        "overshoot, added to load transfer, lowers it on 3.",
+        "overshoot, added to load transfer, lowers it on 3 of 3.",
         "On 1 of 3 sizes the full model has less friction",
         "the measured prominence is 2.0 to 2.0 times the predicted one",
         "at n_p = 20 with stress alone, at 6 with load transfer, at 6 with overshoot, and at",
@@ -28,17 +28,17 @@ def written() -> str:
         "| 6 | -8.3 [-8.3, -8.3] | -8.3 [-8.3, -8.3] | 0.2 [0.2, 0.2] |",
         # on the thin layer the full model is lowest at 20 blocks, and only stress alone is there
         "| l_z = 5 µm | 2, 6, 20 | 6 (0.30) | 20 | 6 | 6 | 20 (or 6) | 16.7 [16.6, 16.7] | -7.1 ",
-        "lies 2.4 [2.4, 2.4] % below the model with overshoot",  # mean of -0.3, -0.2 and 7.7 %
+        "is 2.4 [2.4, 2.4] % lower than in the model with overshoot",  # mean of -0.3, -0.2 and 7.7 %
         "Friction is 0.800 [0.798, 0.802] with stress alone",
         # predictions; surfaces that they were chosen on do not count
         "| the paper's, along | 2 | 1 | 1 | 0 | 0 | 1 | 2 | 1 |",
         "| the paper's, across | 2 | 0 | 0 | 1 | 1 | 1 | 1 | 1 |",
         "| all | 6 | 1 | 2 | 1 | 2 | 3 | 4 | 4 |",
         "with the paper's constants in 2, 3 and 2 of 4, with other coefficients in 1, 1 and 2 of 2",
-        "1 % lies within the measured interval in 2 of the 2 misses and 1 of the 2 hits",
+        "(1 % lies within the measured interval) in 2 of the 2 misses and 1 of the 2 hits",
         "with the paper's constants (1) are on pawls of 12 blocks, with predictions of up to 0.40",
         "It predicts 0 of the 1 cases with two peaks across the grooves",
-        "are measured along the grooves for pawls of 7 blocks, and one for pawls of 12",
+        "are measured for pawls of 7 blocks, and one for pawls of 12",
         # edges are a quarter of the blocks: 0.2 of the normal force is 0.8 F_n on each
         "| along | full model | 0.80 [",
         "| 300 [300, 300] | 0.40 [",

@@ -56,8 +56,8 @@ def _of_friction(table: pd.DataFrame) -> Fields:
     """Return the fields on static friction by size of pillars."""
     sizes = table.groupby("n_p")
     means, variation = sizes[[*NAMES]].mean(), sizes["stress_variation"].first()
-    error = (means["overshooting"] / means["simulation"] - 1.0).abs()
-    small = error.index[(error < 0.01).cummin()].max()
+    error = 100.0 * (means["overshooting"] / means["simulation"] - 1.0).abs()
+    small = error.index[(error < 1.0).cummin()].max()
     lines, steps = [], []
     for n_p, part in sizes:
         values = [written(part[name], 4) for name in NAMES]
@@ -133,11 +133,11 @@ def _of_budget(table: pd.DataFrame) -> Fields:
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[str(direction)], NAMES[str(model)], *cells])
         falls[direction, model] = runs[:, -1]
-    header = ["grooves", "model", "edges, largest", "at (µs)", "edges, at core's largest"]
-    header += ["core, largest", "at (µs)", "fall of the load (%)"]
+    header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, at the core's maximum"]
+    header += ["core, maximum", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
-        "edge_share": table["edge_share"].iloc[0],
+        "edge_share": 100.0 * table["edge_share"].iloc[0],
         "budget": markdown_table(header, lines),
         "deeper": written(falls["x", "simulation"] - falls["x", "overshooting"], 1),
     }
@@ -166,7 +166,8 @@ def _of_pawls() -> Fields:
         along.next_to * paper.mu_static + 2.0 * along.handed_on * (paper.mu_static - mu_d)
         for mu_d in (0.5, 0.6, 0.7)
     ]
-    return {"along": along, "across": across, "swept": swept}
+    shared = [100.0 * each.shared for each in (along, across)]
+    return {"along": along, "across": across, "shared": shared, "swept": swept}
 
 
 def _of_peaks(table: pd.DataFrame) -> Fields:
@@ -194,8 +195,9 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
             [[name, *map(str, numbers)] for name, numbers in lines],
         ),
         "every": every,
-        "papers": counts.loc[""].sum(),
-        "others": counts.drop("").sum(),
+        "papers": _rights(counts.loc[""]),
+        "others": _rights(counts.drop("")),
+        "hits": len(hits),
         "misses": len(misses),
         "two_across": [part["has_two"].sum() for part in (foreseen, across)],
         "close": [part["is_close"].sum() for part in (misses, hits)],
@@ -229,10 +231,10 @@ def _counts(tested: pd.DataFrame) -> pd.DataFrame:
     outcomes = pd.DataFrame(
         {
             "cases": True,
-            "two: predicted and measured": predicted & measured,
-            "only predicted": predicted & ~measured,
-            "only measured": ~predicted & measured,
-            "one: predicted and measured": ~predicted & ~measured,
+            "two peaks predicted and measured": predicted & measured,
+            "two predicted, one measured": predicted & ~measured,
+            "one predicted, two measured": ~predicted & measured,
+            "one predicted and measured": ~predicted & ~measured,
             "prediction right": tested["is_right"],
             "rule right": by_rule == measured,
             "one peak right": ~measured,
@@ -240,6 +242,13 @@ def _counts(tested: pd.DataFrame) -> pd.DataFrame:
     )
     constant = tested["varied"].str.partition("=")[0]
     return outcomes.groupby([constant, tested["direction"]]).sum()
+
+
+def _rights(counts: pd.DataFrame) -> str:
+    """Write in how many of all cases the prediction, the rule and one peak everywhere are right."""
+    total = counts.sum()
+    rights = [str(total[f"{guess} right"]) for guess in ("prediction", "rule", "one peak")]
+    return f"{listed(rights)} of {total['cases']}"
 
 
 def _widths(surfaces: pd.DataFrame) -> str:
