@@ -40,9 +40,9 @@ def numberless(text):
     return re.sub(r"[-+]?\d+(\.\d+)?(e[-+]\d+)?", "#", measured).splitlines()
 
 
-def unmeasured(text, measured):
-    """Lines that hold for any study."""
-    return [line for line in text.splitlines() if line and not line.startswith(measured)]
+def unmeasured(text, measured, between="\n"):
+    """Lines, or parts of another kind, that hold for any study."""
+    return [part for part in text.split(between) if part.strip() and not part.startswith(measured)]
 
 
 def test_the_page_on_errors_is_what_the_code_writes():
@@ -60,8 +60,10 @@ def test_the_page_on_statements_is_what_the_code_writes():
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
     text = beyond_page({})
-    measured = ("|", "**", "- ", *(f"{i}. " for i in range(1, 5)), "Hierarchy: ")
-    assert unmeasured(PAGES["beyond"], measured) == unmeasured(text, measured)
+    measured, paragraphs = ("|", "**", "- ", "1. ", "Hierarchy: "), "\n\n"
+    assert unmeasured(PAGES["beyond"], measured, paragraphs) == unmeasured(
+        text, measured, paragraphs
+    )
     assert "**Not answered**" not in PAGES["beyond"]
 
 

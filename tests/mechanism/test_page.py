@@ -28,7 +28,7 @@ def written() -> str:
         "| 6 | -8.3 [-8.3, -8.3] | -8.3 [-8.3, -8.3] | 0.2 [0.2, 0.2] |",
         # on the thin layer the full model is lowest at 20 blocks, and only stress alone is there
         "| l_z = 5 µm | 2, 6, 20 | 6 (0.30) | 20 | 6 | 6 | 20 (or 6) | 16.7 [16.6, 16.7] | -7.1 ",
-        "is 2.4 [2.4, 2.4] % lower than in the model with overshoot",  # mean of -0.3, -0.2 and 7.7 %
+        "is 2.4 [2.4, 2.4] % lower than in the model",  # mean of -0.3, -0.2 and 7.7 %
         "Friction is 0.800 [0.798, 0.802] with stress alone",
         # predictions; surfaces that they were chosen on do not count
         "| the paper's, along | 2 | 1 | 1 | 0 | 0 | 1 | 2 | 1 |",

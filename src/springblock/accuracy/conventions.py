@@ -19,7 +19,7 @@ MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
 #: What orders of convergence are measured of.
 ORDERED = ("static_friction", "t_det before horizon")
 DELAY = "t_max - t_avg"  #: by how much the force peak comes after the mean detachment
-LENGTH = "decay length"  #: l of A exp(-r/l), along the sides of pillars
+LENGTH = "decay length"  #: of c(r) along the sides of pillars
 PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
 PAPER_STEP = 1e-8  #: s
 SAMPLE_INTERVAL = 8e-8  #: s, of runs on small surfaces

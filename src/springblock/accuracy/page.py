@@ -32,27 +32,29 @@ _FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the stu
 
 #: Opening, and the section on full size, of a study without errors at full size.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
-by at most {most:.1%} (far ends of 95 % intervals), mostly less than the standard error of a mean
+by at most {most:.1f} % (far ends of 95 % intervals), mostly less than the standard error of a mean
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
 """
 
-_WITHOUT = """This study was run without `production: true`, which measures errors with its own
-number of blocks in a quarter of an hour.
+_WITHOUT = """This study was run without `production: true`, which measures errors on surfaces of the
+study's size in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
-{biases} on three surfaces of {n_blocks} x {n_blocks} blocks. Each bound is the
-far end of a 95 % interval plus the largest bias of the finest step. The standard error of a mean
-over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
-{errors}. It exceeds the estimated bias in {larger} of {n} cases.
-Quote means with their intervals over seeds, and include the bias in the error where hundreds
-of realisations are pooled. Compare ensembles only: single runs on patterned surfaces diverge at
-any step.
+{biases}
+on three surfaces of {n_blocks} x {n_blocks} blocks. Each bound is the far end of a 95 % interval
+plus the largest bias that the finest step may have. The standard error of a mean over {ensemble}
+seeds, or {length_ensemble} for the decay length, is up to
+{errors}.
+It exceeds the estimated bias in {larger} of {n} cases (a quantity on a surface). Quote means with
+their intervals over seeds, and include the bias in the error where hundreds of realisations are
+pooled. Compare ensembles, not single runs: on patterned surfaces these depend on the step, however
+small it is.
 """
 
 #: Names of quantities that are not called by their symbol.
 _NAMES = {
-    "force": "force before t_max, largest",
+    "force": "force before t_max, largest error",
     "static_friction": "static friction",
     "t_det before horizon": "t_det before the horizon",
 }
@@ -111,7 +113,7 @@ def page(
         single_seeds=min(row["realisations"] for row in default),
         paired_blocks=scatter[0]["n_blocks"],
         paired_seeds=min(row["realisations"] for row in select(paired, step=STEP)),
-        **{row["scene"]: row["error"] for row in select(default, quantity="horizon")},
+        **{row["scene"]: _PERCENT * row["error"] for row in select(default, quantity="horizon")},
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
         full_size=_full_size(production, select(leapfrog, scene="flat")),
@@ -121,7 +123,7 @@ def page(
         n_cases=len(stability),
         families=", ".join(sorted({row["family"] for row in stability})),
         coarsest=coarsest,
-        coarse_bias=max(abs(row["error"]) for row in select(paired, step=coarsest)),
+        coarse_bias=_PERCENT * max(abs(row["error"]) for row in select(paired, step=coarsest)),
     )
 
 
@@ -129,7 +131,7 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     """Summarise bias and scatter at the default: at full size, or else on small surfaces."""
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
-        return _UNKNOWN.format(most=most, **_KNOWN)
+        return _UNKNOWN.format(most=_PERCENT * most, **_KNOWN)
     cases = budget.measured(rows, (*MEANS, LENGTH))
     larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
     return _OPENING.format(
@@ -148,7 +150,7 @@ def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
     for (quantity, _), case in cases.items():
         name = _name(quantity)
         most[name] = max(most.get(name, 0.0), share(case))
-    return ", ".join(f"{number:.2%} ({name})" for name, number in most.items())
+    return ", ".join(f"{_PERCENT * number:.2f} % ({name})" for name, number in most.items())
 
 
 def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
@@ -175,7 +177,7 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         biases=_by_scene("bias", _QUANTITIES, rows, _bias),
         fine_seconds=budget.spent(fine, 10),
         seconds=budget.spent(default, 10),
-        change=abs(default["value"] / fine["value"] - 1.0),
+        change=_PERCENT * abs(default["value"] / fine["value"] - 1.0),
         excess=_excesses(rows),
     )
 
@@ -214,9 +216,9 @@ def _orders(*rows: Row) -> str:
 
 
 def _static_friction(rows: Sequence[Row]) -> str:
-    """Return the error of static friction on each scene."""
+    """Return the error of static friction on each scene, in percent."""
     errors = {row["scene"]: row["error"] for row in select(rows, quantity="static_friction")}
-    return ", ".join(f"{errors[scene]:.1%} ({scene})" for scene in SCENES)
+    return ", ".join(f"{_PERCENT * errors[scene]:.1f} % ({scene})" for scene in SCENES)
 
 
 def _ends(name: str, rows: Sequence[Row]) -> tuple[int, int]:

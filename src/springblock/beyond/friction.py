@@ -104,21 +104,22 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         return
     shares = explained(found)
     size, contact, more, _ = (number(share, " %", 100.0) for share in shares.values())
-    words = "Static friction depends on the size of pillars more than on contact fraction"
+    words = "Static friction depends more on the size of pillars than on contact fraction"
     if shares["more by size"].high < 0.0:
-        words = "Static friction depends on contact fraction more than on the size of pillars"
+        words = "Static friction depends more on contact fraction than on the size of pillars"
     elif not shares["more by size"].low > 0.0:
         words = "Size and contact fraction explain static friction equally well"
     yield (
-        f"**{words}**, among the {len(found)} surfaces whose size and contact fraction both occur "
-        f"more than once: of its variance, size explains {size} beyond what contact fraction "
+        f"**{words}**: over the {len(found)} surfaces whose size and contact fraction both occur "
+        f"more than once, size explains {size} of the variance beyond what contact fraction "
         f"explains, contact fraction {contact} beyond what size explains (difference: {more}), and "
         f"their interaction up to {100.0 * shares['interaction'].mean:.2g} %."
     )
-    header = ["n_s/n_p", "in contact", "sizes n_p", "friction-minimising n_p", "lowest friction"]
+    header = ["n_s/n_p", "contact fraction (%)", "sizes n_p"]
+    header += ["friction-minimising n_p", "lowest friction"]
     lines = []
     for kind, sizes in families(whole).items():
-        contact = f"{1.0 / float(1 + kind) ** 2:.1%}"
+        contact = f"{100.0 / float(1 + kind) ** 2:.1f}"
         lines.append([str(kind), contact, ", ".join(map(str, sizes)), *lowest_in_words(sizes)])
     yield markdown_table(header, lines)
 

@@ -139,15 +139,15 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
         found[f"share of precursors {where} (%)"] = possible
         if broad in sizes:
-            more = f"static friction on pillars of {broad:g} µm minus that of {best:g} µm"
-            found[more] = difference_interval(force[broad], force[best])
+            more = f"on pillars of {broad:g} µm minus that {where}"
+            found[f"static friction {more}"] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
             metres = Interval(*(spacing * limit for limit in blocks))
             found[f"decay length {where} (µm)"] = metres
             if size == broad:
-                found[f"decay length in blocks {where} (blocks)"] = blocks
+                found[f"decay length {where} (blocks)"] = blocks
     return found
 
 
@@ -223,7 +223,7 @@ def _moves(compared: Comparisons) -> Changes:
                 f"{size} µm at {axis} = {getattr(at, each.axis):g} µm" for at, size in best.items()
             )
             among = listed([f"{size:g}" for size in common])
-            changed[kind] = verb, f"{verb} ({', '.join(places)}; among {among} µm)"
+            changed[kind] = verb, f"{verb} ({', '.join(places)}), among {among} µm"
     return changed
 
 
@@ -231,16 +231,18 @@ def _conclusion(
     compared: Comparisons, changed: Mapping[str, Changes], moves: Changes, broad: float
 ) -> str:
     """Say how the friction-minimising size, friction and a decay length change."""
-    wanted = "static friction", f"decay length on pillars of {broad:g} µm"
+    length = f"decay length on pillars of {broad:g} µm"
     values = [
-        f"{name.removesuffix(' (µm)').replace('decay', 'the decay')} {_refined(compared, by)}"
+        f"{name} {_refined(compared, by)}"
         for name, by in changed.items()
-        if name.startswith(wanted)
+        if name.startswith("static friction")
     ]
+    if by := changed.get(f"{length} (µm)"):
+        values.append(f"the {length}, in µm, {_refined(compared, by)}")
     _, thicker = moves.get("layer", ("", "is not compared"))
     return (
-        f"**When the layer is thicker, the friction-minimising size** {thicker}. "
-        f"**When the lattice is refined**, it {_refined(compared, moves)}; {'; '.join(values)}."
+        f"**On thicker layers, the friction-minimising size** {thicker}. **On finer lattices**, it "
+        f"{_refined(compared, moves)}; {'; '.join(values)}."
     )
 
 

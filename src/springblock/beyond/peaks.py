@@ -56,12 +56,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
+    place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
+    rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
     yield (
-        f"**The lesser load peak is more prominent when sliding along the grooves than across "
-        f"them** on {more} of {len(found)} surfaces, and less prominent on {less}. Along the "
-        f"grooves it is largest{', though not significantly,' if alike[1:] else ''} with pawls of "
-        f"{most.n_p2} and grooves of {most.n_s2} blocks: {number(along[most], ' %')} of the "
-        "largest force."
+        "**The lesser load peak is significantly more prominent when sliding along the grooves "
+        f"than across them** on {more} of {len(found)} surfaces, and less prominent on {less}. "
+        f"Along the grooves, its prominence is largest with pawls of {most.n_p2} and grooves of "
+        f"{most.n_s2} blocks {place}, {number(along[most], ' %')} of the largest force{rank}."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
@@ -70,10 +71,11 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         more, less = _significant(list(apart.values()))
         more_of_two, less_of_two = _significant(two)
         yield (
-            "Hierarchy: along the same grooves the lesser peak is more prominent on pillars than "
-            f"over the whole surface in {more} of {len(pairs)} cases, and less prominent in "
-            f"{less}. In the {len(two)} cases in which it exceeds {_TWO:g} % on both, it is more "
-            f"prominent on pillars in {more_of_two} and less prominent in {less_of_two}."
+            "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
+            f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
+            f"and less prominent in {less}. In the {len(two)} cases in which its prominence "
+            f"exceeds {_TWO:g} % on both, it is more prominent on pillars in {more_of_two} and "
+            f"less prominent in {less_of_two}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

@@ -67,14 +67,16 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 
 def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequence[Lowest]) -> str:
     """Say what changes from the least scatter to the most."""
-    said = []
+    changed: dict[str, dict[str, str]] = {}
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()
-        apart = independent_difference(last, first)
-        said.append(
-            f"{direction(first, last)} from {number(first)} to {number(last)} blocks (difference: "
-            f"{number(apart)} blocks) on pillars of n_p = {n_p}"
-        )
+        change = number(independent_difference(last, first))
+        changed.setdefault(direction(first, last), {})[str(n_p)] = change
+    said = [
+        f"{verb} on pillars of {listed([*by_size])} blocks (change: {listed([*by_size.values()])} "
+        "blocks)"
+        for verb, by_size in changed.items()
+    ]
     stays = f"{UNCHANGED}: {minima[0]}"
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
