@@ -36,8 +36,8 @@ by at most {most:.1f} % (far ends of 95 % intervals), mostly less than the stand
 over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
 """
 
-_WITHOUT = """This study was run without `production: true`, which measures errors on surfaces of the
-study's size in a quarter of an hour.
+_WITHOUT = """This study was run without `production: true`, which measures errors on surfaces of
+the study's size in a quarter of an hour.
 """
 
 _OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most

@@ -159,7 +159,7 @@ resistance = _of_each_law(
         FromFile: law_file.resistance,
     }
 )
-#: (law, state, speed, static, dynamic) -> weight θ of the velocity after a step in the one at which
+#: (law, state, speed, static, dynamic) -> weight β of the velocity after a step in the one at which
 #: friction is evaluated: 1/2, but more where friction rises steeply with speed.
 end_weight = _of_each_law({FromFile: law_file.end_weight}, _half)
 #: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
