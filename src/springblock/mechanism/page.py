@@ -106,7 +106,7 @@ def _of_variants(table: pd.DataFrame) -> Fields:
         lines.append([str(name), sizes, most, *map(str, found.values()), *changes])
     thick = pillars[pillars["thickness"] == pillars["thickness"].max()]
     excess = 100.0 * (1.0 - thick["simulation"] / thick["overshooting"])
-    header = ["case", "sizes n_p", "most uneven (SD/mean)", *NAMES.values()]
+    header = ["case", "sizes n_p", "most uneven stress (SD/mean)", *NAMES.values()]
     header += ["change by load transfer (%)", "by overshoot (%)", "by other effects (%)"]
     return {
         "variants_seeds": table["seed"].nunique(),
