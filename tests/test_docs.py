@@ -59,11 +59,9 @@ def test_the_page_on_statements_is_what_the_code_writes():
 
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
-    text = beyond_page({})
-    measured, paragraphs = ("|", "**", "- ", "1. ", "Hierarchy: "), "\n\n"
-    assert unmeasured(PAGES["beyond"], measured, paragraphs) == unmeasured(
-        text, measured, paragraphs
-    )
+    measured = ("|", "**", "- ", "1. ", "Hierarchy: ")
+    page, text = (unmeasured(each, measured, "\n\n") for each in (PAGES["beyond"], beyond_page({})))
+    assert page == text
     assert "**Not answered**" not in PAGES["beyond"]
 
 

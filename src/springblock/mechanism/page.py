@@ -195,7 +195,7 @@ def _of_peaks(table: pd.DataFrame) -> Fields:
             [[name, *map(str, numbers)] for name, numbers in lines],
         ),
         "every": every,
-        "papers": _rights(counts.loc[""]),
+        "papers": _rights(counts.loc[[""]]),
         "others": _rights(counts.drop("")),
         "hits": len(hits),
         "misses": len(misses),
