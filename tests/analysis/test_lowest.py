@@ -1,4 +1,4 @@
-"""The lowest of several means, and those that do not differ from it significantly."""
+"""Where static friction is lowest, and where else it may be."""
 
 import numpy as np
 
@@ -13,5 +13,9 @@ def test_the_lowest_mean_is_listed_with_those_that_do_not_differ_significantly()
     found = lowest(samples)
     assert (found.place, found.alike) == (6, [2, 6])
     assert str(found) == "6 (or 2)"
-    exact = {2: np.full(2, 1.0), 6: np.full(2, 0.9), 20: np.full(2, 4.0)}
-    assert str(lowest(exact)) == "6"
+
+
+def test_sizes_within_the_numerical_bias_of_the_lowest_friction_are_candidates():
+    """Equal realisations have no statistical error; friction has a bias of up to 0.001."""
+    exact = {2: np.full(2, 0.6511), 6: np.full(2, 0.65), 20: np.full(2, 0.6509)}
+    assert str(lowest(exact)) == "6 (or 20)"

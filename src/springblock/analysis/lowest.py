@@ -1,4 +1,4 @@
-"""Position of the lowest mean among samples, with its uncertainty."""
+"""Where static friction is lowest, with the uncertainty of the position."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
@@ -7,8 +7,12 @@ from springblock.analysis.statistics import difference_interval
 from springblock.simulation.run import Array
 
 
+#: Bound of the numerical bias of static friction at the default step (`docs/accuracy.md`).
+BIAS = 1e-3
+
+
 class Lowest(NamedTuple):
-    """Position of the lowest mean, and all positions whose means do not differ significantly."""
+    """Position of the lowest mean static friction, and all positions where it may be the lowest."""
 
     place: float
     alike: list[float]
@@ -20,14 +24,15 @@ class Lowest(NamedTuple):
 
 
 def lowest(samples: Mapping[Any, Array]) -> Lowest:
-    """Return the position of the lowest mean of samples, given by position.
+    """Return the position of the lowest mean static friction, from samples by position.
 
-    There is no interpolation. A mean differs from the lowest if the 95 % interval of their
-    difference, without correction for multiple comparisons, excludes zero.
+    There is no interpolation. Friction may also be the lowest wherever it is not significantly more
+    than the numerical bias above the lowest mean: where the 95 % interval of the difference, without
+    correction for multiple comparisons, does not lie above `BIAS`.
     """
     best = min(samples, key=lambda place: float(samples[place].mean()))
     apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
-    alike = [place for place, found in apart.items() if place == best or not found.low > 0.0]
+    alike = [place for place, found in apart.items() if place == best or not found.low > BIAS]
     return Lowest(best, alike)
 
 

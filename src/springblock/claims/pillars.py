@@ -12,6 +12,7 @@ import numpy as np
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import Estimate
+from springblock.analysis.lowest import BIAS
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Evidence, Finding
@@ -33,7 +34,6 @@ _WIDTH = f"{_SUPPORTED} over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically relevant”
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SCATTER = "mu_static_std"
-_BIAS = 1e-3  #: bound of the numerical bias of static friction at the default step
 _COMPARED = (3, 6, 10, 20, 30)  #: n_p of pillars whose thresholds scatter less and more
 
 _broad = partial(pillars, smallest=_BROAD)
@@ -292,10 +292,10 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
-    """Return the scenes whose static friction may be the lowest: within `_BIAS` of it (95 %)."""
+    """Return the scenes whose static friction may be the lowest: within `BIAS` of it (95 %)."""
     least = samples.friction(evidence, _lowest(evidence, scenes))
     more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
-    return [scene for scene in scenes if not more[scene].ci_low > _BIAS]
+    return [scene for scene in scenes if not more[scene].ci_low > BIAS]
 
 
 def _over_t_avg(quantity: Quantity) -> Quantity:
