@@ -54,7 +54,7 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     earlier, parts = register.verdicts(), []
-    header = ["statement", "form", "verdict", "registered test", "earlier seeds", "1.0.0"]
+    header = ["statement", "form", "verdict", "registered test", "first seeds", "former rules"]
     header += ["deciding finding", "claimed"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
