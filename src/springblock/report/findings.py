@@ -126,8 +126,8 @@ def _peaks(tables: Tables) -> dict[str, Any]:
     """How far the force falls between two load peaks: with pillars and grooves, and with either."""
     along = _by_size(_tested(tables, "Two load peaks along grooves"))
     square = _tested(tables, "Square pawls have one load peak")
-    others = _tested(tables, "Without hierarchy one load peak")
-    others += [row | {"case": "square pawls"} for row in square]
+    alone = _tested(tables, "Without hierarchy one load peak")
+    others = alone + [row | {"case": "square pawls"} for row in square]
     if not along:
         return {}
     others = select(others, outcome="fails")
@@ -137,6 +137,7 @@ def _peaks(tables: Tables) -> dict[str, Any]:
         "least": f"{ordered[0][1]['claimed_low']:g}",
         "along": [(size, _quoted(row)) for size, row in ordered],
         "others": [(row["case"].removeprefix("surface = "), _quoted(row)) for row in others],
+        "is_open": not alone or alone[0]["verdict"] == "not settled",
     }
 
 
@@ -167,14 +168,14 @@ def _lag(rows: Sequence[Row]) -> Interval:
 
 
 def _sign(difference: Interval, negative: str, positive: str, unknown: str) -> str:
-    """Return the word for the sign that the interval leaves no doubt of."""
+    """Return the word for the sign of a difference, `unknown` where its interval includes zero."""
     if difference.high < 0.0:
         return negative
     return positive if difference.low > 0.0 else unknown
 
 
 def _change(difference: Interval) -> str:
-    """Say by how much static friction on pillars is lower or higher."""
+    """Say by how much static friction on pillars is lower or higher than on the flat surface."""
     word = _sign(difference, "lower", "higher", "")
     if not word:
         return f"does not differ significantly ({number(difference)})"
