@@ -151,7 +151,10 @@ def test_a_caption_follows_the_grid():
 
 def test_a_picture_keeps_its_caption(tmp_path):
     """The general one, or the one that the workflow fills, which the report shows, too."""
-    for caption, options in (("The model: a", []), ("Two levels.", ["--caption", "Two levels."])):
+    for caption, options in (
+        ("a) Blocks and internal springs", []),
+        ("Two levels.", ["--caption", "Two levels."]),
+    ):
         output = tmp_path / "figure.png"
         arguments = ["figure", "figure_1", *options, "--output", str(output)]
         assert CliRunner().invoke(main, arguments).exit_code == 0

@@ -54,7 +54,7 @@ def test_a_link_to_a_statement_opens_it(study, opened):
     page.locator(".verdicts > summary").first.click()
     statement = page.locator(".verdicts .statement").first
     statement.locator("summary").click()
-    link = statement.get_by_text("All that was found")
+    link = statement.get_by_text("All findings")
     target = page.locator(f"[id='{link.get_attribute('href')[1:]}']")
     link.click()
     expect(page.locator(".part:visible")).to_have_attribute("id", "claims")

@@ -95,6 +95,15 @@ def test_findings_take_their_numbers_from_the_statements():
     assert told["peaks"]["others"] == [("grooves", "0.027 [0.017, 0.037]")]
 
 
+@pytest.mark.parametrize(
+    ("verdict", "is_open"), [("reproduced", False), ("not settled", True), ("not tested", True)]
+)
+def test_a_study_says_whether_it_settles_that_two_peaks_need_hierarchy(verdict, is_open):
+    along = judged("Two load peaks along grooves", "n_p2 = 8", 0.028)
+    alone = judged("Without hierarchy one load peak", "surface = pillars", 0.009, verdict, "open")
+    assert found(claims=[along, alone])["peaks"]["is_open"] == is_open
+
+
 def test_differences_within_the_scatter_are_not_significant():
     """Means that differ by less than their scatter, and single runs, which have none."""
     close = found(realisations(0.7, scatter=0.1), realisations(0.701, scatter=0.1, n_p=6, n_s=6))

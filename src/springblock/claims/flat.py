@@ -35,10 +35,11 @@ _on_flat = partial(mean_over, surfaces.flat)
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the bias of the mean, on small surfaces, is within one standard error of an ensemble
-    of 20. The paper does not say how its Runge-Kutta method treats friction within a step: both
-    integrators of this study are tested, and the plain Runge-Kutta method, in which friction
-    opposes the velocity of each stage. Errors of single runs with the plain method decrease slowly
-    with the step on flat surfaces, and show no convergence on patterned ones (`docs/accuracy.md`).
+    of 20. The paper does not say how its Runge-Kutta method treats friction within a step. Three
+    methods are therefore tested: both integrators of this study, and the plain Runge-Kutta method,
+    in which friction opposes the velocity of each stage. Errors of single runs with the plain
+    method decrease slowly with the step on flat surfaces, and show no convergence on patterned ones
+    (`docs/accuracy.md`).
     """
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
@@ -47,9 +48,10 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
         for row in select(paired, integrator=integrator):
             scene, quantity = row["scene"], row["quantity"]
             if (scene, quantity) in errors:
+                name = quantity.replace("static_friction", "static friction")
                 yield Finding(
                     {"integrator": integrator},
-                    f"relative bias of {quantity} at h = {PAPER_STEP:.0e} s, {scene} surface",
+                    f"the relative bias of {name} at h = {PAPER_STEP:.0e} s on the {scene} surface",
                     samples.interval(row, "error"),
                     within(errors[scene, quantity]),
                     f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}",
@@ -57,8 +59,9 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a
-    block. It is that of half the layer, as if blocks moved with its mid-plane.
+    """Tested: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a block
+    (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks moved with its
+    mid-plane.
     """
     if not evidence.records:
         return
@@ -78,15 +81,17 @@ def varied(evidence: Evidence, *names: str) -> list[Scene]:
 @_on_flat("the amplitude of an oscillation at t_max over that at t = 0", ranges.NEGLIGIBLE)
 def damping(run: Record) -> float:
     """Tested: viscous damping reduces the amplitude of oscillations to less than a tenth by t_max
-    of the flat surface; the verdict is the same on pillars, where t_max is later. In all modes of
-    the lattice it decreases as exp(-gamma t/2), since even the slowest mode, with the frequency
-    (K_s/m)^(1/2), is underdamped.
+    of the flat surface; the verdict is the same on pillars, where t_max is later. The amplitude
+    decreases as exp(-gamma t/2) in all modes of the lattice, since even the slowest mode, with the
+    frequency (K_s/m)^(1/2), is underdamped.
     """
     return float(np.exp(-0.5 * run.material.gamma * run.t_max))
 
 
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on flat surfaces, static friction changes by less than 5 %, and t_max < t_avg."""
+    """Tested: on flat surfaces with other moduli at the same ratio, static friction changes by less
+    than 5 %, and t_max < t_avg.
+    """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
         case = {"E in Pa": dict(scene.varied)["youngs_modulus"]}
@@ -141,7 +146,8 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
 @_on_flat("the share of precursors that detach while all eight neighbours are at rest", ranges.MOST)
 def isolated_precursors(run: Record) -> float:
     """Tested: most precursors, which “are those occurring before t_max”, detach while all eight
-    neighbours are at rest. Of those before 0.9 and 0.99 t_max most do.
+    neighbours are at rest. Most of the precursors before 0.9 t_max, and most of those before 0.99
+    t_max, do so.
     """
     return samples.isolated(run)
 
@@ -166,9 +172,9 @@ def weakest_first(run: Record) -> float:
 )
 def not_all_nucleate(run: Record) -> float:
     """Tested: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
-    neighbour that detaches by t_max. The paper's precursors are all those before t_max, but the
-    last of them have no time to trigger a front. Of all of them, 0.263 [0.256, 0.269] have no such
-    neighbour: the verdict is the same.
+    neighbour that detaches by t_max. The paper's precursors are all blocks that detach before
+    t_max, but the last of them have no time to trigger a front. Of all of them, 0.263 [0.256,
+    0.269] have no such neighbour: the verdict is the same.
     """
     alone = np.all(~(samples.neighbours(run.t_det, np.inf) < run.t_max), axis=0)
     return share_of(alone, run.t_det < 0.9 * run.t_max)
@@ -206,21 +212,23 @@ def peaks_apart(run: Record) -> float:
 )
 def average_is_propagation(run: Record) -> float:
     """Tested: t_avg differs from the time of the largest detachment rate by less than half the
-    duration of the transition, from a tenth to nine tenths of the detachments; t_max differs by
-    0.77 of it. The verdict is the same for any bound from 0.3 on, and for windows of 0.2 to 5 % of
-    t_max.
+    duration of the transition, which is the time from a tenth to nine tenths of the detachments.
+    t_max differs from it by 0.77 of this duration. The verdict is the same for any bound from 0.3
+    on, and for windows of 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 
 
 @_on_flat(
-    "the share of blocks that slide anew within one duration, after the first force minimum",
+    "the share of blocks that slide anew in a time as long as the transition, after the first "
+    "force minimum",
     ranges.NEGLIGIBLE,
 )
 def localized_stick_slip(run: Record) -> float:
-    """Tested: after the first force minimum, less than a tenth of the blocks slide anew within the
-    duration of the transition, from a tenth to nine tenths of the first detachments. The verdict is
-    the same for the first 1 to 50 durations after the minimum alone.
+    """Tested: after the first force minimum, less than a tenth of the blocks slide anew in a time
+    as long as the transition, which lasts from a tenth to nine tenths of the first detachments. The
+    share is a mean over the rest of the run; the verdict is the same for the first 1 to 50 such
+    times after the minimum.
     """
     minimum = first_minimum(run.force)
     if minimum is None:
@@ -236,10 +244,10 @@ def peak_before_average(run: Record) -> float:
 
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: in the core, position explains less than a fifth of the variance; the outermost
-    blocks detach early or late by less than a fifth of a standard deviation, a small effect. The
-    verdict is the same for the two outermost rings; with a bound above 0.38 the statement would
-    hold.
+    """Tested: in the core (here the blocks 10 or more from the edge), position explains less than a
+    fifth of the variance; the outermost blocks detach early or late by less than a fifth of a
+    standard deviation, a small effect. The verdict is the same for the two outermost rings; with a
+    bound above 0.38 the statement would hold.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"
@@ -260,6 +268,6 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
 )
 def nucleation_anywhere(run: Record) -> float:
     """Tested: the mean distance from the edge of the first patch of 5 x 5 blocks to detach is that
-    of a random position. The verdict is the same for each patch of 1 to 17 blocks a side.
+    of a random position. The verdict is the same for patches of 1 to 17 blocks a side.
     """
     return samples.first_patch(run.t_det, _PATCH)

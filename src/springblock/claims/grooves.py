@@ -55,7 +55,7 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
     for scene in sorted(scenes, key=lambda s: (degrees(s.direction), s.n_p2)):
         if scene.direction != ALONG:
             case = {"degrees": degrees(scene.direction)}
-            statistic = f"{_LESSER}, pawls of {scene.n_p2} blocks"
+            statistic = f"{_LESSER}, with pawls of {scene.n_p2} blocks"
             yield prominent(evidence, scene, _ONE_PEAK, case, statistic)
 
 
@@ -72,8 +72,9 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
 
 def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on pillars cut by equal grooves in both directions, the mean prominence of the lesser
-    peak is below 1 % of the largest force. The verdict is the same for any bound below 1.3 %; with
-    one above 2.1 %, which grooves in one direction exceed with 2.8 %, the statement would hold.
+    peak is below 1 % of the largest force. The verdict is the same for any bound below 1.3 %. With
+    a bound above 2.1 % the statement would hold; with grooves in one direction the prominence is
+    2.8 %.
     """
     for scene in surfaces.grooved(evidence.records, 3):
         if (scene.n_p2, scene.n_s2) == (scene.n_p3, scene.n_s3):
@@ -111,9 +112,10 @@ def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
 
 
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the lesser of two load peaks stands out by more than 1 % along grooves, and by less
-    across. Where 40 realisations left the latter open, there are 200; sliding across the second
-    level is there along the third, and without this finding the statement would be reproduced.
+    """Tested: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
+    along the grooves of the second level, and is below 1 % across them. The case that was open
+    after 40 realisations has 200: there, sliding across the second level is sliding along the
+    third. Without this finding the statement would be reproduced.
     """
     for along, case in _third_levels(evidence):
         yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
@@ -138,12 +140,12 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     for scene in slid_both_ways(evidence.records):
         plain = replace(scene, n_p2=0, n_s2=0)
         for name, quantity, claimed in (smooth, rapid) if plain in evidence.records else ():
-            statistic = f"{name} over t_max, with grooves minus without"
+            statistic = f"{name}, over t_max, with grooves minus without"
             yield samples.compared(evidence, statistic, quantity, scene, plain, claimed)
 
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on grooves narrower than the pawls between them."""
+    """Tested: where the grooves are narrower than the pawls between them."""
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
         if along.n_s2 < along.n_p2:
@@ -151,10 +153,10 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 
 
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
-    """Tested by a proxy of the speed: the time from a tenth to nine tenths of the detachments is a
-    smaller part of t_max along the grooves.
+    """Tested: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
+    fronts, is a smaller part of t_max along the grooves.
     """
-    name = f"{_LASTING} over t_max, along minus across (same seeds)"
+    name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
         scenes = along, across(along)
         yield samples.compared(evidence, name, samples.lasting, *scenes, ranges.NEGATIVE)

@@ -105,8 +105,8 @@ def rate_between(peaks: Peaks) -> float:
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
-    peaks or from one peak to the other. In the quietest 0.01 t_avg it also does so on surfaces
-    without two load peaks.
+    peaks or on average from one peak to the other. In the quietest 0.01 t_avg it does so on
+    surfaces without two load peaks, too.
     """
     name = "the detachment rate between the load peaks over the mean rate"
     for part, quantity in (
@@ -148,8 +148,9 @@ def rest_between_peaks(peaks: Peaks) -> float:
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
-    """Tested: between the load peaks there is more than one further slip per two of the blocks that
-    have detached; one block may slip several times. With one per ten the statement would hold.
+    """Tested: between the load peaks there is more than one further slip for every two blocks that
+    have detached; one block may slip several times. With a bound of one for every ten blocks the
+    statement would hold.
     """
     run, between = peaks.run, slice(peaks.first, peaks.second)
     repeated = run.switches[between] - run.detachments[between]
@@ -162,7 +163,9 @@ def slips_again(peaks: Peaks) -> float:
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Tested: the surface bears more than if all blocks slid; after the second peak, less."""
+    """Tested: between the load peaks the surface bears more than if all blocks slid. After the
+    second peak it bears less.
+    """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
 
@@ -175,8 +178,8 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 )
 def small_force_suffices(peaks: Peaks) -> float:
     """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
-    detached, the force grows by less than a tenth of this value. That is three tenths of the excess
-    of static friction over the mean mu_dynamic.
+    detached, the force grows by less than a tenth of this value. The growth found is three tenths
+    of the excess of static friction over the mean mu_dynamic.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     return float(peaks.run.force[peaks.valley : detached + 1].max()) / peaks.lowest - 1.0
@@ -195,8 +198,9 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: at equal pillar length it is shorter with wider pawls, on surfaces where most runs
-    have two peaks. Its growth with pillar length would not require the difference.
+    """Tested: at equal pillar length the interval is shorter with wider pawls, on surfaces where
+    most runs have two peaks. An interval that only grows with pillar length would not require the
+    difference.
     """
 
     found = twice_peaked(surfaces.grooved(evidence.records))

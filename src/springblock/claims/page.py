@@ -54,7 +54,7 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
     earlier, parts = register.verdicts(), []
-    header = ["statement", "form", "verdict", "registered test", "earlier seeds", "1.0.0"]
+    header = ["statement", "form", "verdict", "registered test", "first seeds", "former rules"]
     header += ["deciding finding", "claimed"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
@@ -167,7 +167,7 @@ def _opened(part: Sequence[Row]) -> list[str]:
         return [data]
     shared = len({row["statistic"] for row in part}) == 1
     title = f"{len(part)} findings" + (f": {part[0]['statistic']}" if shared else "")
-    value = f"value [95 % interval together, {100.0 - 5.0 / len(part):.4g} % alone]"
+    value = f"value [{100.0 - 5.0 / len(part):.4g} % interval, 95 % jointly]"
     header = ["case", "statistic", value, "claimed", "outcome"]
     lines = [header, *map(_cells, part)]
     if shared:  # by the title

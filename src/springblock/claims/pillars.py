@@ -30,7 +30,7 @@ _PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _PRECURSORS = "the share of contact blocks that detach before t_max"
 _SUPPORTED = "the time with a force above 95 % of its maximum"
-_WIDTH = f"{_SUPPORTED} over t_max"
+_WIDTH = f"{_SUPPORTED}, over t_max"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically relevant”
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SCATTER = "mu_static_std"
@@ -65,10 +65,10 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on average over pillars and realisations, for the border and for the second ring. The
-    corners of the second ring detach after the edges of the border, by 0.008 t_max at n_p = 30 and
-    by more on smaller pillars. At n_p = 60 the sign of this delay is open, with
-    -0.003 [-0.007, 0.0004] of t_max.
+    """Tested: the mean times over pillars and realisations are in this order, on the border and on
+    the second ring. The corners of the second ring detach after the edges of the border, by 0.008
+    t_max at n_p = 30 and by more on smaller pillars. At n_p = 60 the sign of this delay is open,
+    with -0.003 [-0.007, 0.0004] of t_max.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -79,8 +79,9 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(pillars, "the share of pillars whose parts detach in this order", ranges.NEARLY_ALL)
 def always_in_order(run: Record) -> float:
-    """Tested: corners, edges across and along the sliding direction and centre detach in this order
-    on the border, and so on the second ring, on more than nine tenths of the individual pillars.
+    """Tested: corners, edges across and along the sliding direction and centre detach in this
+    order, both on the border and on the second ring, on more than nine tenths of the individual
+    pillars.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -131,20 +132,21 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of positions inside the border that are nearer to it than the first "
+    "the share of positions inside the two outermost rings that are nearer to these than the first "
     f"{_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Tested: the first patch of 3 x 3 blocks to detach lies in the outer quarter of the area
-    inside the border, which is two blocks wide. The verdict is the same for borders of 1 to 4
-    blocks and patches of 2 to 5; on the flat surface the first patch lies half way to the centre.
+    """Tested: among the blocks inside the two outermost rings, the first patch of 3 x 3 blocks to
+    detach lies in the outer quarter of the area. The verdict is the same inside 1 to 4 rings and
+    for patches of 2 to 5 blocks a side; on the flat surface the first patch lies half way to the
+    centre.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    name = "t_det/t_max of the centre minus that of the area between it and the border"
+    name = "t_det/t_max of the centre minus that of the area between it and the two outermost rings"
     for scene, runs in pillars(evidence.records, 10).items():  # smaller ones have no centre inside
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
@@ -156,15 +158,19 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
 
 @mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
 def peak_after_average(run: Record) -> float:
-    """Tested: on average over realisations, for every pillar size."""
+    """Tested: the mean of t_max - t_avg over realisations is positive at every pillar size."""
     return run.t_max - run.t_avg
 
 
 @share_over(
-    _large, "the share of blocks inside the border that detach after t_max", ranges.NEARLY_ALL
+    _large,
+    "the share of blocks inside the two outermost rings that detach after t_max",
+    ranges.NEARLY_ALL,
 )
 def front_after_peak(run: Record) -> float:
-    """Tested: more than nine tenths of the blocks inside the border detach after t_max."""
+    """Tested: more than nine tenths of the blocks inside the two outermost rings detach after
+    t_max.
+    """
     return float(np.mean(inside(run) > run.t_max))
 
 
@@ -178,8 +184,8 @@ def warning(run: Run) -> float:
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Tested: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
-    nearer to those of the flat surface than to those of the smallest pillars of n_p >= 6, from
-    which on the paper finds another transition. It allows static friction to differ.
+    nearer to those of the flat surface than to those of the smallest pillars with n_p >= 6, where
+    the paper finds another transition. Static friction may differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -267,11 +273,11 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the size of lowest static friction is within a factor of two of l_c, for the paper's
-    scatter of mu_static and for others, which change l_c. Sizes whose static friction is within the
-    numerical bias, 0.001, of the lowest are all candidates; with other scatter these are 3, 6, 10,
-    20 and 30 blocks, and the intervals leave out this spacing. l_c is that at n_p = 30, of
-    exp(-r/l_c) and of A exp(-r/l_c).
+    """Tested: the pillar size of lowest static friction is within a factor of two of l_c, with the
+    paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
+    friction is within the numerical bias, 0.001, of the lowest are candidates. With another scatter
+    only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the distance
+    between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c).
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -335,24 +341,28 @@ def _larger_there(
 
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: against every other size. Sizes whose static friction is within the numerical bias,
-    0.001, of the lowest are all candidates. At n_p = 6 it is lower than at 7 by 0.0008 with the
-    default step, and by 0.0003 with 5e-9 s (80 realisations of each): about 1000 with this step
-    would decide. If friction is lowest at 6 the statement fails; if at 7 it holds.
+    """Tested: there are more precursors where static friction is lowest than at every other pillar
+    size. All sizes whose static friction is within the numerical bias, 0.001, of the lowest are
+    candidates; an interval covers all of them, without an upper end where they differ in sign.
+    Static friction at n_p = 6 is lower than at 7 by 0.0008 with the default step, and by 0.0003
+    with 5e-9 s (80 realisations of each). About 1000 realisations with this step would decide; if
+    friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: by its width over t_avg, against the smallest and the largest pillars. Sizes whose
-    static friction is within the numerical bias, 0.001, of the lowest are all candidates.
+    """Tested: over t_avg, the force peak is wider where static friction is lowest than on the
+    smallest and on the largest pillars. All sizes whose static friction is within the numerical
+    bias, 0.001, of the lowest are candidates.
     """
-    return _larger_there(evidence, f"{_SUPPORTED} over t_avg", _over_t_avg(samples.width))
+    return _larger_there(evidence, f"{_SUPPORTED}, over t_avg,", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: by its duration over t_avg, against the smallest and the largest pillars. Sizes whose
-    static friction is within the numerical bias, 0.001, of the lowest are all candidates.
+    """Tested: over t_avg, the transition lasts longer where static friction is lowest than on the
+    smallest and on the largest pillars. All sizes whose static friction is within the numerical
+    bias, 0.001, of the lowest are candidates.
     """
-    name = "the time between a tenth and nine tenths of the detachments over t_avg"
+    name = "the time from a tenth to nine tenths of the detachments, over t_avg,"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

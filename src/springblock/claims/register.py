@@ -1,8 +1,8 @@
-"""The register of statements, written before the run on fresh seeds that judges them.
+"""The register of statements, written before the run on new seeds that judges them.
 
-`register.csv` is the table `claims` of earlier seeds, in the words of its day, with the verdicts on
-these seeds and those of version 1.0.0, which had another rule; `confirmed.csv` has the verdicts of
-the registered tests on the fresh seeds. Statements are matched by name.
+`register.csv` is the table `claims` of the first seeds, in its original wording, with the verdicts
+on these seeds and, as `verdict_1_0_0`, those under the former rules; `confirmed.csv` has the
+verdicts of the registered tests on the new seeds. Statements are matched by name.
 """
 
 import csv
@@ -36,7 +36,7 @@ def registered(name: str) -> list[Row]:
 def verdicts() -> dict[str, Row]:
     """Return a row of each registered statement, with its earlier verdicts.
 
-    That of the registered test on the fresh seeds is `confirmed`.
+    That of the registered test on the new seeds is `confirmed`.
     """
     fresh = {row["claim"]: row["verdict"] for row in registered("confirmed.csv")}
     rows = {row["claim"]: row for row in registered("register.csv")}

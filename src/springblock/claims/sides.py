@@ -107,9 +107,10 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 
 
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: in excess of the number of blocks per event on sides whose blocks come from different
-    realisations, and without the corners. Neighbours that detach within 0.5 % of t_max of each
-    other belong to one event.
+    """Tested: the mean number of blocks per event, in excess of chance, is larger on sides along
+    the sliding direction. Neighbours that detach within 0.5 % of t_max of each other belong to one
+    event; corners are left out. Chance is the mean number on sides whose blocks come from different
+    realisations.
     """
     name = "the size of an event in excess of chance, on sides along x minus along y"
     for scene in pillars(evidence.records):
@@ -123,7 +124,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Tested: position explains less than a fifth of the variance of t_det on a side without its
-    corners, along the sliding direction and across it. Without three blocks at either end the
+    corners, along the sliding direction and across it. Without the three blocks at either end the
     statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
@@ -154,8 +155,9 @@ def misfits(correlation: Array) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: at r = 1 to 6, c_x lies within 0.05 of A exp(-r/l_c), and further from a power law of
-    1 + r and from a straight line, each with an amplitude of its own.
+    """Tested: at r = 1 to 6, the rms distance of c_x from A exp(-r/l_c) is below 0.05, and below
+    its distances from a power law of 1 + r and from a straight line, each with an amplitude of its
+    own.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
         found = Correlation(side_times(runs, scene.pattern, ALONG))
@@ -176,8 +178,8 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or
-    more. The paper's sign allows "about 3": with a bound below 2.43 the statement would hold for
-    both.
+    more. The paper's sign ≳ also allows "about 3": with a bound below 2.43 the statement would hold
+    for both.
     """
     for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
         source = in_rows("correlation_length", scene, side="x")
@@ -189,7 +191,7 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: from n_p = 20 to the largest pillars."""
+    """Tested: l_c of exp(-r/l_c) is larger on the largest pillars than at n_p = 20."""
     found = pillars(evidence.correlation_length, _BROAD)
     lengths = {scene.n_p: _lengths(rows)["x"] for scene, rows in found.items()}
     if len(lengths) < 2:
@@ -206,9 +208,9 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on sides of 10 blocks or less, without the corners, more often than on sides whose
-    blocks come from different realisations. Neighbours that detach within 0.5 % of t_max of each
-    other belong to one event.
+    """Tested: sides of 10 blocks or less, without their corners, detach in one event more often
+    than sides whose blocks come from different realisations (chance). Neighbours that detach within
+    0.5 % of t_max of each other belong to one event.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):
@@ -263,7 +265,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
     the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
-    sliding along the grooves exceeds; c(r = 1) is not zero.
+    c(r = 1) exceeds when sliding along the grooves. Across the grooves it is small, but not zero.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         yield Finding(

@@ -59,7 +59,7 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on grooved pillars."""
+    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves."""
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
@@ -92,10 +92,12 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the component along the sliding direction. Neighbours load orthogonal edges in
-    tension and parallel edges in shear; the slider loads all blocks equally.
+    """Tested: the stress component along the sliding direction is larger on edges across this
+    direction than on edges along it. Neighbours load the former in tension and the latter in shear;
+    the slider loads all blocks equally.
     """
-    name = f"the stress on edges across the sliding direction minus that along it, {_OVER_MEAN}"
+    edges = "edges across the sliding direction minus that on edges along it"
+    name = f"the stress on {edges}, {_OVER_MEAN}"
     for scene in pillars(evidence.stress):
         ring, forces = pillar_ring(scene.n_p, 0), _along(evidence, scene)
         more = forces[ring["y"]].mean() - forces[ring["x"]].mean()
@@ -137,7 +139,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. Its largest value is smaller on all of them.
+    grooves. The largest stress is in fact smaller on all grooved surfaces.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):
@@ -148,7 +150,7 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
 
 
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the component along the sliding direction."""
+    """Tested: by the stress component along the sliding direction."""
     for scene in slid_both_ways(evidence.stress):
         forces = _along(evidence, scene)
         parts = {n: float(forces[mask].mean()) for n, mask in surfaces.grooved_parts(scene).items()}
@@ -159,8 +161,9 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
 
 
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: four to six tenths of the contact blocks are next to one out of contact. The verdict
-    is the same for an edge two blocks wide, which is half of the surface with pawls of 8 and of 10.
+    """Tested: four to six tenths of the contact blocks are beside a block without contact. The
+    verdict is the same for an edge two blocks wide, which is half of the surface with pawls of 8
+    and of 10.
     """
     name = "the share of the contact blocks that belong to the edge"
     for scene in slid_both_ways(evidence.stress):

@@ -55,7 +55,7 @@ def slid_both_ways(table: Mapping[Scene, T], level: int = 2) -> dict[Scene, T]:
 def case_of(scene: Scene) -> Case:
     """Return the case of a surface: its pawls, if it is grooved, or else its pillars."""
     if scene.n_p2 and not scene.n_p:
-        return {"surface": f"pawls of {scene.n_p2} and grooves of {scene.n_s2} without pillars"}
+        return {"surface": f"pawls of {scene.n_p2} between grooves of {scene.n_s2} (no pillars)"}
     if scene.n_p2:
         return {"n_p2": scene.n_p2}
     return {"n_p": scene.n_p} if scene.n_p else {}

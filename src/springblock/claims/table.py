@@ -49,7 +49,10 @@ SCHEMA = pa.schema(
         ),
     ]
 )
-_WANTED = f"missing: surfaces or tables of `config/full.yaml`, of {ENOUGH} realisations each"
+_WANTED = (
+    f"missing: surfaces or tables of `config/full.yaml`, with {ENOUGH} realisations each, from "
+    "which `docs/claims.md` has a verdict"
+)
 _MISSING = Finding({}, "", UNKNOWN, (np.nan, np.nan), _WANTED)
 
 

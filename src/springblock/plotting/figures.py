@@ -25,7 +25,7 @@ FIGURES: dict[str, Declaration] = {
     "figure_1": Declaration(
         title="The model",
         module="paper_surfaces",
-        caption="""The model: a) the mesh of internal springs; b) side view of the slider, moving at
+        caption="""a) Blocks and internal springs from above; b) side view of the slider, moving at
         constant velocity v, and of the shear springs K_s. Figure 1 of the paper.""",
         draws="nothing",
     ),
@@ -43,8 +43,8 @@ FIGURES: dict[str, Declaration] = {
     "figure_3": Declaration(
         title="First detachment times, flat surface",
         module="paper_results",
-        caption="""First detachment time t_det over t_max of each block, in the realisation of
-        figure 2. Figure 3 of the paper.""",
+        caption="""First detachment time t_det over t_max of each block of a flat surface, in the
+        realisation that is black in figure 2. Figure 3 of the paper.""",
         groups=("flat",),
         batches=1,
         marks="""Blue blocks detach before the force maximum, red ones after it, on separate scales
@@ -53,8 +53,8 @@ FIGURES: dict[str, Declaration] = {
     "figure_4": Declaration(
         title="Square pillars",
         module="paper_surfaces",
-        caption="""Square pillars, from the mask used by the solver: a) a corner of the surface; b)
-        one pillar with its coordinates (x_p, y_p) and the sides along which c_x and c_y are
+        caption="""Blocks in contact, from the mask used by the solver: a) a corner of the surface;
+        b) one pillar with its coordinates (x_p, y_p) and the sides along which c_x and c_y are
         measured. Figure 4 of the paper.""",
         draws="pattern",
     ),
@@ -88,20 +88,20 @@ FIGURES: dict[str, Declaration] = {
         caption="""Correlation of first detachment times along the sides of a pillar, c_x on sides
         along x and c_y on sides along y, against the distance r from the centre of the side,
         sliding along x: a) on a linear and b) on a logarithmic scale, up to the first interval that
-        includes zero, with fits of exp(-r/l_c) and A exp(-r/l). c) Decay lengths l_c and l of c_x
+        includes zero, with fits of exp(-r/l_c) and A exp(-r/l_d). c) Lengths l_c and l_d of c_x
         against pillar size. Figure 7 of the paper; fits with A free are an addition.""",
         draws="correlations",
         groups=("pillars",),
         marks=f"""Symbols: means over all pillars and realisations; bands and bars:
         {CORRELATION_INTERVALS}. b) exp(-r/l_c): solid over the range of the fit, dotted beyond; A
-        exp(-r/l): dashed, where the range has three distances or more.""",
+        exp(-r/l_d): dashed, where the range has three distances or more.""",
     ),
     "figure_8": Declaration(
         title="Grooved pillars",
         module="paper_surfaces",
-        caption="""Pillars with grooves along x, from the mask used by the solver: a) the whole
-        surface; b) one pillar with its coordinates. A single pillar has margins of n_s/2. Figure 8
-        of the paper.""",
+        caption="""Blocks in contact on pillars with grooves along x, from the mask used by the
+        solver: a) the whole surface; b) one pillar with its coordinates. A pillar alone on its
+        surface has margins of n_s/2. Figure 8 of the paper.""",
         draws="pattern",
     ),
     "figure_9": Declaration(
@@ -123,15 +123,15 @@ FIGURES: dict[str, Declaration] = {
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""As figure 9, cut once more by grooves of a third level, n_p3/n_s3; the axis of
-        the force does not begin at zero. The paper expects its effects to remain with further
-        levels.""",
+        caption="""As figure 9, on pillars cut once more by grooves of a third level, n_p3/n_s3; the
+        axis of the force does not begin at zero. The paper expects its effects to remain with
+        further levels.""",
         groups=("third_level",),
         keys=PATTERN,
         marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",
     ),
     "surfaces": Declaration(
-        title="Surfaces of one's own",
+        title="Surfaces of your own",
         module="supplement",
         caption="""One surface per row. Left: blocks in contact; middle: first detachment time t_det
         over t_max, mean over realisations; right: friction force over the normal force against
@@ -160,9 +160,9 @@ FIGURES: dict[str, Declaration] = {
     "stability": Declaration(
         title="Stiff and extreme cases",
         module="accuracy",
-        caption="""Stiff and extreme cases: a) energy residual against the step over the largest
-        stable one; b) error over the accepted error of each case; c-f) error against stiffness,
-        strain, damping and speed.""",
+        caption="""a) Energy residual against the step over the largest stable one; b) error over
+        the accepted error of each case; c-f) error against stiffness, strain, damping and
+        speed.""",
         draws="tables",
         tables=("stability",),
         marks="""Refused cases are beyond the stability limit; failed ones end in an exception.""",
@@ -170,7 +170,7 @@ FIGURES: dict[str, Declaration] = {
     "mechanism_friction": Declaration(
         title="Stress, load transfer and overshoot",
         module="mechanism",
-        caption="""a-d) Stress on the blocks of a pillar before any slip over its mean, in a layer
+        caption="""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
         pulled along x; e) its standard deviation over its mean, over all contact blocks; f) static
         friction of independent blocks under this stress, with quasi-static load transfer between
         them, with blocks that overshoot and stick again, and of the full model. e), f) Against
@@ -199,9 +199,9 @@ FIGURES: dict[str, Declaration] = {
         module="beyond",
         caption="""a) Correlation of detachment times along the sides of the largest pillars,
         sliding along x, on lattices of different spacing l, at constant thickness l_z and sizes in
-        metres. b) Decay length of A exp(-r/l) on these pillars against the spacing, against the
-        spacing at equal disorder per area, and against l_z. Static friction against pillar size for
-        c) different l and d) different l_z.""",
+        metres. b) Decay length l_d of A exp(-r/l_d) on these pillars against the spacing, against
+        the spacing at equal disorder per area, and against l_z. Static friction against pillar size
+        for c) different l and d) different l_z.""",
         groups=("lattice", "disorder", "layer"),
         keys=("folder",),
         marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines: slopes 0 and 1.
@@ -211,7 +211,7 @@ FIGURES: dict[str, Declaration] = {
     "beyond_disorder": Declaration(
         title="Scatter of thresholds",
         module="beyond",
-        caption="""a) Decay length of A exp(-r/l) against the standard deviation of the static
+        caption="""a) Decay length l_d of A exp(-r/l_d) against the standard deviation of the static
         coefficients, for pillar sizes n_p. b) Static friction against n_p for each standard
         deviation.""",
         groups=("pillars", "scatter"),
@@ -236,6 +236,7 @@ FIGURES: dict[str, Declaration] = {
         pillars (left) and over the whole surface (right), narrow (above) and wide (below).""",
         groups=("peaks",),
         keys=("folder",),
-        marks="""A prominence cannot be negative: the values of light cells are due to scatter.""",
+        marks="""A prominence cannot be negative: the small values of light cells arise by
+        chance.""",
     ),
 }

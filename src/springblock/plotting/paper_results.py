@@ -37,7 +37,7 @@ _SIDES: dict[str, Look] = {
     "y": {"color": VERMILION, "marker": "s", "linestyle": "none"},
 }
 _EXPONENTIAL = r"$\exp(-r/l_c)$"
-_FREE = r"$A\,\exp(-r/l)$"
+_FREE = r"$A\,\exp(-r/l_d)$"
 _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
 _SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
 
@@ -220,7 +220,7 @@ def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
 
 
 def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
-    """Return the A of A exp(-r/l) that belongs to the length of the table, by least squares.
+    """Return the A of A exp(-r/l_d) that belongs to l_d of the table, by least squares.
 
     Weights are those of the fit, 1/error²; errors are in proportion to the intervals.
     """
@@ -231,7 +231,7 @@ def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
-    """Draw l_c of c_x over n_p, logarithmic; open points: l of A exp(-r/l) with A free."""
+    """Draw l_c of c_x over n_p, logarithmic; open points: l_d, with A free."""
     for columns, face, aside, label in (
         (["l_c", "ci_low", "ci_high"], BLUE, 0.96, _EXPONENTIAL),
         (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),
@@ -239,7 +239,7 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
         look = _SIDES["x"] | {"markerfacecolor": face, "label": label}
         curves.draw_points(ax, aside * lengths["n_p"], lengths[columns], **look)
     curves.name_places(ax, lengths["n_p"])
-    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="decay length of $c_x$ (blocks)")
+    ax.set(xlabel="size of the pillars $n_p$ (blocks)", ylabel="$l_c$, $l_d$ of $c_x$ (blocks)")
     ax.set_ylim(0.0, None)
     ax.legend(loc="lower right")
 

@@ -48,9 +48,9 @@ def caption(found: Lines) -> str:
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     return (
-        "Observables of ensembles; lines join those that differ in no other parameter, slightly "
-        f"offset. {sample_in_words(sample)} Symbols: means; bars: 95 % t intervals over "
-        "realisations. t_max and t_max - t_avg: dots: realisations; dashes: medians."
+        "Observables of ensembles; lines join ensembles that differ in no other parameter. "
+        f"{sample_in_words(sample)} Symbols, slightly offset: means; bars: 95 % t intervals over "
+        "realisations. For t_max and t_max - t_avg, dots: realisations; dashes: medians."
     )
 
 

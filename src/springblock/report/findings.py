@@ -20,7 +20,7 @@ Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by sc
 
 
 def main_runs(rows: Iterable[Row]) -> dict[Scene, list[Row]]:
-    """Realisations with the paper's pattern and the study's constants, on the commonest N.
+    """Return realisations with the paper's pattern and the study's constants, on the commonest N.
 
     Some sizes of pillars need an N up to a tenth larger, which their period divides.
     """
@@ -44,13 +44,13 @@ def findings(tables: Tables) -> dict[str, dict[str, Any]]:
 
 
 def _family(runs: Runs) -> dict[int, Sequence[Row]]:
-    """Runs on the flat surface, at 0, and on pillars as far apart as wide, along x, by n_p."""
+    """Return the runs along x on the flat surface, 0, and on pillars with n_s = n_p, by n_p."""
     plain = [s for s in runs if is_even(s) or (not s.lengths and s.direction == "x")]
     return {scene.n_p: runs[scene] for scene in sorted(plain, key=lambda scene: scene.n_p)}
 
 
 def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
-    """Static friction on a flat surface and on pillars of each size."""
+    """Return static friction on a flat surface and on pillars of each size."""
     samples = {size: np.array([row["static_friction"] for row in family[size]]) for size in family}
     flat = samples.pop(0, None)
     if flat is None or not samples:
@@ -84,7 +84,7 @@ def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, 
 
 
 def _order(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any]:
-    """Order of detachment on pillars, and whether the force peaks before the mean detachment."""
+    """Return the order of detachment on pillars, and the surfaces with t_max before t_avg."""
     inward = select(_tested(tables, "Order of detachment on a pillar"), verdict="reproduced")
     alone = _by_size(_tested(tables, "The order of detachment never changes"))
     precursors = _tested(tables, "Precursors are negligible on very large pillars")
@@ -102,7 +102,7 @@ def _order(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, Any
 
 
 def _correlation(tables: Tables) -> dict[str, Any]:
-    """Correlation length of first detachment times along the sides of pillars, in blocks."""
+    """Return l_c of first detachment times along the sides of pillars, in blocks."""
     rows = _tested(tables, "Correlation length of about three blocks or more")
     values = [row["value"] for row in rows]
     growth = _tested(tables, "Correlation length grows with n_p")
@@ -123,11 +123,11 @@ def _correlation(tables: Tables) -> dict[str, Any]:
 
 
 def _peaks(tables: Tables) -> dict[str, Any]:
-    """How far the force falls between two load peaks: with pillars and grooves, and with either."""
+    """Return the fall of the force between two load peaks, with hierarchy and without."""
     along = _by_size(_tested(tables, "Two load peaks along grooves"))
     square = _tested(tables, "Square pawls have one load peak")
-    others = _tested(tables, "Without hierarchy one load peak")
-    others += [row | {"case": "square pawls"} for row in square]
+    alone = _tested(tables, "Without hierarchy one load peak")
+    others = alone + [row | {"case": "square pawls"} for row in square]
     if not along:
         return {}
     others = select(others, outcome="fails")
@@ -137,6 +137,7 @@ def _peaks(tables: Tables) -> dict[str, Any]:
         "least": f"{ordered[0][1]['claimed_low']:g}",
         "along": [(size, _quoted(row)) for size, row in ordered],
         "others": [(row["case"].removeprefix("surface = "), _quoted(row)) for row in others],
+        "is_open": not alone or alone[0]["verdict"] == "not settled",
     }
 
 
@@ -167,14 +168,14 @@ def _lag(rows: Sequence[Row]) -> Interval:
 
 
 def _sign(difference: Interval, negative: str, positive: str, unknown: str) -> str:
-    """Return the word for the sign that the interval leaves no doubt of."""
+    """Return the word for the sign of a difference, `unknown` where its interval includes zero."""
     if difference.high < 0.0:
         return negative
     return positive if difference.low > 0.0 else unknown
 
 
 def _change(difference: Interval) -> str:
-    """Say by how much static friction on pillars is lower or higher."""
+    """Say by how much static friction on pillars is lower or higher than on the flat surface."""
     word = _sign(difference, "lower", "higher", "")
     if not word:
         return f"does not differ significantly ({number(difference)})"

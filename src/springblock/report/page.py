@@ -111,11 +111,14 @@ def _of_study(
 def statements(table: Sequence[Row]) -> list[Row]:
     """Return the first row of each statement of the table `claims`, with what the page adds to it.
 
-    That is its figure, what decided its verdict, and the anchor of its part of the page.
+    That is the paper's words and the criterion, its figure, what decided its verdict, and the
+    anchor of its part of the page.
     """
     return [
         {
             **part[0],
+            "words": part[0]["statement"].partition(" Tested: ")[0],
+            "criterion": part[0]["statement"].partition(" Tested: ")[2],
             "figure": _FIGURES.get(part[0]["claim"]),
             "decided": decided(part),
             "anchor": "claims-" + anchor(f"{number}. {part[0]['claim']}"),
