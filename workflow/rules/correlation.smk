@@ -1,6 +1,6 @@
 # Correlations of detachment times along the sides of pillars, scene by scene and in two tables.
 
-#: Scenes whose pillars have sides, and which have several realisations: c(r) needs differences between them.
+#: Scenes whose pillars have sides, with the several realisations that c(r) needs.
 WITH_SIDES = [
     each.scene.folder
     for each in ENSEMBLE.values()
@@ -67,4 +67,4 @@ rule correlations:
         ),
     localrule: True
     message:
-        "All correlations are in their two tables"
+        "All correlations are in two tables"

@@ -1,5 +1,5 @@
-# From scenes to realisations and their table. Of a rule with many jobs, such as simulate_batch, a rule
-# without jobs of its own collects the files: simulate.
+# From scenes to realisations and their table. The rule `simulate` stands for all jobs of `simulate_batch`,
+# and `fields` for those of `fields_of_scene`.
 
 #: Numerical method and material of all scenes, as options of the command line.
 HOW = " ".join(
