@@ -58,7 +58,7 @@ def _has_the_same_physics() -> bool:
 def _is_sound(results: Path, other: Path | None) -> bool:
     """Print the faults of a folder, and how its tables differ from those of another."""
     found = [fault.reason for fault in audit.faults(results)]
-    complete = f"{results}: every file is complete, in its place and of the current code"
+    complete = f"{results}: all files are complete, in their place and made by the current code"
     click.echo("\n".join(found or [complete]))
     same = []
     if other is not None:
