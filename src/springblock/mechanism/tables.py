@@ -45,7 +45,7 @@ FRICTION = pa.schema(
             independent="static friction without load transfer",
             quasi_static="static friction with load transfer, without inertia",
             overshooting="static friction with load transfer, overshoot and sticking",
-            simulation="static friction of the simulation",
+            simulation="static friction in the simulation",
         ),
     ]
 )
