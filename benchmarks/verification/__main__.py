@@ -26,7 +26,7 @@ def main() -> None:
 @click.argument("t_det", type=INPUT, metavar="TABLE")
 @click.option("--force", type=INPUT, help="Table of the force: columns time, force.")
 def compare(problem: str, t_det: Path, force: Path | None) -> None:
-    """Say what TABLE, with the columns y, x and t_det, is off by."""
+    """Print the errors of TABLE, which has the columns y, x and t_det."""
     with one_sentence():
         answer = read_answer(PROBLEMS[problem], t_det, force)
     reference = read_reference(PROBLEMS[problem])
@@ -39,16 +39,16 @@ def compare(problem: str, t_det: Path, force: Path | None) -> None:
 @main.command()
 @click.argument("problems", type=_NAME, nargs=-1)
 def reference(problems: tuple[str, ...]) -> None:
-    """Write surface and reference of PROBLEMS, of all by default, in some minutes."""
+    """Write surface and reference of PROBLEMS, by default of all; takes minutes."""
     for name in problems or PROBLEMS:
         references.write_surface(PROBLEMS[name])
         references.write_reference(PROBLEMS[name])
-        click.echo(f"{name} is written")
+        click.echo(f"{name}: written")
 
 
 @main.command()
 def entries() -> None:
-    """Write ENTRIES.md: what our integrators and Siconos are off by, and their CPU time."""
+    """Write ENTRIES.md: errors and CPU times of our integrators and Siconos."""
     write_text(Path(__file__).with_name("ENTRIES.md"), own.page())
 
 

@@ -1,4 +1,4 @@
-"""The first entries: our integrators and Siconos at some steps, as one table per problem."""
+"""The first entries: our integrators and Siconos at several steps, as one table per problem."""
 
 import os
 import subprocess
@@ -44,24 +44,24 @@ _PAGE = """# Entries
 
 Written by `python -m benchmarks.verification entries`; README.md defines the metrics. In short,
 t_det is the RMS error before the horizon over t_max, force the largest error before t_max over the
-largest force, and order the number of blocks out of order. The first line of each table says how
-uncertain these are: entries below cannot be told apart.
+largest force, and order the number of blocks out of order. The first line of each table gives the
+uncertainties of the reference: smaller errors cannot be distinguished.
 
-CPU s is the time of one run on one core, without compilation: of our integrators the median of
-three runs, of Siconos a single run, without set-up.
+CPU s is the CPU time of one run on one core, without compilation: for leapfrog, rk4 and plain rk4
+the median of three runs, for Siconos a single run without set-up.
 """
 
 
 def solved_by(
     integrator: str, step: float, problem: Problem, surface: Surface
 ) -> tuple[Answer, int]:
-    """Return what one of our integrators says, and its number of force evaluations."""
+    """Return the answer of one of our integrators, and its number of force evaluations."""
     run = solve_with(integrator, step, surface, problem.duration, SAMPLE_INTERVAL)
     return Answer(problem, run.t_det, run.force), FORCE_EVALUATIONS[integrator] * run.steps
 
 
 def solved_by_siconos(step: float, problem: Problem) -> tuple[Answer, int, float]:
-    """Return what Siconos says, its force evaluations and its CPU time in s."""
+    """Return the answer of Siconos, its number of force evaluations and its CPU time in s."""
     with tempfile.TemporaryDirectory() as folder:
         t_det, force = Path(folder, "t_det.csv"), Path(folder, "force.csv")
         words = [problem.folder / "surface.csv", step, problem.duration, t_det, force]

@@ -1,4 +1,4 @@
-# Error against work, stiff and extreme cases, and the page on both.
+# Numerical errors, stiff and extreme cases, and the page on both.
 
 from springblock.accuracy import conventions
 
@@ -15,7 +15,7 @@ rule compare_scene:
     wildcard_constraints:
         comparison="[a-z]+",
         scene="[a-z]+",
-    # The longest jobs begin first, lest one of them ends alone.
+    # The longest jobs begin first, so that none of them is left alone at the end.
     priority: 1
     resources:
         mem_mb=800,
@@ -63,7 +63,7 @@ use rule precision_table as production_table with:
     benchmark:
         f"{RESULTS}/benchmarks/production_table.tsv"
     message:
-        "Collecting errors at full size in one table"
+        "Collecting errors with N = 120 in one table"
 
 
 rule stability_table:
@@ -81,7 +81,7 @@ rule stability_table:
     params:
         code=code("accuracy"),
     message:
-        "Trying stiff and extreme cases"
+        "Running stiff and extreme cases"
     shell:
         "springblock --code {params.code} make stability --output {output:q} > {log:q} 2>&1"
 

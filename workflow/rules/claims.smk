@@ -1,6 +1,6 @@
-# Which of the paper's statements are reproduced, and what was learnt beyond them.
+# Verdicts on the paper's statements, and questions beyond the paper.
 
-#: Groups whose realisations claims rest on.
+#: Groups whose realisations test the statements.
 GROUPS_CLAIMED = ["flat", "pillars", "small_pillars", "grooves", "angles", "third_level"]
 GROUPS_CLAIMED += ["loading", "scatter", "repetitions", "groove_lengths", "one_level"]
 GROUPS_CLAIMED += ["square", "ungrooved"]

@@ -1,4 +1,4 @@
-# The configuration, checked and expanded, and what several steps ask of it.
+# The configuration, checked and expanded, and functions that several rules share.
 
 import logging
 import os
@@ -51,17 +51,17 @@ wildcard_constraints:
 
 
 def code(step):
-    """The digest of the code of a step: jobs run again where it changes."""
+    """The digest of the code of a step of `provenance.STEPS`: jobs run again when it changes."""
     return lambda wildcards: digest(step)
 
 
 def ensembles(groups):
-    """Ensembles of groups of scenes, as far as the study has these, each once."""
+    """Ensembles of those groups that the study has, each once."""
     return list(dict.fromkeys(chain.from_iterable(ENSEMBLES.get(group, []) for group in groups)))
 
 
 def batches(members):
-    """Files that hold the realisations of these ensembles."""
+    """Files of the realisations of these ensembles."""
     return [
         f"{RESULTS}/realisations/{ensemble.scene.folder}/batch-{i}.parquet"
         for ensemble in members
@@ -80,14 +80,14 @@ def scene(wildcards):
 
 
 def own_files(wildcards):
-    """Masks, coefficients and laws that a scene is read from."""
+    """Files of the mask, the coefficients and the law of a scene."""
     of_study = {"law": getattr(SETUP.material.law, "file", None)}
     files = of_study | ENSEMBLE[wildcards.scene].scene.files
     return [str(file) for file in files.values() if file]
 
 
 def duration(wildcards):
-    """The duration of a run, as an option; none to end after the force peak."""
+    """The duration of a run, as an option; without it a run ends after the force peak."""
     seconds = ENSEMBLE[wildcards.scene].duration
     return "" if seconds is None else f"--duration {seconds}"
 
@@ -104,23 +104,23 @@ def work(wildcards):
 
 
 def memory(wildcards, attempt):
-    """MB to request, more in each further attempt."""
+    """MB to request, more in each attempt."""
     return attempt * cost.memory(ENSEMBLE[wildcards.scene].scene, runs_of(wildcards))
 
 
 def memory_of_fields(wildcards, attempt):
-    """MB to request; a snapshot takes as much as a realisation."""
+    """MB to request; a snapshot needs as much as a realisation."""
     ensemble = ENSEMBLE[wildcards.scene]
     return attempt * cost.memory(ensemble.scene, 1 + len(ensemble.snapshot_times))
 
 
 def minutes(wildcards, attempt):
-    """Minutes to request, more in each further attempt."""
+    """Minutes to request, more in each attempt."""
     return attempt * cost.minutes(*work(wildcards))
 
 
 class Announced(logging.Handler):
-    """Times of the jobs that Snakemake announces to its loggers; a dry run ends with their sum."""
+    """Adds up the expected times of the jobs of a dry run, and prints the sum at its end."""
 
     def __init__(self):
         super().__init__()
@@ -148,7 +148,7 @@ if workflow.is_main_process:
 
 
 def begin():
-    """Write down what results are made with, before the first job; dry runs do not come here."""
+    """Record configuration and code before the first job; dry runs do not call this."""
     refuse_orphans()
     try:
         record.begin(Path(RESULTS), config, touched=workflow.touch)
@@ -165,7 +165,7 @@ def tell_errors():
 
 
 def refuse_orphans():
-    """Stop while Slurm holds jobs that a killed run of this folder has left; both would write the same files."""
+    """Refuse to start while Slurm has jobs of a killed run of this folder, which write the same files."""
     if not shutil.which("squeue"):
         return
     command = ["squeue", "--me", "--noheader", "--format=%j|%Z"]
@@ -175,6 +175,6 @@ def refuse_orphans():
     orphans = sorted(name for name in names if name.startswith("springblock_"))
     if orphans:
         raise WorkflowError(
-            "Slurm still holds jobs of a run of this folder that was killed. "
-            f"Wait for their end, or cancel them: scancel --name={','.join(orphans)}"
+            "Slurm still has jobs of a run of this folder that was killed. "
+            f"Wait until they end, or cancel them: scancel --name={','.join(orphans)}"
         )

@@ -1,6 +1,6 @@
 # Correlations of detachment times along the sides of pillars, scene by scene and in two tables.
 
-#: Scenes whose pillars have sides. Of a single realisation, where nothing scatters, there is no c(r).
+#: Scenes whose pillars have sides, with the several realisations that c(r) needs.
 WITH_SIDES = [
     each.scene.folder
     for each in ENSEMBLE.values()

@@ -1,17 +1,17 @@
-# What is drawn: figures, sweeps and films, what each needs, and what its caption says.
+# Figures, sweeps and films of the study, with their inputs and captions.
 
 from springblock.plotting import figures
 from springblock.plotting.caption import file_name
 from springblock.plotting.declaration import having
 from springblock.plotting.lines import axes
 
-#: Groups of scenes that figures are drawn from.
+#: Groups of scenes from which figures are drawn.
 SHOWN = study.for_figures(config, ENSEMBLES)
 SCENES = {group: [each.scene for each in members] for group, members in SHOWN.items()}
-#: Groups that questions beyond the paper look at.
+#: Groups for the questions beyond the paper.
 GROUPS_BEYOND = ["lattice", "disorder", "layer", "peaks", "friction", "scatter"]
 GROUPS_BEYOND = [group for group in GROUPS_BEYOND if SHOWN.get(group)]
-#: What figures declare whose groups of scenes and tables the study has.
+#: Declarations of those figures whose groups of scenes and tables the study has.
 FIGURES = {
     name: figure
     for name, figure in figures.FIGURES.items()
@@ -20,19 +20,19 @@ FIGURES = {
     and (figure.category != "Accuracy" or config["accuracy"])
     and (figure.category != "Mechanism" or config["mechanism"])
 }
-#: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
+#: Default sweeps of a study with `study: own`: friction against each parameter that varies.
 SWEPT = {
     axis: {"groups": list(ENSEMBLES), "over": axis}
     for axis in axes(each.scene for each in ENSEMBLE.values())
     if OWN
 }
-#: Observables over an axis of some groups that the study has.
+#: Sweeps whose groups of scenes the study has.
 SWEEPS = {
     f"sweep_{name}": sweep
     for name, sweep in config["figures"].get("sweeps", SWEPT).items()
     if all(ENSEMBLES.get(group) for group in sweep["groups"])
 }
-#: What is filmed, by group: the ensemble on the surface that a figure shows.
+#: Ensembles that are filmed, by group: on the surface that a figure shows.
 FILMS = {
     group: ENSEMBLE[scene.folder]
     for group, figure in {"flat": "figure_3", "pillars": "figure_5", "grooves": "figure_8"}.items()
@@ -43,7 +43,7 @@ if OWN:  # each surface, in the first of its directions
 
 
 def needed(figure):
-    """Files that a picture is drawn from; there must be surfaces with the lengths that it shows."""
+    """Yield the files of a figure; refuse lengths that no scene has."""
     if figure in SWEEPS:
         yield from batches(ensembles(SWEEPS[figure]["groups"]))
         return
@@ -66,7 +66,7 @@ def needed(figure):
 
 
 def command(figure):
-    """What draws a picture, but for files and caption."""
+    """The command that draws a figure, without files and caption."""
     if figure in SWEEPS:
         of = [f"--of {observable}" for observable in SWEEPS[figure].get("of", [])]
         return " ".join(["plot", "--over", SWEEPS[figure]["over"], *of])
@@ -75,7 +75,7 @@ def command(figure):
 
 
 def caption(figure):
-    """What a figure shows, and what of this study it is drawn from; a sweep says it itself."""
+    """The caption of a figure, as an option; sweeps write their own."""
     if figure in SWEEPS:
         return ""
     lengths = config["figures"].get(figure, {})

@@ -21,7 +21,7 @@ rule mechanism_part:
     params:
         code=code("mechanism"),
     message:
-        "Comparing models of the onset of sliding: {wildcards.part}"
+        "Comparing simpler models with the simulation: {wildcards.part}"
     shell:
         "springblock --code {params.code} make mechanism-{wildcards.part} --output {output:q} "
         "> {log:q} 2>&1"
@@ -41,7 +41,7 @@ use rule precision_table as mechanism_table with:
     params:
         code=code("mechanism"),
     message:
-        "Collecting models of the onset of sliding: {wildcards.table}"
+        "Collecting results of simpler models: {wildcards.table}"
 
 
 use rule accuracy as mechanism with:

@@ -1,4 +1,4 @@
-# Films of the slip front, and the page that shows the study: films, figures, pages and tables.
+# Films of the slip front, and the report: films, figures, pages and tables.
 
 for surface, shown in FILMS.items():
 

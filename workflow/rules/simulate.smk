@@ -1,7 +1,7 @@
-# From a scene to its realisations, and one table of them all. Where a step has many jobs, its own
-# rule collects what they leave.
+# From scenes to realisations and their table. The rule `simulate` stands for all jobs of `simulate_batch`,
+# and `fields` for those of `fields_of_scene`.
 
-#: How every scene is computed, as options of the command line.
+#: Numerical method and material of all scenes, as options of the command line.
 HOW = " ".join(
     [
         f"--integrator {config['integrator']} --step {config['step']}",
@@ -14,7 +14,7 @@ COMPILED = {setup.integrator for setup in SETUPS.values()}
 if config["accuracy"]:
     COMPILED |= {"leapfrog", "rk4"}
 LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup in SETUPS.values()}
-#: Cuts of measured surfaces by the name of the mask that they make.
+#: Cuts of measured surfaces, by the name of the mask.
 MASKS = [ensemble.scene.mask for ensemble in ENSEMBLE.values() if ensemble.scene.mask]
 CUTS = {mask.name: mask.cut for mask in MASKS if mask.cut}
 
@@ -154,7 +154,7 @@ rule fields_of_scene:
         times=lambda here: " ".join(f"--snapshot {s}" for s in ENSEMBLE[here.scene].snapshot_times),
         seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
     message:
-        "Keeping fields of {wildcards.scene}, seed {params.seed}"
+        "Storing fields of {wildcards.scene}, seed {params.seed}"
     shell:
         "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
         "--prelude {input.prelude:q} --first-seed {params.seed} {params.times} "
@@ -219,6 +219,6 @@ rule repair:
     params:
         results=RESULTS,
     message:
-        "Setting aside what cannot be used"
+        "Setting aside unusable files"
     shell:
         "springblock repair {params.results:q} 2>&1 | tee {log:q}"

@@ -31,28 +31,28 @@ SCHEMA = pa.schema(
         *texts(scene="flat, pillared or grooved; pulled along x"),
         N_BLOCKS,
         *texts(
-            quantity="what value and errors are of",
-            unit="of value, scale, deviation and bias: 1, s or blocks",
+            quantity="quantity to which value and errors refer",
+            unit="unit of value, scale, deviation and bias: 1, s or blocks",
         ),
         *numbers("s", step="integration step h of the leapfrog"),
         *numbers(
             "see unit",
-            value="mean over the realisations; decay length: l of A exp(-r/l), fitted to all",
+            value="mean over the realisations; the decay length is fitted to all of them",
             scale="reference of relative errors: the value at the finest step, t_max for "
             "t_max - t_avg",
-            deviation="standard deviation of one realisation; of the decay length: that of the "
-            "bootstrap times the root of the number of realisations",
-            bias="value minus that at the finest step, same seeds",
-            bias_error="standard error of the bias; paired",
-            ci_low="lower end of the bias's 95 % interval: Student's; of the decay length, "
-            "bootstrap percentiles",
-            ci_high="upper end",
+            deviation="standard deviation over realisations; for the decay length, bootstrap "
+            "standard error times the square root of their number",
+            bias="value minus that at the finest step, for the same seeds",
+            bias_error="standard error of the bias, paired by seed",
+            ci_low="lower limit of the 95 % interval of the bias: Student's t; for the decay "
+            "length, bootstrap percentiles",
+            ci_high="upper limit",
         ),
         column("realisations", pa.int32(), "1", "number of seeds, each at every step"),
         *numbers(
             "s",
             cpu_seconds="median CPU time of one realisation",
-            prelude_seconds="CPU time of the prelude, shared by all",
+            prelude_seconds="CPU time of the prelude, which all share",
         ),
     ]
 )

@@ -48,18 +48,18 @@ SCHEMA = pa.schema(
         N_BLOCKS,
         *texts(integrator="leapfrog, rk4 or plain rk4"),
         *numbers("s", step="integration step h"),
-        *texts(quantity="what the error is of"),
+        *texts(quantity="quantity to which the error refers"),
         *numbers(
             "1",
             error="reference: root mean square over the realisations of the relative error; "
-            "t_det and t_avg relative to t_max. paired: relative bias. order: mean slope of log "
-            "error over log step, from the step to the finest",
-            ci_low="order, paired: lower end of the 95 % t interval; else error",
-            ci_high="order, paired: upper end; else error",
+            "t_det and t_avg relative to t_max. order: mean slope of log error over log step, from "
+            "the step to the finest. paired: relative bias. scatter: 0, by definition",
+            ci_low="lower limit of the 95 % t interval; reference: error",
+            ci_high="upper limit; reference: error",
         ),
         column("realisations", pa.int32(), "1", "number of seeds"),
-        *numbers("s", cpu_seconds="median CPU time of one realisation; 0 in order, scatter"),
-        *numbers("1", force_evaluations="mean number per realisation; likewise"),
+        *numbers("s", cpu_seconds="median CPU time of one realisation; order, scatter: 0"),
+        *numbers("1", force_evaluations="mean number per realisation; order, scatter: 0"),
     ]
 )
 

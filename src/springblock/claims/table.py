@@ -19,16 +19,16 @@ SCHEMA = pa.schema(
             statement='the paper\'s words, and after "Tested:" the criterion',
             case="surface, part or reading that the row is about",
             statistic="definition of the value",
-            unit="unit of the seven numbers that follow",
+            unit="unit of the numbers from value to claimed_high",
         ),
         *numbers(
             "see unit",
             value="the statistic; NaN if not tested",
-            ci_low="lower end of its 95 % interval",
-            ci_high="upper end",
-            together_low="lower end of the 95 % interval simultaneous with those of the "
+            ci_low="lower limit of its 95 % interval",
+            ci_high="upper limit",
+            together_low="lower limit of the 95 % interval simultaneous with those of the "
             "statement's other rows (Bonferroni)",
-            together_high="upper end",
+            together_high="upper limit",
             claimed_low="lower limit of the claimed range",
             claimed_high="upper limit",
         ),
@@ -39,13 +39,13 @@ SCHEMA = pa.schema(
         ),
         *numbers(
             "1",
-            needed="realisations that decide with a power of 90 %, if value and scatter are the "
-            "true ones",
+            needed="realisations that decide with a power of 90 %, if value and standard deviation "
+            "are the true ones",
         ),
         *texts(
             verdict="verdict on the statement, from all its rows",
             boundary="where the statement holds and where it fails",
-            rests_on="files, scenes and rows behind the value, by ';'",
+            rests_on="files, scenes and rows behind the value, separated by ';'",
         ),
     ]
 )

@@ -36,9 +36,9 @@ _files = partial(click.option, type=INPUT, multiple=True)
 
 @click.command("claims")
 @click.argument("batches", type=INPUT, nargs=-1, required=True)
-@_files("--correlation", help="Table of correlation functions. Can be repeated.")
-@_files("--correlation-length", help="Table of correlation lengths. Can be repeated.")
-@_files("--work-precision", help="Table of work and precision. Can be repeated.")
+@_files("--correlation", help="Table `correlation`. Can be repeated.")
+@_files("--correlation-length", help="Table `correlation_length`. Can be repeated.")
+@_files("--work-precision", help="Table `work_precision`. Can be repeated.")
 @click.option("--configuration", required=True, help="Digest of the study's configuration.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 @click.option("--page", "text", type=OUTPUT, required=True, help="Markdown file.")
@@ -51,9 +51,10 @@ def claims(
     output: Path,
     text: Path,
 ) -> None:
-    """Test the paper's statements on BATCHES of realisations and on tables.
+    """Test the paper's statements.
 
-    Statements whose data are missing are not tested.
+    The tests use BATCHES of realisations and tables. Statements whose data are missing are not
+    tested.
     """
     refuse_mixture((file, load(file)) for file in (batches[0], *correlation, *correlation_length))
     found = by_scene(read_records(batches))

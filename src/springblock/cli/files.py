@@ -13,12 +13,12 @@ from springblock.report.dictionary import columns, page
 @click.command("info")
 @click.argument("file", type=INPUT)
 def info(file: Path) -> None:
-    """Describe the table FILE: its rows, its origin, and its columns with their units.
+    """Describe a table: rows, origin, and columns with units.
 
     `springblock table` lists its ensembles.
     """
     if file.suffix in (".npz", ".nc"):
-        raise ValueError(f"{file} is no table; info describes Parquet files")
+        raise ValueError(f"{file} is not a table; info describes Parquet files")
     table = load(file)
     click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
     for key, value in origin_of(table).items():
@@ -29,5 +29,5 @@ def info(file: Path) -> None:
 @click.command("dictionary")
 @click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
 def dictionary(output: Path) -> None:
-    """Write the meaning and unit of every column of every table."""
+    """Write the columns of all tables with units and meanings."""
     write_text(output, page())

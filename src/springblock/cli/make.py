@@ -33,17 +33,23 @@ INPUTS = {
 @click.command("make", epilog=f"Names: {', '.join(INPUTS)}.")
 @click.argument("name", type=click.Choice(list(INPUTS)), metavar="NAME")
 @click.argument("inputs", type=INPUT, nargs=-1)
-@click.option("--configuration", help="Digest of the configuration that collected tables share.")
+@click.option("--configuration", help="Digest of the configuration, for `collect`.")
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file, or Markdown for a page.")
 def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output: Path) -> None:
     """Make the table or page NAME.
 
-    Tables without INPUTS: stability, stiff and extreme cases; reference-SCENE and others, errors in
-    one comparison on one scene; production-SCENE, errors with N = 120; mechanism-N_P and others,
-    simpler models on one surface. From INPUTS: collect joins tables of equal columns, made by the
-    same code; accuracy writes the page on errors from the tables work_precision, stability,
-    realisations and, if there is one, production; mechanism writes the page on friction and load
-    peaks from its tables; beyond answers questions beyond the paper from batches of realisations.
+    \b
+    Tables, without INPUTS:
+      stability          stiff and extreme cases
+      reference-SCENE    errors of single runs (likewise paired-SCENE: of ensembles)
+      production-SCENE   errors of ensembles with N = 120
+      mechanism-N_P      simpler models on pillars (likewise on other surfaces)
+    From INPUTS:
+      collect            one table, from tables of equal columns made by the same code
+      accuracy           page on errors, from the tables work_precision, stability,
+                         realisations and, if there is one, production
+      mechanism          page on friction and load peaks, from its tables
+      beyond             page on questions beyond the paper, from batches
     """
     wanted, least, most = INPUTS[name]
     if len(inputs) < least or (most is not None and len(inputs) > most):
@@ -102,16 +108,17 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     "films",
     type=(INPUT, INPUT),
     multiple=True,
-    help="MP4 file, and the batch whose first run it shows. Can be repeated.",
+    help="MP4 file and the batch whose first run it shows. Can be repeated.",
 )
-@click.option("--own", is_flag=True, help="Report on a study of one's own scenes.")
+@click.option("--own", is_flag=True, help="Report on a study with `study: own`.")
 @click.option("--output", type=OUTPUT, required=True, help="HTML file.")
 def report(
     files: tuple[Path, ...], films: tuple[tuple[Path, Path], ...], own: bool, output: Path
 ) -> None:
-    """Write the HTML report from FILES: pictures (PNG), pages (Markdown) and tables (Parquet).
+    """Write the HTML report of a study.
 
-    With --own it begins with means and changes of the table `realisations`.
+    FILES are pictures (PNG), pages (Markdown) and tables (Parquet). With --own the report begins
+    with means and changes of the table `realisations`.
     """
     from springblock.report.page import page  # needs the packages of the study
 

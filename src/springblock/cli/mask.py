@@ -17,15 +17,20 @@ from springblock.model.material import Material
 @click.option(
     "--bearing-area", type=float, help="Share of the blocks in contact, the highest ones."
 )
-@click.option("--height", type=float, help="Height from which on blocks are in contact, m.")
-@defaulted("--spacing", type=float, default=Material().spacing, help="Of blocks, m.")
-@click.option("--channel", help="Name of the channel of heights.  [default: the reader's]")
+@click.option("--height", type=float, help="Height that blocks in contact reach, m.")
+@defaulted("--spacing", type=float, default=Material().spacing, help="Lattice spacing, m.")
+@click.option(
+    "--channel", help="Channel of the file that holds the heights.  [default: the reader's]"
+)
 @click.option(
     "--detrend", type=click.Choice(list(TRENDS)), help="Trend to subtract before the cut."
 )
-@click.option("--output", type=OUTPUT, required=True, help="Array of NumPy (.npy).")
+@click.option("--output", type=OUTPUT, required=True, help="NumPy array (.npy).")
 def mask(topography: Path, output: Path, **cut: Any) -> None:
-    """Cut TOPOGRAPHY at a bearing area or height, and write the contact mask, for --mask."""
+    """Cut a measured TOPOGRAPHY into a contact mask.
+
+    Give --bearing-area or --height. Other commands take the result as --mask.
+    """
     contact = Cut(topography, **cut).mask()
     with whole_file(output) as partial, partial.open("wb") as file:
         np.save(file, contact)

@@ -53,12 +53,19 @@ SURFACE = [
     click.option("--n-blocks", type=int, default=0, help="N, blocks along x; not with --mask."),
     click.option("--n-rows", type=int, default=0, help="Blocks along y; N by default."),
     click.option("--n-p", type=int, default=0, help="Size of the pillars, blocks."),
-    click.option("--n-s", type=int, default=0, help="Distance between them, blocks."),
+    click.option("--n-s", type=int, default=0, help="Distance between the pillars, blocks."),
     click.option("--n-p2", type=int, default=0, help="Width of the pawls, blocks."),
     click.option("--n-s2", type=int, default=0, help="Width of the grooves along x, blocks."),
-    click.option("--n-p3", type=int, default=0, help="Length of the pawls, blocks."),
-    click.option("--n-s3", type=int, default=0, help="Width of the grooves between them, blocks."),
-    click.option("--along-3", type=click.Choice("xy"), help="Axis of these grooves; y by default."),
+    click.option(
+        "--n-p3",
+        type=int,
+        default=0,
+        help="Length of the pawls between grooves of level 3, blocks.",
+    ),
+    click.option("--n-s3", type=int, default=0, help="Width of the grooves of level 3, blocks."),
+    click.option(
+        "--along-3", type=click.Choice("xy"), help="Axis of the grooves of level 3; y by default."
+    ),
     defaulted("--edges", type=click.Choice(EDGES), default="free", help="Edges of the surface."),
     click.option(
         "--mask",
@@ -71,14 +78,14 @@ SURFACE = [
         "mu_static_field",
         type=INPUT,
         callback=given(BlockMap.coefficients),
-        help="Array (.npy) of static friction coefficients, in place of random ones.",
+        help="Array (.npy) of static friction coefficients, instead of random ones.",
     ),
     click.option(
         "--mu-dynamic",
         "mu_dynamic_field",
         type=INPUT,
         callback=given(BlockMap.coefficients),
-        help="Array (.npy) of dynamic friction coefficients.",
+        help="Array (.npy) of dynamic friction coefficients, instead of random ones.",
     ),
 ]
 _SCENE = [
@@ -94,7 +101,7 @@ _SCENE = [
         "varied",
         multiple=True,
         callback=given(name_value_pairs),
-        help="Another value of a constant: step=1e-8. Can be repeated.",
+        help="Constant for the column `varied`: step=1e-8. Can be repeated.",
     ),
 ]
 

@@ -39,16 +39,23 @@ def _fields(files: tuple[Path, ...], options: object) -> Figure:
 @click.command("plot")
 @click.argument("files", type=INPUT, nargs=-1, required=True)
 @_SEED
-@click.option("--over", help="Draw all runs against this parameter: slider_velocity, n_p, ...")
+@click.option(
+    "--over", help="Parameter against which all runs are drawn: slider_velocity, n_p, ..."
+)
 @click.option(
     "--of",
     "observables",
     type=click.Choice(list(sweep.OBSERVABLES)),
     multiple=True,
-    help="Observable to draw; static_friction by default. Can be repeated.",
+    help="Observable with --over; static_friction by default. Can be repeated.",
 )
 @click.option(
-    "--output", "outputs", type=OUTPUT, multiple=True, required=True, help="PDF, PNG or SVG."
+    "--output",
+    "outputs",
+    type=OUTPUT,
+    multiple=True,
+    required=True,
+    help="PDF, PNG or SVG file. Can be repeated.",
 )
 def plot(
     files: tuple[Path, ...],
@@ -57,10 +64,11 @@ def plot(
     observables: tuple[str, ...],
     outputs: tuple[Path, ...],
 ) -> None:
-    """Draw one run: force, detachments, their map, and snapshots if any.
+    """Draw one run, fields of blocks, or runs against a parameter.
 
-    For a file of fields (.nc), draw maps of shear stress and slip. With --over, draw all runs of
-    FILES, which may be tables of realisations, against a parameter.
+    Of a run: force, detachments, their map, and snapshots if any. Of a file of fields (.nc): maps
+    of shear stress and slip. With --over: all runs of FILES, which may be tables of realisations,
+    against a parameter.
     """
     if files[0].suffix == ".nc":
         picture = _fields(files, seed is not None or over or observables)
@@ -83,9 +91,9 @@ def plot(
 @click.command("animate")
 @click.argument("run", type=INPUT)
 @_SEED
-@click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file; 7.5 s.")
+@click.option("--output", type=OUTPUT, required=True, help="GIF or MP4 file (7.5 s).")
 def animate(run: Path, seed: int | None, output: Path) -> None:
-    """Film one run of a file RUN: the detaching blocks beside the force curve."""
+    """Film one run of a file: detaching blocks and force curve."""
     film.animate(_chosen(run, seed), output)
 
 
@@ -93,6 +101,6 @@ def animate(run: Path, seed: int | None, output: Path) -> None:
 @scene_options
 @click.option("--output", type=OUTPUT, required=True, help="PDF, PNG or SVG file.")
 def show(scene: Scene, output: Path) -> None:
-    """Draw the surface of a scene: its blocks, those in contact, and the sliding direction."""
+    """Draw the blocks in contact and the sliding direction."""
     picture = still.show(scene.contact, scene.direction, str(scene))
     save(picture, output, still.SURFACE_CAPTION)

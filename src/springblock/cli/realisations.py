@@ -25,7 +25,7 @@ from springblock.model.scene import COLUMNS
 def aggregate(
     batches: tuple[Path, ...], configuration: str, realisations: int | None, output: Path
 ) -> None:
-    """Collect the summaries of all BATCHES into one table, a row per realisation."""
+    """Collect BATCHES in one table, one row per realisation."""
     table = read(batches, SUMMARY)
     if realisations not in (None, table.num_rows):
         raise ValueError(f"{table.num_rows} realisations in the batches; expected {realisations}")
@@ -42,7 +42,10 @@ def aggregate(
 @click.option("--output-correlation", type=OUTPUT, required=True, help="Parquet file of c(r).")
 @click.option("--output-length", type=OUTPUT, required=True, help="Parquet file of l_c.")
 def correlation(batches: tuple[Path, ...], output_correlation: Path, output_length: Path) -> None:
-    """Correlate detachment times along the sides of pillars; BATCHES hold one scene."""
+    """Correlate detachment times along the sides of pillars.
+
+    BATCHES must hold one scene.
+    """
     curves: list[Row] = []
     lengths: list[Row] = []
     for side, times in _sides(read_records(batches)):

@@ -20,10 +20,11 @@ from springblock.study import audit
     "whether this processor and these packages change more than rounding.",
 )
 def verify(results: Path | None, other: Path | None, physics: bool) -> None:
-    """Check a folder of RESULTS against its checksums and the current code.
+    """Check a folder of results, or compare two to the bit.
 
-    With OTHER, compare the tables of two studies, or two files, to the bit; `springblock compare`
-    tests differences of means. The exit status is 0 without a fault or difference, and 1 otherwise.
+    RESULTS alone are checked against their checksums and the current code. With OTHER, the tables
+    of two studies, or two files, are compared to the bit; `springblock compare` tests differences
+    of means. The exit status is 0 without a fault or difference, and 1 otherwise.
     """
     if physics == (results is not None):
         raise click.UsageError("give either a folder or file of results, or --physics")
@@ -57,7 +58,7 @@ def _has_the_same_physics() -> bool:
 def _is_sound(results: Path, other: Path | None) -> bool:
     """Print the faults of a folder, and how its tables differ from those of another."""
     found = [fault.reason for fault in audit.faults(results)]
-    complete = f"{results}: every file is complete, in its place and of the current code"
+    complete = f"{results}: all files are complete, in their place and made by the current code"
     click.echo("\n".join(found or [complete]))
     same = []
     if other is not None:
@@ -93,9 +94,10 @@ def _in_words(found: comparison.Comparison) -> str:
 @click.command("repair")
 @click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
 def repair(results: Path) -> None:
-    """Set aside unusable files of RESULTS, for `snakemake` to make them again.
+    """Set aside the unusable files of a folder of results.
 
-    Nothing is deleted: they are moved to the folder `set-aside` of RESULTS.
+    They are moved to the folder `set-aside` of RESULTS, and `snakemake` makes them again. Nothing
+    is deleted.
     """
     found = list(audit.set_aside(results))
     for fault in found:
@@ -114,7 +116,10 @@ def repair(results: Path) -> None:
 )
 @click.option("--output", type=OUTPUT, required=True, help="File of type .zip.")
 def archive_study(results: Path, configuration: Path, output: Path) -> None:
-    """Pack the study in this folder, its code and its RESULTS into one file, an RO-Crate."""
+    """Pack a study into one file, an RO-Crate.
+
+    It contains the code in this folder, the configuration and RESULTS.
+    """
     from springblock.study.archive import archive  # needs the packages of the study
 
     number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)

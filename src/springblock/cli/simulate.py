@@ -47,7 +47,7 @@ SETUP = [
         "--material",
         multiple=True,
         callback=given(name_value_pairs),
-        help="A constant in SI units: youngs_modulus=1e7. Can be repeated.",
+        help="Constant in SI units: youngs_modulus=1e7. Can be repeated.",
     ),
     click.option(
         "--law",
@@ -127,7 +127,10 @@ _CORES = defaulted("--cores", type=int, default=1, help="Cores for one large sur
 @_CORES
 @click.option("--output", type=OUTPUT, required=True, help="File of type .npz.")
 def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
-    """Compute the loading of a scene before its first detachment, shared by all seeds."""
+    """Compute the loading of a scene up to its first detachment.
+
+    All seeds of the scene share it.
+    """
     replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
 
 
@@ -141,7 +144,7 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
 @click.command("simulate")
 @setup_options
 @defaulted("--first-seed", type=_SEED, default=0, help="First seed of the friction coefficients.")
-@click.option("--last-seed", type=_SEED, help="Last seed, included; the first seed by default.")
+@click.option("--last-seed", type=_SEED, help="Last seed (included); by default the first seed.")
 @click.option(
     "--duration", type=float, help="Simulated time, s; by default until after the force peak."
 )
@@ -150,27 +153,27 @@ def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
     "snapshot_times",
     type=float,
     multiple=True,
-    help="Time at which displacements are kept, s. Can be repeated.",
+    help="Time at which displacements are stored, s. Can be repeated.",
 )
 @click.option(
     "--fields",
     "field_file",
     type=OUTPUT,
     help="NetCDF file (.nc) of displacement, velocity, slip, stress and state of blocks at the "
-    "times of --snapshot; one seed.",
+    "times of --snapshot. One seed.",
 )
 @click.option(
     "--prelude",
     type=INPUT,
-    help="File written by `springblock prelude`, which saves its computing time.",
+    help="File of `springblock prelude` for this scene, to save computing it again.",
 )
 @_CORES
 @click.option(
     "--checkpoint",
     "minutes",
     type=click.FloatRange(min=0.0, min_open=True),
-    help="Minutes between checkpoints in the file OUTPUT.checkpoint, from which the same command "
-    "continues; it is removed at the end. One seed.",
+    help="Minutes between checkpoints. After an interruption the same command continues from the "
+    "file OUTPUT.checkpoint, which is removed at the end. One seed.",
 )
 @click.option("--output", type=OUTPUT, required=True, help="Parquet file.")
 def simulate_batch(
@@ -186,7 +189,10 @@ def simulate_batch(
     minutes: float | None,
     output: Path,
 ) -> None:
-    """Simulate the realisations of a scene from --first-seed to --last-seed."""
+    """Simulate realisations of one scene.
+
+    There is one realisation for each seed from --first-seed to --last-seed.
+    """
     seeds = range(first_seed, (first_seed if last_seed is None else last_seed) + 1)
     if not seeds:
         raise click.BadParameter(f"--last-seed {last_seed} is below --first-seed {first_seed}")
@@ -283,10 +289,21 @@ def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
 
 
 @click.command("compile")
-@click.option("--integrator", "integrators", type=click.Choice(list(INTEGRATORS)), multiple=True)
-@click.option("--law", "laws", multiple=True, help="As for `springblock simulate`.")
+@click.option(
+    "--integrator",
+    "integrators",
+    type=click.Choice(list(INTEGRATORS)),
+    multiple=True,
+    help="Time integrator; leapfrog by default. Can be repeated.",
+)
+@click.option(
+    "--law",
+    "laws",
+    multiple=True,
+    help="Law of friction, as for `springblock simulate`; coulomb by default. Can be repeated.",
+)
 def compile_kernels(integrators: tuple[str, ...], laws: tuple[str, ...]) -> None:
-    """Compile the integrators with laws of friction, once for all jobs."""
+    """Compile the solver, once for all later runs."""
     surface = Surface.draw(Scene(n_blocks=4).contact, seed=0)
     for integrator, law in product(integrators or ["leapfrog"], laws or ["coulomb"]):
         constants: dict[str, Any] = {LAWS[law]: 1.0} if LAWS.get(law) else {}

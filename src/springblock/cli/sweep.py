@@ -87,7 +87,7 @@ _SWEPT = [
         "--vary",
         multiple=True,
         callback=given(_varied),
-        help="Values of a constant: slider_velocity=5e-4,1e-3. Can be repeated.",
+        help="Constant with its values: slider_velocity=5e-4,1e-3. Can be repeated.",
     ),
     defaulted(
         "--seeds", type=click.IntRange(1, 10**6), default=10, help="Realisations of each ensemble."
@@ -97,7 +97,10 @@ _SWEPT = [
     ),
     defaulted("--jobs", type=click.IntRange(1), default=1, help="Parallel processes."),
     click.option(
-        "--output", type=click.Path(file_okay=False, path_type=Path), required=True, help="Folder."
+        "--output",
+        type=click.Path(file_okay=False, path_type=Path),
+        required=True,
+        help="Folder of the results.",
     ),
 ]
 
@@ -113,11 +116,11 @@ def sweep(
     output: Path,
     **options: Any,
 ) -> None:
-    """Simulate ensembles of one surface for several constants and directions.
+    """Simulate one surface for several constants and directions.
 
-    The output folder receives the runs, the table realisations.parquet and a figure against each
-    constant or direction with several values, all of this command's runs. Runs already in the
-    folder are not repeated.
+    The output folder receives the runs, the table realisations.parquet, and a figure against each
+    constant with several values. Table and figures cover the runs of this command only; runs that
+    are already in the folder are not repeated.
     """
     usual, surface = setup_of(options), scene_of(options, direction="x", varied=())
     scenes = [

@@ -35,7 +35,9 @@ _OUTPUT = click.option(
 @click.argument("paths", type=_PATH, nargs=-1, required=True)
 @_OF
 @click.option(
-    "--by", multiple=True, help="Column that defines ensembles; all by default. Can be repeated."
+    "--by",
+    multiple=True,
+    help="Column that distinguishes ensembles; all by default. Can be repeated.",
 )
 @click.option(
     "--changes",
@@ -51,9 +53,10 @@ def table(
     of_ends: bool,
     output: Path | None,
 ) -> None:
-    """Show the mean observables of each ensemble in PATHS, files or folders of realisations.
+    """Show the mean observables of each ensemble.
 
-    Intervals are 95 % intervals of Student's t over seeds; each holds by itself.
+    PATHS are files or folders of realisations. Intervals are 95 % intervals of Student's t over
+    seeds, without correction for the number of ensembles.
     """
     members = ensembles(_rows(paths), by)
     rows = changes_over_ends(members, of) if of_ends else means(members, of, by)
@@ -68,10 +71,11 @@ def table(
 @_OF
 @_OUTPUT
 def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None) -> None:
-    """Compare the realisations in FIRST and SECOND, files or folders.
+    """Compare the means of two sets of realisations.
 
-    For each ensemble in both: the difference of means with its 95 % interval, paired where seeds
-    and friction coefficients are the same. `springblock verify` compares to the bit.
+    FIRST and SECOND are files or folders. For each ensemble in both: the difference of means with
+    its 95 % interval, paired where seeds and friction coefficients are the same. `springblock
+    verify` compares to the bit.
     """
     if first != second and (first in second.parents or second in first.parents):
         raise ValueError(f"{first} and {second} share their realisations; give two apart")

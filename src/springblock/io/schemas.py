@@ -33,16 +33,16 @@ SCENE = pa.schema(
         column("n_p", pa.int32(), "blocks", "side of a pillar; 0 without pillars"),
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
-        column("n_s2", pa.int32(), "blocks", "width of a groove of level 2; 0 without grooves"),
+        column("n_s2", pa.int32(), "blocks", "width of a groove; 0 without grooves"),
         column("n_p3", pa.int32(), "blocks", "length of a pawl between grooves of level 3, or 0"),
-        column("n_s3", pa.int32(), "blocks", "width of a groove of level 3; 0 without"),
+        column("n_s3", pa.int32(), "blocks", "width of a groove of level 3, or 0"),
         column("along_3", pa.string(), "x or y", "direction of the grooves of level 3, or ''"),
         column("varied", pa.string(), "name=value", "constants that differ from the study's"),
         column("direction", pa.string(), "x, y or degrees", "sliding direction"),
-        column("n_blocks", pa.int32(), "blocks", "side N of the surface, along x"),
+        column("n_blocks", pa.int32(), "blocks", "side N of the surface along x"),
         column("n_rows", pa.int32(), "blocks", "side of the surface along y"),
         column("edges", pa.string(), "free or periodic", "edges of the surface"),
-        column("mask", pa.string(), "name", "file and digest of the contact mask; '' without"),
+        column("mask", pa.string(), "name", "file and digest of the contact mask, or ''"),
         column("mu_static_field", pa.string(), "name", "file and digest of mu_static; '' if drawn"),
         column("mu_dynamic_field", pa.string(), "name", "the same for mu_dynamic; '' if drawn"),
     ]
@@ -55,15 +55,15 @@ SETUP = pa.schema(
         column("density", pa.float64(), "kg/m³", "density ρ"),
         column("pressure", pa.float64(), "Pa", "pressure P over the whole nominal area"),
         column("slider_velocity", pa.float64(), "m/s", "velocity v of the slider"),
-        column("spacing", pa.float64(), "m", "distance l between blocks"),
+        column("spacing", pa.float64(), "m", "lattice spacing l"),
         column("thickness", pa.float64(), "m", "thickness l_z of the layer"),
         column("gamma", pa.float64(), "1/s", "damping frequency γ"),
         column("mu_static", pa.float64(), "1", "mean of static coefficients"),
         column("mu_static_std", pa.float64(), "1", "standard deviation of static coefficients"),
         column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
         column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
-        column("distribution", pa.string(), "1", "distribution of drawn coefficients"),
-        column("correlation_length", pa.float64(), "m", "ℓ in the autocorrelation exp(-r²/ℓ²)"),
+        column("distribution", pa.string(), "1", "distribution of the coefficients"),
+        column("correlation_length", pa.float64(), "m", "ℓ in their autocorrelation exp(-r²/ℓ²)"),
         column(
             "law", pa.string(), "1", "law of friction; for a file its name, digest and constants"
         ),
@@ -71,7 +71,7 @@ SETUP = pa.schema(
         column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 for other laws"),
         column("integrator", pa.string(), "1", "leapfrog or rk4"),
         column("step", pa.float64(), "s", "integration step h"),
-        column("sample_interval", pa.float64(), "s", "time between two samples"),
+        column("sample_interval", pa.float64(), "s", "time between samples of the force"),
     ]
 )
 
@@ -85,16 +85,18 @@ SUMMARY = pa.schema(
         *SCENE,
         *SETUP,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
-        column("static_friction", pa.float64(), "1", "maximum of the force over P l² N²"),
+        column(
+            "static_friction", pa.float64(), "1", "largest friction force over the normal force"
+        ),
         column(
             "dynamic_friction",
             pa.float64(),
             "1",
-            "mean force over P l² N² from the first minimum after the peak to the end of the run; "
-            "settled only if the duration is well beyond t_max; NaN without a minimum",
+            "mean friction force over the normal force, from the first minimum after the peak to "
+            "the end of the run, which must be well beyond t_max; NaN without a minimum",
         ),
-        column("t_max", pa.float64(), "s", "time of the force maximum"),
-        column("t_avg", pa.float64(), "s", "mean first detachment time of the contact blocks"),
+        column("t_max", pa.float64(), "s", "time of the force peak"),
+        column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
         column("t_first", pa.float64(), "s", "time of the first detachment"),
         column("energy_error", pa.float64(), "1", "residual of the energy balance over the work"),
         column("steps", pa.int64(), "1", "number of integration steps"),
@@ -108,9 +110,9 @@ _SIDE = [
         "side",
         pa.string(),
         "x, y or grooves",
-        "direction of the sides of pillars; grooves: edges of the grooves within pillars",
+        "axis of the sides of pillars; grooves: edges of the grooves within pillars",
     ),
-    column("realisations", pa.int32(), "1", "number k of realisations"),
+    column("realisations", pa.int32(), "1", "number of realisations"),
 ]
 
 #: One row per scene, side and distance.
@@ -128,7 +130,12 @@ CORRELATION = pa.schema(
 CORRELATION_LENGTH = pa.schema(
     [
         *_SIDE,
-        column("l_c", pa.float64(), "blocks", "weighted least-squares fit of exp(-r/l_c)"),
+        column(
+            "l_c",
+            pa.float64(),
+            "blocks",
+            "correlation length: weighted least-squares fit of exp(-r/l_c)",
+        ),
         *_limits("ci", "blocks"),
         column(
             "r_last",
@@ -136,9 +143,14 @@ CORRELATION_LENGTH = pa.schema(
             "blocks",
             "last r of the fits, which begin at r = 1: 6, or n_p/3 on sides of less than 20 blocks",
         ),
-        column("tail", pa.float64(), "blocks", "l in A exp(-r/l) with A free; NaN if r_last < 3"),
+        column(
+            "tail",
+            pa.float64(),
+            "blocks",
+            "decay length: the same fit with A exp(-r/tail) and A free; NaN if r_last < 3",
+        ),
         *_limits("tail", "blocks"),
-        column("amplitude", pa.float64(), "1", "A in A exp(-r/l)"),
+        column("amplitude", pa.float64(), "1", "A in A exp(-r/tail)"),
         *_limits("amplitude", "1"),
     ]
 )
@@ -147,7 +159,9 @@ CORRELATION_LENGTH = pa.schema(
 BATCH = pa.schema(
     [
         *SUMMARY,
-        column("force", pa.list_(pa.float64()), "N", "|ΣF_s|, one per sample from t = 0"),
+        column(
+            "force", pa.list_(pa.float64()), "N", "friction force |ΣF_s|, one per sample from t = 0"
+        ),
         column(
             "detachments",
             pa.list_(pa.int32()),
@@ -158,15 +172,15 @@ BATCH = pa.schema(
             "switches",
             pa.list_(pa.int32()),
             "blocks",
-            "switches from rest to sliding since the previous sample",
+            "detachments since the previous sample, repeated ones included",
         ),
         column(
             "t_det",
             pa.list_(pa.float64()),
             "s",
-            "first detachment time of each block, row by row from y = 0; NaN without one",
+            "time of first detachment of each block, row by row from y = 0; NaN without one",
         ),
-        column("normal_force", pa.float64(), "N", "P l² N²"),
+        column("normal_force", pa.float64(), "N", "normal force P l² N²"),
         column(
             "contact",
             pa.list_(pa.bool_()),

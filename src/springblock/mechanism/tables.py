@@ -43,9 +43,9 @@ FRICTION = pa.schema(
             stress_variation="standard deviation over mean of the stress on blocks in contact, "
             "before any slip",
             independent="static friction without load transfer",
-            quasi_static="static friction with it, without inertia",
-            overshooting="static friction with overshoot and sticking",
-            simulation="static friction of the full model",
+            quasi_static="static friction with load transfer, without inertia",
+            overshooting="static friction with load transfer, overshoot and sticking",
+            simulation="static friction in the simulation",
         ),
     ]
 )
@@ -55,8 +55,8 @@ PEAKS = pa.schema(
         column("trained", pa.bool_(), "1", "whether the prediction was chosen on this surface"),
         *numbers(
             "%",
-            predicted="prominence of the lesser load peak, predicted",
-            measured="the same in the full model",
+            predicted="predicted prominence of the lesser load peak",
+            measured="prominence of the lesser load peak in the simulation",
         ),
     ]
 )
@@ -64,16 +64,15 @@ BUDGET = pa.schema(
     [
         *SCENE,
         *SETUP,
-        *texts(model="simulation, the full model, or overshooting"),
+        *texts(model="simulation or overshooting"),
         *_SAME[-1:],
-        *numbers("1", edge_share="share of edge blocks in those in contact"),
-        *numbers("s", time="time; without time in the model, slider displacement over velocity"),
+        *numbers("1", edge_share="share of edge blocks in the blocks in contact"),
+        *numbers("s", time="time; overshooting: displacement of the slider over its velocity"),
         *numbers(
             "1",
-            edge="force on blocks in contact beside one without, over the normal force; NaN "
-            "after the end of the run",
-            core="the same of other blocks in contact",
-            free="the same of blocks without contact; 0 in the model without inertia",
+            edge="force on edge blocks over the normal force; NaN after the end of the run",
+            core="the same for the core",
+            free="the same for blocks without contact; overshooting: 0",
         ),
     ]
 )

@@ -3,23 +3,30 @@
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
-from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SCENE, SETUP, SUMMARY
 
 _PAGE = """# The tables
 
-`springblock dictionary` writes this page from the schemas of the files. Every table is a Parquet
-file, read by
+Every table is a Parquet file, read by
 
     import pandas as pd
 
     pd.read_parquet("results/tables/realisations.parquet")
-    pd.read_parquet("results/realisations")  # all batches at once, curves and fields included
+    pd.read_parquet("results/realisations")  # all batches at once, with curves and fields
 
-`springblock info FILE` describes the content and the origin of a table. Units are SI, blocks,
-or 1 for pure numbers.
+This page lists the columns of each. Units are SI, blocks, or 1 for pure numbers. `springblock info
+FILE` prints the columns and the origin of a file; `springblock dictionary` writes this page.
+
+## Scene and setup
+
+Most tables begin with the columns of the scene and its constants:
+
+{common}
 
 {sections}
 """
+#: Columns that identify a scene and its constants.
+_COMMON = pa.schema([*SCENE, *SETUP])
 
 
 def page() -> str:
@@ -34,23 +41,34 @@ def page() -> str:
         "correlation_length": ("a kind of side", CORRELATION_LENGTH),
         "claims": ("a finding on a statement of the paper", claims.SCHEMA),
         "work_precision": ("an error at one step", work_precision.SCHEMA),
-        "production": ("an error at full size at one step", production.SCHEMA),
+        "production": ("an error with N = 120 at one step", production.SCHEMA),
         "mechanism": ("a seed on pillars of one size", mechanism.FRICTION),
-        "mechanism_variants": ("the same with other gaps and constants", mechanism.FRICTION),
+        "mechanism_variants": (
+            "a seed on pillars with other gaps or constants",
+            mechanism.FRICTION,
+        ),
         "mechanism_peaks": ("a seed on one surface with grooves", mechanism.PEAKS),
-        "mechanism_budget": ("a moment of one seed of one model", mechanism.BUDGET),
+        "mechanism_budget": ("a time in one run of one model", mechanism.BUDGET),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
     curves, batches = "a realisation, with its curves and fields", "realisations/SCENE/batch-NUMBER"
     sections = [_section("batches", batches, curves, BATCH)]
     sections += [_section(name, f"tables/{name}", *kind) for name, kind in kinds.items()]
-    return _PAGE.format(sections="\n\n".join(sections))
+    return _PAGE.format(common=_table(_COMMON), sections="\n\n".join(sections))
 
 
 def _section(name: str, file: str, row: str, schema: pa.Schema) -> str:
     """Describe a kind of table: where a study keeps it, what one row is, and its columns."""
-    table = markdown_table(["column", "type", "unit", "meaning"], columns(schema))
-    return f"## {name}\n\n`results/{file}.parquet`: each row is {row}.\n\n{table}"
+    head = f"## {name}\n\n`results/{file}.parquet`: each row is {row}."
+    own = [field for field in schema if field.name not in _COMMON.names]
+    if len(own) + len(_COMMON) == len(schema):
+        head += "\n\nColumns after those of [scene and setup](#scene-and-setup):"
+        schema = pa.schema(own)
+    return f"{head}\n\n{_table(schema)}"
+
+
+def _table(schema: pa.Schema) -> str:
+    return markdown_table(["column", "type", "unit", "meaning"], columns(schema))
 
 
 def columns(schema: pa.Schema) -> list[list[str]]:

@@ -27,27 +27,29 @@ SCHEMA = pa.schema(
     [
         *texts(
             case="name of the case",
-            family="what is taken to its extremes",
+            family="parameter that is extreme",
             integrator="leapfrog or rk4",
         ),
         *numbers(
             "1",
-            parameter="what varies within the family. step: h over the stability limit; stiffness: "
+            parameter="its value. step: h over the stability limit; stiffness: "
             "K_s/K_int; strain: displacement of a column of blocks, over l; damping: gamma/omega, "
             "omega² = K_s/m; scatter: standard deviation of mu_s, twice that of mu_d; "
             "coefficients: mu_d/mu_s; speed: v K_s/(F_n omega); load: strain of the springs; "
             "weakening: (mu_s - mu_d) F_n over K_s d_c or m omega v_c; "
-            "size: N; overflow: the value that is too much",
+            "size: N; overflow: the value that overflows",
         ),
-        *texts(expected="outcome that the case must have", outcome="outcome that it has"),
-        *numbers("1", energy_error="energy missing over work; NaN without a run"),
-        *texts(quantity="what value is"),
+        *texts(expected="required outcome", outcome="outcome"),
+        *numbers(
+            "1", energy_error="residual of the energy balance over the work; NaN without a run"
+        ),
+        *texts(quantity="quantity that is compared"),
         *numbers(
             "1",
-            value="value of the quantity; NaN without one",
+            value="its value; NaN without one",
             closed_form="exact or accurately integrated value; NaN if unknown",
             relative_error="value/closed_form - 1; NaN without either",
-            tolerance="largest relative_error that is accepted, or NaN",
+            tolerance="largest accepted relative_error, or NaN",
         ),
     ]
 )
