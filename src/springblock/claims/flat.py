@@ -213,7 +213,7 @@ def peaks_apart(run: Record) -> float:
 def average_is_propagation(run: Record) -> float:
     """Tested: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, which is the time from a tenth to nine tenths of the detachments.
-    t_max differs from it by 0.77 of this duration. The verdict is the same for any bound from 0.3
+    t_max differs from t_avg by 0.77 of this duration. The verdict is the same for any bound from 0.3
     on, and for windows of 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)

@@ -277,7 +277,9 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
     friction is within the numerical bias, 0.001, of the lowest are candidates. With another scatter
     only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the distance
-    between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c).
+    between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). With a
+    scatter of 0.02 or 0.05 it is nearly the side of these pillars. Fitted at n_p = 20 it leaves
+    these cases open; fitted at n_p = 10 they hold.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -344,8 +346,8 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: there are more precursors where static friction is lowest than at every other pillar
     size. All sizes whose static friction is within the numerical bias, 0.001, of the lowest are
     candidates; an interval covers all of them, without an upper end where they differ in sign.
-    Static friction at n_p = 6 is lower than at 7 by 0.0008 with the default step, and by 0.0003
-    with 5e-9 s (80 realisations of each). About 1000 realisations with this step would decide; if
+    In 80 realisations of each, static friction at n_p = 6 is lower than at 7 by 0.0008 with the
+    default step, and by 0.0003 with 5e-9 s. About 1000 realisations with this step would decide; if
     friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)

@@ -59,7 +59,9 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves."""
+    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves. Grooves
+    that cross the whole surface have the same effect.
+    """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
