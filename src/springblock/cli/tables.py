@@ -1,4 +1,4 @@
-"""springblock table and compare: a row per ensemble, and differences between two tables."""
+"""springblock table, compare, info and dictionary: what tables hold, and how two differ."""
 
 import csv
 from collections.abc import Sequence
@@ -10,11 +10,12 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.cli.options import OUTPUT, defaulted, print_columns
-from springblock.files import whole_file
-from springblock.io.parquet import load
+from springblock.cli.options import INPUT, OUTPUT, defaulted, print_columns
+from springblock.files import whole_file, write_text
+from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
+from springblock.report.dictionary import columns, page
 from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
@@ -144,3 +145,26 @@ def _write(rows: list[Row], output: Path) -> None:
                 writer.writerows(rows)
         else:
             raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")
+
+
+@click.command("info")
+@click.argument("file", type=INPUT)
+def info(file: Path) -> None:
+    """Describe the table FILE: its rows, its origin, and its columns with their units.
+
+    `springblock table` lists its ensembles.
+    """
+    if file.suffix in (".npz", ".nc"):
+        raise ValueError(f"{file} is no table; info describes Parquet files")
+    table = load(file)
+    click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
+    for key, value in origin_of(table).items():
+        click.echo(f"{key}: {value}")
+    print_columns([[cell.strip("`") for cell in line] for line in columns(table.schema)])
+
+
+@click.command("dictionary")
+@click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
+def dictionary(output: Path) -> None:
+    """Write the meaning and unit of every column of every table."""
+    write_text(output, page())

@@ -119,10 +119,7 @@ def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:
 def read_fields(path: Path) -> tuple[Fields, dict[str, Any]]:
     """Return the fields in a file of `write_fields`, and its attributes.
 
-    Raises
-    ------
-    ValueError
-        If the file was not written by `write_fields`, or is truncated.
+    A file that was not written by `write_fields`, or is truncated, is a ValueError.
     """
     from scipy.io import netcdf_file
 

@@ -16,13 +16,7 @@ from springblock.model.scene import Scene
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
-    """Write a table whole or not at all, with `metadata` on the table as a whole.
-
-    Raises
-    ------
-    ValueError
-        If the table has no row.
-    """
+    """Write a table, of at least one row, whole or not at all, with `metadata` on the whole."""
     if not table.num_rows:
         raise ValueError(f"{path}: the table has no rows; nothing was written")
     described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})
@@ -33,13 +27,8 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
         if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
     ]
     content = pa.BufferOutputStream()
-    pq.write_table(
-        described,
-        content,
-        compression="zstd",
-        use_dictionary=not split,
-        use_byte_stream_split=split,
-    )
+    how = {"compression": "zstd", "use_dictionary": not split, "use_byte_stream_split": split}
+    pq.write_table(described, content, **how)
     write_sealed(path, content.getvalue().to_pybytes())
 
 
@@ -70,10 +59,7 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
 def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     """Read a file that `write` has written: all its columns, or those given.
 
-    Raises
-    ------
-    ValueError
-        If the file is damaged, not a table, or lacks a column.
+    A file that is damaged, not a table, or lacks a column is a ValueError.
     """
     content = read_sealed(path)
     try:
@@ -95,11 +81,7 @@ def origin_of(table: pa.Table) -> dict[str, str]:
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
     """Read the columns of `schema` from several files of one study, concatenated.
 
-    Raises
-    ------
-    ValueError
-        As `load` does; or if two files were computed with different constants or by different
-        code, or hold the same realisation.
+    Files of different constants or code, or with the same realisation, are a ValueError.
     """
     paths = list(paths)
     tables = [load(path, schema.names) for path in paths]
@@ -141,11 +123,6 @@ def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     """Refuse tables, given with their files, that were computed with different constants.
 
     Constants that a scene varies may differ.
-
-    Raises
-    ------
-    ValueError
-        With the name of the constant, both values and both files.
     """
     known: dict[str, tuple[Any, Path]] = {}
     for path, table in tables:

@@ -44,11 +44,6 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
 
     A line is named by its mask and by what differs from other lines. Up to three sliding directions
     are panels side by side. Scenes that share a line with no other are left out, if some do.
-
-    Raises
-    ------
-    ValueError
-        Where `over` is no axis, or is the same in all rows.
     """
     rows = list(rows)
     if over not in AXES and not all(over in law_units(row) for row in rows):

@@ -3,7 +3,7 @@
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
-from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY
+from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SUMMARY, said
 
 _PAGE = """# The tables
 
@@ -20,6 +20,7 @@ or 1 for pure numbers.
 
 {sections}
 """
+_SECTION = "## {name}\n\n`results/{file}.parquet`: each row is {row}.\n\n{table}"
 
 
 def page() -> str:
@@ -29,6 +30,7 @@ def page() -> str:
     from springblock.mechanism import tables as mechanism
 
     kinds = {
+        "batches": ("a realisation, with its curves and fields", BATCH),
         "realisations": ("a realisation", SUMMARY),
         "correlation": ("a distance along a kind of side", CORRELATION),
         "correlation_length": ("a kind of side", CORRELATION_LENGTH),
@@ -41,26 +43,26 @@ def page() -> str:
         "mechanism_budget": ("a moment of one seed of one model", mechanism.BUDGET),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
-    curves, batches = "a realisation, with its curves and fields", "realisations/SCENE/batch-NUMBER"
-    sections = [_section("batches", batches, curves, BATCH)]
-    sections += [_section(name, f"tables/{name}", *kind) for name, kind in kinds.items()]
+    files = {"batches": "realisations/SCENE/batch-NUMBER"}  # all others are in `tables`
+    sections = [
+        _SECTION.format(
+            name=name,
+            file=files.get(name, f"tables/{name}"),
+            row=row,
+            table=markdown_table(["column", "type", "unit", "meaning"], columns(schema)),
+        )
+        for name, (row, schema) in kinds.items()
+    ]
     return _PAGE.format(sections="\n\n".join(sections))
 
 
-def _section(name: str, file: str, row: str, schema: pa.Schema) -> str:
-    """Describe a kind of table: where a study keeps it, what one row is, and its columns."""
-    table = markdown_table(["column", "type", "unit", "meaning"], columns(schema))
-    return f"## {name}\n\n`results/{file}.parquet`: each row is {row}.\n\n{table}"
-
-
 def columns(schema: pa.Schema) -> list[list[str]]:
-    """Name, type, unit and meaning of each column, as the file says."""
+    """Return name, type, unit and meaning of each column."""
     return [
-        [f"`{field.name}`", str(field.type).replace("element: ", ""), *_said(field)]
+        [
+            f"`{field.name}`",
+            str(field.type).replace("element: ", ""),
+            *(text.replace("|", "\\|") for text in said(field)),
+        ]
         for field in schema
     ]
-
-
-def _said(field: pa.Field) -> list[str]:
-    said = field.metadata or {}
-    return [said.get(key, b"").decode().replace("|", "\\|") for key in (b"unit", b"meaning")]
