@@ -13,7 +13,7 @@ from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, OUTPUT, defaulted, print_columns
 from springblock.files import whole_file, write_text
 from springblock.io.parquet import load, origin_of
-from springblock.io.rows import Row
+from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY
 from springblock.report.dictionary import columns, page
 from springblock.report.means import changes_over_ends, differences, in_words, means
@@ -102,15 +102,12 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
         for path in paths
         for file in ([path] if path.is_file() else sorted(path.rglob("*.parquet")))
     ]
-    held = [file for file in files if file in paths or _holds_realisations(file)]
+    wanted = set(SUMMARY.names)
+    held = [file for file in files if file in paths or wanted <= {*pq.read_schema(file).names}]
     rows = [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
     if not rows:
         raise ValueError(f"{', '.join(map(str, paths))}: no realisations found")
     return rows
-
-
-def _holds_realisations(file: Path) -> bool:
-    return set(SUMMARY.names) <= set(pq.read_schema(file).names)
 
 
 def _report(rows: Sequence[Row], output: Path | None) -> None:
@@ -125,11 +122,7 @@ def _numbers(row: Row) -> Row:
     """Return a row with separate columns for the limits of intervals."""
     numbers: Row = {}
     for name, value in row.items():
-        if isinstance(value, Interval):
-            ends = (name, f"{name}_low", f"{name}_high")
-            numbers |= dict(zip(ends, map(float, value), strict=True))
-        else:
-            numbers[name] = value
+        numbers |= limits(name, value) if isinstance(value, Interval) else {name: value}
     return numbers
 
 
