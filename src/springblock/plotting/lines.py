@@ -18,7 +18,8 @@ _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
 
 Names = tuple[tuple[str, str], ...]
-Lines = dict[str, dict[float, list[Row]]]  #: rows by the name of their line and their place on it
+Places = dict[float, list[Row]]  #: rows by their place on the axis
+Lines = dict[str, Places]  #: by name
 
 
 def axes(scenes: Iterable[Scene]) -> list[str]:
@@ -39,7 +40,7 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
     rows = list(rows)
     if over not in AXES and not all(over in law_units(row) for row in rows):
         raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
-    found: dict[Names, dict[float, list[Row]]] = {}
+    found: dict[Names, Places] = {}
     scenes = [Scene.from_row(row) for row in rows]
     varied = {name for scene in scenes for name, _ in scene.varied}
     for scene, row in zip(scenes, rows, strict=True):

@@ -2,9 +2,8 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from string import ascii_lowercase
-from typing import TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,10 +15,8 @@ from springblock.model.material import law_units
 from springblock.model.scene import Scene
 from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.lines import Lines, in_math
+from springblock.plotting.lines import Lines, Places, in_math
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
-
-T = TypeVar("T")
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
@@ -96,9 +93,7 @@ def _apart(every: Sequence[float], lines: int, log: bool) -> float:
     return float(min([0.03, *(0.7 * gaps / lines)]))
 
 
-def _aside(
-    runs: Mapping[float, T], every: Sequence[float], line: int, lines: int, log: bool
-) -> dict[float, T]:
+def _aside(runs: Places, every: Sequence[float], line: int, lines: int, log: bool) -> Places:
     """Offset the runs of one of several lines, so that their bars do not overlap.
 
     The offset is a share of the axis, logarithmic or linear, through `every` place.
@@ -110,9 +105,7 @@ def _aside(
     return {x + share * (high - low): of_place for x, of_place in runs.items()}
 
 
-def _draw_line(
-    ax: Axes, observable: str, runs: Mapping[float, Sequence[Row]], color: str, look: Look
-) -> None:
+def _draw_line(ax: Axes, observable: str, runs: Places, color: str, look: Look) -> None:
     """Draw an observable of one line by place."""
     _, value = OBSERVABLES[observable]
     samples = {place: np.array([value(row) for row in rows]) for place, rows in runs.items()}
