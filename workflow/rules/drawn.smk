@@ -23,8 +23,7 @@ FIGURES = {
 #: What is drawn of one's own scenes unless `sweeps` says: friction over each number that varies.
 SWEPT = {
     axis: {"groups": list(ENSEMBLES), "over": axis}
-    for axis in axes(each.scene for each in ENSEMBLE.values())
-    if OWN
+    for axis in (axes(each.scene for each in ENSEMBLE.values()) if OWN else [])
 }
 #: Observables over an axis of some groups that the study has.
 SWEEPS = {

@@ -83,19 +83,16 @@ def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
 
     Files of different constants or code, or with the same realisation, are a ValueError.
     """
-    paths = list(paths)
-    tables = [load(path, schema.names) for path in paths]
-    refuse_mixture(zip(paths, tables, strict=True))
-    _refuse_mixed_code(paths, tables)
-    _refuse_repetition(paths, tables)
-    return pa.concat_tables([table.cast(schema) for table in tables])
+    tables = [(path, load(path, schema.names)) for path in paths]
+    refuse_mixture(tables)
+    _refuse_mixed_code(tables)
+    _refuse_repetition(tables)
+    return pa.concat_tables([table.cast(schema) for _, table in tables])
 
 
-def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
-    versions = (origin_of(table).get("code_version", "") for table in tables)
-    known = {
-        version.rpartition("+")[2]: path for version, path in zip(versions, paths, strict=True)
-    }
+def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    versions = ((origin_of(table).get("code_version", ""), path) for path, table in tables)
+    known = {version.rpartition("+")[2]: path for version, path in versions}
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(
@@ -104,10 +101,10 @@ def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> Non
         )
 
 
-def _refuse_repetition(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
+def _refuse_repetition(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    keys = [*SCENE.names, "seed"]
     known: dict[tuple[Any, ...], Path] = {}
-    for path, table in zip(paths, tables, strict=True):
-        keys = [*SCENE.names, "seed"]
+    for path, table in tables:
         if not set(keys) <= set(table.column_names):
             return
         for row in table.select(keys).to_pylist():
