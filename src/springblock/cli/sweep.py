@@ -124,10 +124,10 @@ def sweep(
         replace(surface, direction=direction, varied=_own(varied, usual))
         for varied, direction in product(vary, directions)
     ]
+    parts = [range(first, min(first + _BATCH, seeds)) for first in range(0, seeds, _BATCH)]
     work = [
         Job(scene, usual.vary(dict(scene.varied)), part, output, duration)
-        for scene in scenes
-        for part in (range(first, min(first + _BATCH, seeds)) for first in range(0, seeds, _BATCH))
+        for scene, part in product(scenes, parts)
     ]
     _run([job for job in work if not job.is_done], jobs)
     table = read([job.file for job in work], SUMMARY)
