@@ -1,6 +1,6 @@
 """Figures beyond the paper; each function takes realisations by the folder of their scene."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 
 import numpy as np
@@ -116,24 +116,16 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     ax.legend(loc="upper center", ncols=2)
 
 
-def _draw_friction(
-    ax: Axes, lines: Mapping[float, curves.Samples], label: Callable[[float], str]
-) -> None:
-    """Draw static friction against the size of pillars, a line for each value, labelled by it."""
-    for value, color in style.shades(lines).items():
-        curves.draw_means(ax, lines[value], color, marker="o", label=label(value))
-    curves.name_places(ax, [size for samples in lines.values() for size in samples])
-    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
-    ax.legend(loc="best")
-
-
 def beyond_disorder(ensembles: Folders) -> Figure:
     """Draw a) decay lengths over scatter and b) static friction over n_p by scatter."""
     scatters = scatter.by_scatter(_by_scene(ensembles))
     picture, panels = style.panels(style.DOUBLE, 64.0, "ab")
     _draw_lengths_of_scatters(panels[0], scatters)
-    lines = {std: friction.samples(sizes) for std, sizes in scatters.items()}
-    _draw_friction(panels[1], lines, "{:g}".format)
+    for std, color in style.shades(scatters).items():
+        samples = friction.samples(scatters[std])
+        curves.draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
+    curves.name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
+    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
     panels[1].legend(loc="best", title="scatter")
     return picture
 
@@ -155,10 +147,9 @@ def _draw_lengths_of_scatters(ax: Axes, scatters: Mapping[float, scatter.Sizes])
 def beyond_friction(ensembles: Folders) -> Figure:
     """Draw a) a map of friction over n_p and n_s and b) friction for each contact fraction."""
     found = friction.friction_map(_by_scene(ensembles))
-    picture, (over_both, over_size) = style.panels(style.DOUBLE, 80.0, "ab")
+    picture, (over_both, lines) = style.panels(style.DOUBLE, 80.0, "ab")
     _draw_friction_map(over_both, found)
-    lines = {float(kind): sizes for kind, sizes in friction.families(found).items()}
-    _draw_friction(over_size, lines, lambda kind: f"{1.0 / (1.0 + kind) ** 2:.0%} in contact")
+    _draw_contact_fractions(lines, found)
     return picture
 
 
@@ -176,6 +167,17 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
         axis.minorticks_off()
     ax.set(xlim=ends, ylim=(0.8 * gaps.min(), 1.25 * gaps.max()))
     style.color_bar(ax, points, curves.FRICTION)
+
+
+def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
+    alike = friction.families(found)
+    colors = style.shades(float(kind) for kind in alike)
+    for kind, sizes in alike.items():
+        color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
+        curves.draw_means(ax, sizes, color, marker="o", label=label)
+    curves.name_places(ax, sorted({n_p for n_p, _ in found}))
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
+    ax.legend(loc="best")
 
 
 def beyond_peaks(ensembles: Folders) -> Figure:
