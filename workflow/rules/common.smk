@@ -21,7 +21,9 @@ from springblock.study import configuration as study
 from springblock.study import cost, record
 
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
-    SCHEMA = yaml.load(file, getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # in C, ten times as fast
+    SCHEMA = yaml.load(
+        file, getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    )  # in C, ten times as fast
 
 config = study.completed(config)
 RESULTS = str(Path(config.get("results", "")))  # without a slash at the end
