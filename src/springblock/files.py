@@ -36,10 +36,7 @@ def check_output(path: Path) -> None:
 def whole_file(path: Path) -> Iterator[Path]:
     """Yield a temporary path beside `path`, and rename it to `path` once it is complete.
 
-    Raises
-    ------
-    ValueError
-        If `path` exists and is not a regular file.
+    A path that exists and is not a regular file is refused.
     """
     check_output(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -67,13 +64,7 @@ def write_sealed(path: Path, content: bytes) -> None:
 
 
 def read_sealed(path: Path) -> bytes:
-    """Read a file that `write_sealed` has written.
-
-    Raises
-    ------
-    ValueError
-        If a single bit has changed, with the command that repairs it.
-    """
+    """Read a file that `write_sealed` has written; a single changed bit is a ValueError."""
     content = path.read_bytes()
     start = content.rfind(_MARK)
     if start < 0:
@@ -100,10 +91,7 @@ _TORN = BadZipFile, EOFError, MemoryError, OSError, RuntimeError, TypeError, zli
 def read_arrays(source: Path | BinaryIO) -> dict[str, NDArray[Any]]:
     """Read the arrays of an .npz file by name; pickled objects are never loaded.
 
-    Raises
-    ------
-    ValueError
-        If the file is damaged or of another type, or would be too large in memory.
+    A file that is damaged, of another type, or too large in memory is a ValueError.
     """
     try:
         with ZipFile(source) as packed:

@@ -3,9 +3,10 @@
 import ast
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -66,25 +67,26 @@ def _of_folder(folder: str) -> str:
     return _short("\n".join(texts))
 
 
-def _skeleton(node: Any, docstrings: bool) -> Iterator[str]:
-    """Yield the nodes of a syntax tree without their positions and without `raise` statements.
+def _skeleton(node: Any, docstrings: bool) -> list[str]:
+    """Return the nodes of a syntax tree without their positions and without `raise` statements.
 
-    Docstrings are included only if `docstrings` is true.
+    Docstrings are included only if `docstrings` is true. Lists, since nested generators would pass
+    each word on once per level of the tree.
     """
     if isinstance(node, list):
-        for part in node:
-            yield from _skeleton(part, docstrings)
-    elif not isinstance(node, ast.AST):
-        yield repr(node)
-    elif isinstance(node, ast.Raise):
-        yield "Raise"
-    elif docstrings or not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
-        yield type(node).__name__
-        for field in node._fields:
-            value = getattr(node, field, None)
-            if value is not None and value != []:
-                yield field
-                yield from _skeleton(value, docstrings)
+        return list(chain.from_iterable(_skeleton(part, docstrings) for part in node))
+    if not isinstance(node, ast.AST):
+        return [repr(node)]
+    if isinstance(node, ast.Raise):
+        return ["Raise"]
+    if not docstrings and isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+        return []
+    words = [type(node).__name__]
+    for field in node._fields:
+        value = getattr(node, field, None)
+        if value is not None and value != []:
+            words += [field, *_skeleton(value, docstrings)]
+    return words
 
 
 def _short(text: str) -> str:

@@ -178,13 +178,6 @@ def refusal(*arguments: str) -> str:
     return outcome.output.splitlines()[-1]
 
 
-def test_a_name_that_is_no_figure_is_refused_with_those_that_are():
-    sentence = refusal("figure_0", "--output", "figure.png")
-    assert (
-        sentence == f"Error: unknown figure 'figure_0'; choose one of {', '.join(sorted(FIGURES))}"
-    )
-
-
 def test_scenes_that_a_figure_cannot_tell_apart_are_refused(tmp_path):
     other = replace(record(1), scene=Scene(24, SIZE, 2))
     batches = batch(tmp_path / "one", record(0)), batch(tmp_path / "other", other)

@@ -23,8 +23,7 @@ FIGURES = {
 #: Default sweeps of a study with `study: own`: friction against each parameter that varies.
 SWEPT = {
     axis: {"groups": list(ENSEMBLES), "over": axis}
-    for axis in axes(each.scene for each in ENSEMBLE.values())
-    if OWN
+    for axis in (axes(each.scene for each in ENSEMBLE.values()) if OWN else [])
 }
 #: Sweeps whose groups of scenes the study has.
 SWEEPS = {

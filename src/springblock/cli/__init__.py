@@ -24,12 +24,12 @@ COMMANDS = {
     "claims": "springblock.cli.claims:claims",
     "figure": "springblock.cli.figure:figure",
     "report": "springblock.cli.make:report",
-    "info": "springblock.cli.files:info",
+    "info": "springblock.cli.tables:info",
     "table": "springblock.cli.tables:table",
     "compare": "springblock.cli.tables:compare",
     "verify": "springblock.cli.results:verify",
     "repair": "springblock.cli.results:repair",
-    "dictionary": "springblock.cli.files:dictionary",
+    "dictionary": "springblock.cli.tables:dictionary",
     "archive": "springblock.cli.results:archive_study",
 }
 

@@ -66,28 +66,23 @@ _CAPTION = click.option(
 )
 
 
-class _Figures(click.Group):
-    """A command for each figure, made from its declaration."""
+def _command(name: str, declared: Declaration) -> click.Command:
+    """Return the command that draws a figure, from its declaration."""
+    takes, given = _DATA[declared.draws]
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return sorted(FIGURES)
+    def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
+        picture = drawing(name)(*given(declared, **inputs))
+        for output in outputs:
+            save(picture, output, caption or declared.usual_caption)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
-        if cmd_name not in FIGURES:
-            known = ", ".join(sorted(FIGURES))
-            raise click.UsageError(f"unknown figure {cmd_name!r}; choose one of {known}")
-        declared = FIGURES[cmd_name]
-        takes, given = _DATA[declared.draws]
-
-        def write(outputs: Paths, caption: str | None, **inputs: Any) -> None:
-            picture = drawing(cmd_name)(*given(declared, **inputs))
-            for output in outputs:
-                save(picture, output, caption or declared.usual_caption)
-
-        command = click.command(cmd_name, help=declared.usual_caption, short_help=declared.title)
-        return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
+    command = click.command(name, help=declared.usual_caption, short_help=declared.title)
+    return command(with_options([*takes, _CAPTION, _OUTPUTS], write))
 
 
-@click.group("figure", cls=_Figures, subcommand_metavar="NAME [INPUTS]... --output FILE")
+@click.group(
+    "figure",
+    commands=[_command(*item) for item in FIGURES.items()],
+    subcommand_metavar="NAME [INPUTS]... --output FILE",
+)
 def figure() -> None:
     """Draw a figure from results of the study."""

@@ -1,6 +1,6 @@
 """springblock aggregate and correlation: tables of realisations and of their correlations."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from springblock.analysis.correlation import Correlation, Length, groove_times, 
 from springblock.cli.options import INPUT, OUTPUT, code_version
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import Record, read_records
-from springblock.io.rows import Row
+from springblock.io.rows import Row, limits
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH, SUMMARY
 from springblock.model.scene import COLUMNS
 
@@ -76,19 +76,9 @@ def _sides(records: list[Record]) -> Iterator[tuple[Row, Any]]:
 def _curve(found: Correlation) -> Iterator[Row]:
     k, pillars, sides, _ = found.times.shape
     for r, each in enumerate(np.transpose(found.interval)):
-        yield {"r": r, **_columns("correlation", each, "ci"), "samples": k * pillars * sides}
+        yield {"r": r, **limits("correlation", each, "ci"), "samples": k * pillars * sides}
 
 
 def _length(length: Length) -> Row:
-    return {
-        **_columns("l_c", length.fitted, "ci"),
-        **_columns("tail", length.tail),
-        **_columns("amplitude", length.amplitude),
-        "r_last": length.last,
-    }
-
-
-def _columns(name: str, interval: Iterable[Any], limits: str = "") -> Row:
-    """Return the columns of a value and the limits of its interval."""
-    names = name, f"{limits or name}_low", f"{limits or name}_high"
-    return dict(zip(names, map(float, interval), strict=True))
+    fits = limits("tail", length.tail) | limits("amplitude", length.amplitude)
+    return {**limits("l_c", length.fitted, "ci"), **fits, "r_last": length.last}

@@ -2,7 +2,6 @@
 
 import signal
 import sys
-from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from functools import partial
@@ -12,7 +11,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
-import pyarrow as pa
 from tqdm import tqdm
 
 from springblock.cli.options import SURFACE, defaulted, given, scene_of, with_options
@@ -31,13 +29,19 @@ _BATCH = 5  #: seeds of one job
 
 
 class Job(NamedTuple):
-    """Seeds of one scene, and the file of their realisations."""
+    """Realisations of one scene with some seeds."""
 
     scene: Scene
     setup: Setup
     seeds: range
-    file: Path
+    output: Path  #: folder of the sweep
     duration: float | None  #: s
+
+    @property
+    def file(self) -> Path:
+        """Return the file of its realisations."""
+        name = f"seeds-{self.seeds[0]}-{self.seeds[-1]}.parquet"
+        return self.output / "realisations" / self.scene.folder / name
 
     @property
     def metadata(self) -> dict[str, str]:
@@ -64,10 +68,6 @@ class Job(NamedTuple):
         return len(self.seeds)
 
 
-def _directions(text: str) -> list[str]:
-    return [normalised(each) for each in text.split(",")]
-
-
 def _varied(pairs: tuple[str, ...]) -> list[Varied]:
     """Return every combination of constants with several values each."""
     lists = {name: text.split(",") for name, _, text in (pair.partition("=") for pair in pairs)}
@@ -80,7 +80,7 @@ _SWEPT = [
         "--direction",
         "directions",
         default="x",
-        callback=given(_directions),
+        callback=given(lambda text: [normalised(each) for each in text.split(",")]),
         help="Sliding directions, separated by commas: x, y or degrees from x.",
     ),
     click.option(
@@ -127,14 +127,16 @@ def sweep(
         replace(surface, direction=direction, varied=_own(varied, usual))
         for varied, direction in product(vary, directions)
     ]
+    parts = [range(first, min(first + _BATCH, seeds)) for first in range(0, seeds, _BATCH)]
     work = [
-        Job(scene, usual.vary(dict(scene.varied)), part, file, duration)
-        for scene in scenes
-        for part, file in _batches(scene, seeds, output)
+        Job(scene, usual.vary(dict(scene.varied)), part, output, duration)
+        for scene, part in product(scenes, parts)
     ]
     _run([job for job in work if not job.is_done], jobs)
-    files = [job.file for job in work]
-    table = _collected(files, output / "realisations.parquet", work[0])
+    table = read([job.file for job in work], SUMMARY)
+    table = table.sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
+    made_by = {"code_version": work[0].metadata["code_version"]}
+    write(table, output / "realisations.parquet", made_by)
     for over in axes(scenes):
         found = lines(table.to_pylist(), over)
         picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
@@ -146,13 +148,6 @@ def _own(varied: Varied, usual: Setup) -> Varied:
     """Return constants of a scene without those that all scenes have."""
     known = expanded(usual.constants)
     return tuple((name, value) for name, value in varied if value != known.get(name))
-
-
-def _batches(scene: Scene, seeds: int, output: Path) -> Iterator[tuple[range, Path]]:
-    for first in range(0, seeds, _BATCH):
-        part = range(first, min(first + _BATCH, seeds))
-        name = f"seeds-{part[0]}-{part[-1]}.parquet"
-        yield part, output / "realisations" / scene.folder / name
 
 
 def _run(work: list[Job], jobs: int) -> None:
@@ -189,10 +184,3 @@ def _end_when_terminated() -> None:
 def _run_one(job: Job) -> int:
     """Run a job, unless the worker was terminated: its queue may still hold some."""
     return 0 if signal.getsignal(signal.SIGTERM) is signal.SIG_IGN else job.run()
-
-
-def _collected(files: list[Path], output: Path, job: Job) -> pa.Table:
-    """Collect all realisations in one table, a row each."""
-    table = read(files, SUMMARY).sort_by([(name, "ascending") for name in [*COLUMNS, "seed"]])
-    write(table, output, {"code_version": job.metadata["code_version"]})
-    return table

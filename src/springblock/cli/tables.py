@@ -1,4 +1,4 @@
-"""springblock table and compare: a row per ensemble, and differences between two tables."""
+"""springblock table, compare, info and dictionary: what tables hold, and how two differ."""
 
 import csv
 from collections.abc import Sequence
@@ -10,11 +10,12 @@ import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
 from springblock.analysis.statistics import Interval
-from springblock.cli.options import OUTPUT, defaulted, print_columns
-from springblock.files import whole_file
-from springblock.io.parquet import load
-from springblock.io.rows import Row
+from springblock.cli.options import INPUT, OUTPUT, defaulted, print_columns
+from springblock.files import whole_file, write_text
+from springblock.io.parquet import load, origin_of
+from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY
+from springblock.report.dictionary import columns, page
 from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
@@ -105,15 +106,12 @@ def _rows(paths: Sequence[Path]) -> list[Row]:
         for path in paths
         for file in ([path] if path.is_file() else sorted(path.rglob("*.parquet")))
     ]
-    held = [file for file in files if file in paths or _holds_realisations(file)]
+    wanted = set(SUMMARY.names)
+    held = [file for file in files if file in paths or wanted <= {*pq.read_schema(file).names}]
     rows = [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
     if not rows:
         raise ValueError(f"{', '.join(map(str, paths))}: no realisations found")
     return rows
-
-
-def _holds_realisations(file: Path) -> bool:
-    return set(SUMMARY.names) <= set(pq.read_schema(file).names)
 
 
 def _report(rows: Sequence[Row], output: Path | None) -> None:
@@ -128,11 +126,7 @@ def _numbers(row: Row) -> Row:
     """Return a row with separate columns for the limits of intervals."""
     numbers: Row = {}
     for name, value in row.items():
-        if isinstance(value, Interval):
-            ends = (name, f"{name}_low", f"{name}_high")
-            numbers |= dict(zip(ends, map(float, value), strict=True))
-        else:
-            numbers[name] = value
+        numbers |= limits(name, value) if isinstance(value, Interval) else {name: value}
     return numbers
 
 
@@ -148,3 +142,26 @@ def _write(rows: list[Row], output: Path) -> None:
                 writer.writerows(rows)
         else:
             raise ValueError(f"{output}: unknown type of file; choose .csv or .parquet")
+
+
+@click.command("info")
+@click.argument("file", type=INPUT)
+def info(file: Path) -> None:
+    """Describe a table: rows, origin, and columns with units.
+
+    `springblock table` lists its ensembles.
+    """
+    if file.suffix in (".npz", ".nc"):
+        raise ValueError(f"{file} is not a table; info describes Parquet files")
+    table = load(file)
+    click.echo(f"{file}: {table.num_rows} rows, {table.num_columns} columns")
+    for key, value in origin_of(table).items():
+        click.echo(f"{key}: {value}")
+    print_columns([[cell.strip("`") for cell in line] for line in columns(table.schema)])
+
+
+@click.command("dictionary")
+@click.option("--output", type=OUTPUT, required=True, help="Markdown file.")
+def dictionary(output: Path) -> None:
+    """Write the columns of all tables with units and meanings."""
+    write_text(output, page())

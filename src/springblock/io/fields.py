@@ -22,20 +22,20 @@ _ABOUT = {
 #: Exceptions that scipy raises on a truncated file, one of another format or of impossible sizes.
 _UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, TypeError, ValueError)
 
-#: Units, meaning and dimensions of each variable. Coordinates have no attribute `axis`: ParaView
-#: would take X and Y for longitude and latitude.
-VARIABLES: dict[str, tuple[str, str, tuple[str, ...]]] = {
-    "time": ("s", "time since the slider began to move", ("time",)),
-    "y": ("m", "position of the block centre along y, free of strain", ("y",)),
-    "x": ("m", "position of the block centre along x, free of strain", ("x",)),
-    "displacement_x": ("m", "displacement along x", _PLACED),
-    "displacement_y": ("m", "displacement along y", _PLACED),
-    "velocity_x": ("m s-1", "velocity along x", _PLACED),
-    "velocity_y": ("m s-1", "velocity along y", _PLACED),
-    "slip": ("m", "distance from the initial position on the substrate", _PLACED),
-    "stress_x": ("Pa", "shear stress on the substrate along x", _PLACED),
-    "stress_y": ("Pa", "shear stress on the substrate along y", _PLACED),
-    "state": ("1", "state of the block", _PLACED),
+#: Units and meaning of each variable. Coordinates have no attribute `axis`: ParaView would take X
+#: and Y for longitude and latitude.
+VARIABLES = {
+    "time": ("s", "time since the slider began to move"),
+    "y": ("m", "position of the block centre along y, free of strain"),
+    "x": ("m", "position of the block centre along x, free of strain"),
+    "displacement_x": ("m", "displacement along x"),
+    "displacement_y": ("m", "displacement along y"),
+    "velocity_x": ("m s-1", "velocity along x"),
+    "velocity_y": ("m s-1", "velocity along y"),
+    "slip": ("m", "distance from the initial position on the substrate"),
+    "stress_x": ("Pa", "shear stress on the substrate along x"),
+    "stress_y": ("Pa", "shear stress on the substrate along y"),
+    "state": ("1", "state of the block"),
 }
 _COMMENTS = {
     "stress": "force per l^2: the motive force of a stuck block, the friction force of a sliding "
@@ -65,18 +65,16 @@ def write_fields(fields: Fields, path: str | Path, **attributes: object) -> None
             if hasattr(file, name):  # scipy's object uses the name
                 raise ValueError(f"no attribute of a NetCDF file can be called {name!r}")
             # scipy would store a float in single precision, and text as Latin-1
-            setattr(file, name, np.float64(value) if isinstance(value, float) else _text(value))
+            stored = np.float64(value) if isinstance(value, float) else str(value).encode()
+            setattr(file, name, stored)
         for name in _PLACED:
             file.createDimension(name, len(columns[name]))
-        for name, (unit, meaning, dimensions) in VARIABLES.items():
-            variable = file.createVariable(name, columns[name].dtype, dimensions)
+        for name, (unit, meaning) in VARIABLES.items():
+            placed = (name,) if name in _PLACED else _PLACED
+            variable = file.createVariable(name, columns[name].dtype, placed)
             variable[:] = columns[name]
             for key, value in _attributes(name, unit, meaning).items():
                 setattr(variable, key, value)
-
-
-def _text(value: object) -> bytes:
-    return str(value).encode()
 
 
 def check_name(path: Path) -> None:
@@ -86,7 +84,7 @@ def check_name(path: Path) -> None:
 
 
 def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
-    """Values of each variable."""
+    """Return the values of each variable."""
     rows, columns = fields.contact.shape
     in_contact = np.where(fields.contact, 0.0, np.nan)
     vectors = {
@@ -106,7 +104,7 @@ def _columns(fields: Fields) -> dict[str, NDArray[Any]]:
 
 
 def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:
-    """Attributes of a variable, of the types that CF asks for."""
+    """Return the attributes of a variable, of the types that CF asks for."""
     known: dict[str, Any] = {"long_name": meaning, "units": unit}
     if name == "state":
         values = np.array([each.value for each in BlockState], np.int8)
@@ -119,10 +117,7 @@ def _attributes(name: str, unit: str, meaning: str) -> dict[str, Any]:
 def read_fields(path: Path) -> tuple[Fields, dict[str, Any]]:
     """Return the fields in a file of `write_fields`, and its attributes.
 
-    Raises
-    ------
-    ValueError
-        If the file was not written by `write_fields`, or is truncated.
+    A file that was not written by `write_fields`, or is truncated, is a ValueError.
     """
     from scipy.io import netcdf_file
 

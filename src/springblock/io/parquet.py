@@ -16,13 +16,7 @@ from springblock.model.scene import Scene
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
-    """Write a table whole or not at all, with `metadata` on the table as a whole.
-
-    Raises
-    ------
-    ValueError
-        If the table has no row.
-    """
+    """Write a table, of at least one row, whole or not at all, with `metadata` on the whole."""
     if not table.num_rows:
         raise ValueError(f"{path}: the table has no rows; nothing was written")
     described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})
@@ -33,13 +27,8 @@ def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
         if pa.types.is_list(field.type) and pa.types.is_floating(field.type.value_type)
     ]
     content = pa.BufferOutputStream()
-    pq.write_table(
-        described,
-        content,
-        compression="zstd",
-        use_dictionary=not split,
-        use_byte_stream_split=split,
-    )
+    how = {"compression": "zstd", "use_dictionary": not split, "use_byte_stream_split": split}
+    pq.write_table(described, content, **how)
     write_sealed(path, content.getvalue().to_pybytes())
 
 
@@ -70,10 +59,7 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
 def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     """Read a file that `write` has written: all its columns, or those given.
 
-    Raises
-    ------
-    ValueError
-        If the file is damaged, not a table, or lacks a column.
+    A file that is damaged, not a table, or lacks a column is a ValueError.
     """
     content = read_sealed(path)
     try:
@@ -95,25 +81,18 @@ def origin_of(table: pa.Table) -> dict[str, str]:
 def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
     """Read the columns of `schema` from several files of one study, concatenated.
 
-    Raises
-    ------
-    ValueError
-        As `load` does; or if two files were computed with different constants or by different
-        code, or hold the same realisation.
+    Files of different constants or code, or with the same realisation, are a ValueError.
     """
-    paths = list(paths)
-    tables = [load(path, schema.names) for path in paths]
-    refuse_mixture(zip(paths, tables, strict=True))
-    _refuse_mixed_code(paths, tables)
-    _refuse_repetition(paths, tables)
-    return pa.concat_tables([table.cast(schema) for table in tables])
+    tables = [(path, load(path, schema.names)) for path in paths]
+    refuse_mixture(tables)
+    _refuse_mixed_code(tables)
+    _refuse_repetition(tables)
+    return pa.concat_tables([table.cast(schema) for _, table in tables])
 
 
-def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
-    versions = (origin_of(table).get("code_version", "") for table in tables)
-    known = {
-        version.rpartition("+")[2]: path for version, path in zip(versions, paths, strict=True)
-    }
+def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    versions = ((origin_of(table).get("code_version", ""), path) for path, table in tables)
+    known = {version.rpartition("+")[2]: path for version, path in versions}
     if len(known) > 1:
         (one, first), (other, second), *_ = known.items()
         raise ValueError(
@@ -122,10 +101,10 @@ def _refuse_mixed_code(paths: Iterable[Path], tables: Iterable[pa.Table]) -> Non
         )
 
 
-def _refuse_repetition(paths: Iterable[Path], tables: Iterable[pa.Table]) -> None:
+def _refuse_repetition(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    keys = [*SCENE.names, "seed"]
     known: dict[tuple[Any, ...], Path] = {}
-    for path, table in zip(paths, tables, strict=True):
-        keys = [*SCENE.names, "seed"]
+    for path, table in tables:
         if not set(keys) <= set(table.column_names):
             return
         for row in table.select(keys).to_pylist():
@@ -141,11 +120,6 @@ def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
     """Refuse tables, given with their files, that were computed with different constants.
 
     Constants that a scene varies may differ.
-
-    Raises
-    ------
-    ValueError
-        With the name of the constant, both values and both files.
     """
     known: dict[str, tuple[Any, Path]] = {}
     for path, table in tables:

@@ -50,22 +50,17 @@ def read(path: str | Path) -> list[Record]:
     ValueError
         If the file is damaged, or lacks a column of such tables.
     """
-    records, table = read_records([Path(path)]), load(Path(path))
-    if "snapshots" not in table.column_names:
-        return records
-    seeds = table["seed"].to_pylist()
-    return [_with_snapshots(each, table.slice(seeds.index(each.seed), 1)) for each in records]
-
-
-def _with_snapshots(record: Record, row: pa.Table) -> Record:
-    times, fields = (row[name][0].values.to_numpy() for name in SNAPSHOTS.names)
-    shape = (len(times), 2, *record.t_det.shape)
-    return replace(record, snapshot_times=times, snapshots=fields.reshape(shape))
+    table = load(Path(path))
+    kept = SNAPSHOTS if "snapshots" in table.column_names else []
+    return _records(read_tables([Path(path)], pa.schema([*BATCH, *kept])))
 
 
 def read_records(paths: Iterable[Path]) -> list[Record]:
-    """Read stored realisations in ascending order of seeds."""
-    table = read_tables(paths, BATCH)
+    """Read stored realisations, without snapshots, in ascending order of seeds."""
+    return _records(read_tables(paths, BATCH))
+
+
+def _records(table: pa.Table) -> list[Record]:
     records = [_record(table.slice(i, 1)) for i in range(table.num_rows)]
     return sorted(records, key=lambda record: record.seed)
 
@@ -79,6 +74,9 @@ def _record(row: pa.Table) -> Record:
     fields |= {name: fields[name].reshape(scene.shape) for name in ("t_det", "contact")}
     if scene.mask is not None:
         scene = replace(scene, mask=replace(scene.mask, values=fields["contact"]))
+    if "snapshots" in row.column_names:
+        fields |= {name: row[name][0].values.to_numpy() for name in SNAPSHOTS.names}
+        fields["snapshots"] = fields["snapshots"].reshape(-1, 2, *scene.shape)
     interval = row["sample_interval"][0].as_py()
     return Record(
         scene=scene,

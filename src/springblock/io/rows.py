@@ -11,6 +11,12 @@ def select(rows: Iterable[Row], **wanted: Any) -> list[Row]:
     return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
+def limits(name: str, interval: Iterable[Any], ends: str = "") -> Row:
+    """Return the columns of a value and of the limits of its interval, which `ends` may name."""
+    names = name, f"{ends or name}_low", f"{ends or name}_high"
+    return dict(zip(names, map(float, interval), strict=True))
+
+
 def markdown_table(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
     """Return a table in Markdown."""
     cells = [header, ["---"] * len(header), *lines]

@@ -18,6 +18,12 @@ def texts(**meanings: str) -> list[pa.Field]:
     return [column(name, pa.string(), "1", meaning) for name, meaning in meanings.items()]
 
 
+def said(field: pa.Field) -> tuple[str, str]:
+    """Return the unit and the meaning of a column; "" where it has none."""
+    metadata = field.metadata or {}
+    return metadata.get(b"unit", b"").decode(), metadata.get(b"meaning", b"").decode()
+
+
 def _limits(name: str, unit: str) -> list[pa.Field]:
     """Return the columns of the limits of an interval."""
     meanings = {f"{name}_low": "lower limit of its 95 % interval", f"{name}_high": "upper limit"}

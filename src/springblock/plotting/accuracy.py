@@ -53,11 +53,9 @@ _LEAST = 1e-6  #: share of the accepted error; what is less, or nothing, is draw
 
 
 def work_precision(table: DataFrame, production: DataFrame | None = None) -> Figure:
-    """Draw the tables of work and precision and, if there is one, of production; a scene a column.
+    """Draw a-c) errors of single runs over their cost and d-f) biases of ensembles over the step.
 
-    a-c) Single runs against a solution that locates every event: error of the detachment times
-    before the horizon over force evaluations. Rings mark the default of `simulate` and the step of
-    the paper. d-f) Ensembles with paired seeds: bias of static friction with its 95 % interval.
+    A column for each scene, from the tables `work_precision` and, if there is one, `production`.
     """
     picture, panels = style.panels(style.DOUBLE, 125.0, "abc;def")
     times, biases = panels[:3], panels[3:]
@@ -67,8 +65,12 @@ def work_precision(table: DataFrame, production: DataFrame | None = None) -> Fig
     for row in (times, biases):
         style.share_axes(row)
     for scene, upper, lower in zip(SCENES, times, biases, strict=True):
-        _draw_costs(upper, single[single.scene == scene])
-        _draw_paired(lower, ensembles[ensembles.scene == scene])
+        runs, paired = single[single.scene == scene], ensembles[ensembles.scene == scene]
+        _draw_costs(upper, runs)
+        _draw_paired(lower, paired)
+        for ax, rows in ((upper, runs), (lower, paired[paired.comparison == "paired"])):
+            sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
+            ax.set_title(f"{scene}, {sizes} blocks")
         if production is not None:
             full = production[production.quantity == "static_friction"]
             _draw_production(lower, full[full.scene == scene].sort_values("step"))
@@ -86,12 +88,6 @@ def work_precision(table: DataFrame, production: DataFrame | None = None) -> Fig
     return picture
 
 
-def _name_scene(ax: Axes, rows: DataFrame) -> None:
-    """Write the scene and its size above a panel."""
-    sizes = " or ".join(f"{n} × {n}" for n in rows.n_blocks.unique())
-    ax.set_title(f"{rows.scene.iloc[0]}, {sizes} blocks")
-
-
 def _draw_costs(ax: Axes, rows: DataFrame) -> None:
     """Draw the error of detachment times over force evaluations, and a line of order 2."""
     lines = {method: rows[rows.integrator == method].sort_values("step") for method in _METHODS}
@@ -106,7 +102,6 @@ def _draw_costs(ax: Axes, rows: DataFrame) -> None:
         label = f"{name}: {_METHODS[method]['label'].split(',')[0]}, {NANO * step:g} ns"
         ax.plot(row.force_evaluations, row.error, label=label, **look)
     ax.set_xlabel("force evaluations")
-    _name_scene(ax, rows)
 
 
 def _draw_paired(ax: Axes, table: DataFrame) -> None:
@@ -122,7 +117,6 @@ def _draw_paired(ax: Axes, table: DataFrame) -> None:
         intervals = PERCENT * line[["error", "ci_low", "ci_high"]]
         draw_points(ax, aside * NANO * line.step, intervals, **_METHODS[method])
     ax.set_xlabel("integration step (ns)")
-    _name_scene(ax, paired)
 
 
 def _draw_production(ax: Axes, rows: DataFrame) -> None:
@@ -135,11 +129,7 @@ def _draw_production(ax: Axes, rows: DataFrame) -> None:
 
 
 def stability(cases: DataFrame) -> Figure:
-    """Draw results/tables/stability.parquet.
-
-    a) Energy residual over step, up to the stability limit and beyond; b) error of all cases
-    relative to what is accepted; c) to f) error over the parameter of four families.
-    """
+    """Draw a) energy residual over step, b) error over accepted error, c-f) of four families."""
     picture, panels = style.panels(style.DOUBLE, 116.0, "ab|cdef")
     steps, overview, *families = panels
     _draw_steps(steps, cases[(cases.family == "step") & cases.case.str.startswith("pillars")])

@@ -31,9 +31,7 @@ class Need(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """Title, caption and data of a figure.
-
-    What its function takes is named by `draws`:
+    """Title, caption and data of a figure; `draws` names what its function takes.
 
     - nothing;
     - pattern: the one that the configuration gives under the figure's name, as large as the study's

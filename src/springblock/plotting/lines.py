@@ -7,7 +7,6 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 from springblock.io.rows import Row
 from springblock.io.schemas import AXES
@@ -15,19 +14,12 @@ from springblock.model.direction import degrees
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import LENGTHS, TEXTS, Scene
 
-_COLUMNS = 3  #: sliding directions that panels side by side have room for
 _DIGEST = re.compile(r"-[0-9a-f]{8}$")  #: at the end of the name of a mask
 
 
-class Line(NamedTuple):
-    """Name of a line of a sweep, and the panel it belongs to."""
-
-    name: str  #: in its legend
-    direction: str = ""  #: of sliding, where each direction has its own panels
-
-
 Names = tuple[tuple[str, str], ...]
-Lines = dict[Line, dict[float, list[Row]]]  #: rows by their line and their place on the axis
+Places = dict[float, list[Row]]  #: rows by their place on the axis
+Lines = dict[str, Places]  #: by name
 
 
 def axes(scenes: Iterable[Scene]) -> list[str]:
@@ -42,18 +34,13 @@ def axes(scenes: Iterable[Scene]) -> list[str]:
 def lines(rows: Iterable[Row], over: str) -> Lines:
     """Return rows of the table `realisations` by place on an axis, for each line.
 
-    A line is named by its mask and by what differs from other lines. Up to three sliding directions
-    are panels side by side. Scenes that share a line with no other are left out, if some do.
-
-    Raises
-    ------
-    ValueError
-        Where `over` is no axis, or is the same in all rows.
+    A line is named by its mask and by what differs from other lines. Scenes that share a line with
+    no other are left out, if some do.
     """
     rows = list(rows)
     if over not in AXES and not all(over in law_units(row) for row in rows):
         raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
-    found: dict[Names, dict[float, list[Row]]] = {}
+    found: dict[Names, Places] = {}
     scenes = [Scene.from_row(row) for row in rows]
     varied = {name for scene in scenes for name, _ in scene.varied}
     for scene, row in zip(scenes, rows, strict=True):
@@ -66,21 +53,19 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
     swept = {names: line for names, line in found.items() if len(line) > 1} or found
     ordered = sorted(swept, key=lambda names: [_by_size(value) for _, value in names])
     return {
-        line: dict(sorted(swept[names].items()))
-        for names, line in zip(ordered, _lines(ordered), strict=True)
+        name: dict(sorted(swept[names].items()))
+        for names, name in zip(ordered, _named(ordered), strict=True)
     }
 
 
-def _lines(every: list[Names]) -> list[Line]:
+def _named(every: list[Names]) -> list[str]:
     """Name each line by its surface and by what is not the same in all of them."""
     common = set.intersection(*map(set, every))
-    directions = {dict(names).get("direction") for names in every}
-    beside = 1 < len(directions) <= _COLUMNS
     masks = {mask for names in every if (mask := dict(names).get("mask"))}
     stems = Counter(_DIGEST.sub("", mask) for mask in masks)
     found = []
     for names in map(dict, every):
-        hidden = {"level", "direction"} if beside else {"level"}
+        hidden = {"level"}
         surface = "flat" if names.get("level") == "0" and ("level", "0") not in common else ""
         if mask := names.get("mask"):
             hidden |= {"mask", "N", "n_rows"}
@@ -88,8 +73,7 @@ def _lines(every: list[Names]) -> list[Line]:
             surface = stem if stems[stem] == 1 else mask
         own = dict(names.items() - common)
         told = [f"{in_math(name)} = {own[name]}" for name in names if name in own.keys() - hidden]
-        name = ", ".join(filter(None, [surface, *told]))
-        found.append(Line(name or "as the study", names["direction"] if beside else ""))
+        found.append(", ".join(filter(None, [surface, *told])) or "as the study")
     return found
 
 

@@ -39,14 +39,15 @@ _SIDES: dict[str, Look] = {
 _EXPONENTIAL = r"$\exp(-r/l_c)$"
 _FREE = r"$A\,\exp(-r/l_d)$"
 _DASHED: Look = {"linestyle": (0, (3.5, 1.2)), "linewidth": 0.9}  #: with A free
+#: Colour and name of sliding directions on grooves along x; others are oblique.
+_WAYS = {"x": (BLUE, "along grooves"), "y": (VERMILION, "across grooves")}
 _SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
 
 
 def figure_2(runs: Sequence[Run]) -> Figure:
-    """Draw runs[0] before the spread of the other runs: a), b) force and c), d) blocks.
+    """Draw a), b) force and c), d) blocks of runs[0] before the spread of the other runs.
 
-    The left panels show the whole run, the right ones the time around the force maximum. All runs
-    share one sample interval.
+    All runs share one sample interval.
     """
     run, others = runs[0], runs[1:]
     zoom = (MICRO * (run.t_max - _BEFORE), MICRO * (run.t_max + _AFTER))
@@ -75,10 +76,7 @@ def figure_3(runs: Sequence[Record]) -> Figure:
 
 
 def figure_5(runs: Sequence[Record]) -> Figure:
-    """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings.
-
-    Means over all pillars and `runs`, which share one scene; bars are 95 % intervals.
-    """
+    """Map a) t_det/t_max by place on a pillar and b) compare the parts of its rings."""
     scene = runs[0].scene
     times = statistics.pillar_map(runs, scene.pattern)
     picture, (pillar, rings) = style.panels(style.DOUBLE, 75.0, "ab")
@@ -145,7 +143,7 @@ def _draw_time(force: Axes, blocks: Axes, ensembles: BySize) -> None:
     highest, looks = 0.0, style.pillar_looks(ensembles)
     for n_p, runs in ensembles.items():
         curve, look = statistics.whole_curve(runs), looks[n_p]
-        name = style.pillar_name(n_p)
+        name = f"$n_p$ = {n_p}" if n_p else "flat"
         mean = curves.draw_mean_force(force, curve, label=name, spread=True, **look)
         curves.draw_detachments(blocks, curve, **look)
         highest = max(highest, float(np.nanmax(mean)))
@@ -216,18 +214,8 @@ def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
         ax.plot(r, np.exp(-r / length["l_c"]), color=color, linestyle=line)
     if np.isfinite(length["tail"]):
         r = np.linspace(1.0, last)
-        ax.plot(r, _amplitude(curve, length) * np.exp(-r / length["tail"]), color=color, **_DASHED)
-
-
-def _amplitude(curve: "pd.DataFrame", length: "pd.Series") -> float:
-    """Return the A of A exp(-r/l_d) that belongs to l_d of the table, by least squares.
-
-    Weights are those of the fit, 1/error²; errors are in proportion to the intervals.
-    """
-    fitted = curve[(curve["r"] >= 1) & (curve["r"] <= length["r_last"])]
-    decay = np.exp(-fitted["r"] / length["tail"])
-    weight = (fitted["ci_high"] - fitted["ci_low"]) ** -2.0
-    return float((weight * decay * fitted["correlation"]).sum() / (weight * decay**2).sum())
+        free = length["amplitude"] * np.exp(-r / length["tail"])
+        ax.plot(r, free, color=color, **_DASHED)
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
@@ -244,15 +232,8 @@ def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
     ax.legend(loc="lower right")
 
 
-def figure_9(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
-    """Draw force and detachments on grooved pillars, a row for each pattern."""
-    return force_and_detachments(ensembles)
-
-
-def force_and_detachments(
-    ensembles: Mapping[Grooves, Sequence[Run]], lowest_force: float = 0.0
-) -> Figure:
-    """Draw a row for each pattern, with the same axes; triangles stand above load peaks."""
+def figure_9(ensembles: Mapping[Grooves, Sequence[Run]], lowest_force: float = 0.0) -> Figure:
+    """Draw force and detachments on grooved pillars, a row for each pattern, with the same axes."""
     found = {key: statistics.whole_curve(runs) for key, runs in sorted(ensembles.items())}
     rows = list(dict.fromkeys(key[:-1] for key in found))
     letters = [ascii_lowercase[2 * i : 2 * i + 2] for i in range(len(rows))]
@@ -262,7 +243,7 @@ def force_and_detachments(
     for force, blocks, row in zip(panels[::2], panels[1::2], rows, strict=True):
         peaks = [f"{_pattern_name(row)}, lesser peak:"]
         for direction, curve in [(key[-1], found[key]) for key in found if key[:-1] == row]:
-            color, name = style.direction_color(direction), style.direction_name(direction)
+            color, name = _WAYS.get(direction, (style.GREEN, f"at {direction}° to grooves"))
             curves.draw_single_forces(force, curve, color)
             curves.draw_load_peaks(force, curve, color, name)
             curves.draw_detachments(blocks, curve, color)

@@ -55,7 +55,6 @@ METHODS: dict[str, Look] = {
     "rk4": {"label": "Runge–Kutta", "color": VERMILION, "marker": "s"}
     | {"markersize": 3.8, "markerfacecolor": "none"},
 }
-_DIRECTIONS = {"x": BLUE, "y": VERMILION}
 #: By n_p.
 _MARKERS = {2: "v", 3: "<", 4: ">", 5: "p", 6: "^", 7: "d", 8: "8", 9: "h"}
 _MARKERS |= {10: "s", 20: "D", 30: "P", 60: "X"}
@@ -173,22 +172,6 @@ def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
     else:
         own = zip(every, shades(every).values(), cycle(_MARKERS.values()), strict=False)
     return looks | {n_p: {"color": color, "marker": marker} for n_p, color, marker in own}
-
-
-def pillar_name(n_p: int) -> str:
-    """Return the name of pillars of a size."""
-    return f"$n_p$ = {n_p}" if n_p else "flat"
-
-
-def direction_color(direction: str) -> str:
-    """Return the colour of a direction: x, y or oblique."""
-    return _DIRECTIONS.get(direction, GREEN)
-
-
-def direction_name(direction: str) -> str:
-    """Return the name of a sliding direction on grooves along x."""
-    named = {"x": "along grooves", "y": "across grooves"}
-    return named.get(direction, f"at {direction}° to grooves")
 
 
 @journal

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from springblock.analysis import statistics
 from springblock.io.records import Record
 from springblock.plotting import curves, maps, style
-from springblock.plotting.paper_results import Grooves, force_and_detachments
+from springblock.plotting.paper_results import Grooves, figure_9
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO
 from springblock.simulation.run import Run
 
@@ -19,7 +19,7 @@ _LINE = 120  #: characters that fit above a row
 
 def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
     """Draw force and detachments on grooves of three levels, with small differences of force."""
-    return force_and_detachments(ensembles, lowest_force=0.3)
+    return figure_9(ensembles, lowest_force=0.3)
 
 
 def surfaces(ensembles: Mapping[str, Sequence[Record]]) -> Figure:

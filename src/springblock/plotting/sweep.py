@@ -2,25 +2,21 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from string import ascii_lowercase
-from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP
+from springblock.io.schemas import SCENE, SETUP, said
 from springblock.model.material import law_units
 from springblock.model.scene import Scene
 from springblock.plotting import curves, style
 from springblock.plotting.caption import sample_in_words
-from springblock.plotting.lines import Lines, in_math
+from springblock.plotting.lines import Lines, Places, in_math
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, PURPLE, VERMILION, Look
-
-T = TypeVar("T")
 
 #: What is drawn of each realisation: the label of its axis, and its value there.
 OBSERVABLES: dict[str, tuple[str, Callable[[Row], float]]] = {
@@ -38,7 +34,6 @@ _DECADE = 10.0  #: ratio of the largest to the smallest place from which on the 
 #: Observables that form two clusters of realisations where runs have two load peaks.
 _CLUSTERED = ("t_max", "t_max-t_avg")
 _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
-_WIDTHS = (style.COLUMN, style.ONE_AND_A_HALF, style.DOUBLE)  #: mm, by the number of directions
 
 
 def caption(found: Lines) -> str:
@@ -61,30 +56,30 @@ def drawn(found: Lines) -> list[Row]:
 
 @style.journal
 def draw(found: Lines, over: str, observables: Sequence[str]) -> Figure:
-    """Draw observables of lines over an axis: a row of panels each, a column for each direction."""
-    names = list(dict.fromkeys(line.name for line in found))
-    directions = list(dict.fromkeys(line.direction for line in found))
-    is_named = len(names) > 1 or bool(drawn(found)[0]["mask"])
-    longest = max(len(re.sub(r"[${}_]", "", name)) for name in names)
-    columns = max(1, int(_WIDTHS[len(directions) - 1] / (_SIGN + _LETTER * longest)))
-    room = 15.0 + is_named * _LINE * math.ceil(len(names) / columns)
-    picture, grid = _panels(observables, directions, room)
+    """Draw observables of lines over an axis, a panel each."""
+    is_named = len(found) > 1 or bool(drawn(found)[0]["mask"])
+    longest = max(len(re.sub(r"[${}_]", "", name)) for name in found)
+    columns = max(1, int(style.COLUMN / (_SIGN + _LETTER * longest)))
+    legend = is_named * _LINE * math.ceil(len(found) / columns)
+    size = style.COLUMN, 15.0 + legend + 43.0 * len(observables)
+    letters = ";".join(ascii_lowercase[: len(observables)])
+    picture, panels = style.panels(*size, letters, sharex=True)
     every = sorted({place for places in found.values() for place in places})
     log = 0.0 < _DECADE * every[0] <= every[-1]
-    cap = 0.4 * _apart(every, len(names), log) * curves.span(grid[0, 0])
-    for line, runs in found.items():
-        i, column = names.index(line.name), grid[:, directions.index(line.direction)]
-        moved = _aside(runs, every, i, len(names), log)
-        look: Look = {"marker": _MARKERS[i % len(_MARKERS)], "label": line.name}
-        look |= {"capsize": min(cap, curves.BAR["capsize"])}
-        for ax, observable in zip(column, observables, strict=True):
+    cap = 0.4 * _apart(every, len(found), log) * curves.span(panels[0])
+    for ax, observable in zip(panels, observables, strict=True):
+        ax.set_ylabel(OBSERVABLES[observable][0])
+        if OBSERVABLES[observable][0] == curves.LAG:
+            ax.axhline(0.0, **curves.ZERO)
+        for i, (name, runs) in enumerate(found.items()):
+            look: Look = {"marker": _MARKERS[i % len(_MARKERS)], "label": name}
+            look |= {"capsize": min(cap, curves.BAR["capsize"])}
+            moved = _aside(runs, every, i, len(found), log)
             _draw_line(ax, observable, moved, _COLORS[i % len(_COLORS)], look)
-    for ax in grid.flat:
         curves.name_places(ax, every, "log" if log else "linear")
-    for ax in grid[-1]:
-        ax.set_xlabel(_axis(over, drawn(found)[0]))
+    panels[-1].set_xlabel(_axis(over, drawn(found)[0]))
     if is_named:
-        style.legend_above(picture, *grid[0], loc="outside upper left", ncols=columns)
+        style.legend_above(picture, panels[0], loc="outside upper left", ncols=columns)
     return picture
 
 
@@ -98,9 +93,7 @@ def _apart(every: Sequence[float], lines: int, log: bool) -> float:
     return float(min([0.03, *(0.7 * gaps / lines)]))
 
 
-def _aside(
-    runs: Mapping[float, T], every: Sequence[float], line: int, lines: int, log: bool
-) -> dict[float, T]:
+def _aside(runs: Places, every: Sequence[float], line: int, lines: int, log: bool) -> Places:
     """Offset the runs of one of several lines, so that their bars do not overlap.
 
     The offset is a share of the axis, logarithmic or linear, through `every` place.
@@ -112,37 +105,7 @@ def _aside(
     return {x + share * (high - low): of_place for x, of_place in runs.items()}
 
 
-def _panels(
-    observables: Sequence[str], directions: Sequence[str], room: float
-) -> tuple[Figure, NDArray[Any]]:
-    """Return a panel for each observable and direction, (rows, columns), with equal axes in a row.
-
-    There are `room` mm around them.
-    """
-    shape = len(observables), len(directions)
-    letters = ascii_lowercase[: math.prod(shape)]
-    rows = (letters[i : i + shape[1]] for i in range(0, len(letters), shape[1]))
-    size = _WIDTHS[shape[1] - 1], room + 43.0 * shape[0]
-    picture, panels = style.panels(*size, ";".join(rows), sharex=True)
-    grid = np.reshape(np.array(panels), shape)
-    for row, observable in zip(grid, observables, strict=True):
-        for ax in row[1:]:
-            ax.sharey(row[0])
-            ax.tick_params(labelleft=False)
-        row[0].set_ylabel(OBSERVABLES[observable][0])
-        if OBSERVABLES[observable][0] == curves.LAG:
-            for ax in row:
-                ax.axhline(0.0, **curves.ZERO)
-    for ax, direction in zip(grid[0], directions, strict=True):
-        if direction:
-            at = f"along {direction}" if direction in ("x", "y") else f"at {direction}° from x"
-            ax.set_title(f"sliding {at}", loc="right")
-    return picture, grid
-
-
-def _draw_line(
-    ax: Axes, observable: str, runs: Mapping[float, Sequence[Row]], color: str, look: Look
-) -> None:
+def _draw_line(ax: Axes, observable: str, runs: Places, color: str, look: Look) -> None:
     """Draw an observable of one line by place."""
     _, value = OBSERVABLES[observable]
     samples = {place: np.array([value(row) for row in rows]) for place, rows in runs.items()}
@@ -155,8 +118,7 @@ def _draw_line(
 
 def _axis(over: str, row: Row) -> str:
     """Return the name and unit of an axis, as in the tables."""
-    units = {field.name: field.metadata[b"unit"].decode() for field in (*SCENE, *SETUP)}
-    units |= {"direction": "degrees"}
+    units = {field.name: said(field)[0] for field in (*SCENE, *SETUP)} | {"direction": "degrees"}
     of_law = law_units(row)
     shown = "N" if over == "n_blocks" else in_math(over)
     name, unit = (over, of_law[over]) if over in of_law else (shown, units[over])

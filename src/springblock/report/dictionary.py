@@ -3,7 +3,15 @@
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
-from springblock.io.schemas import BATCH, CORRELATION, CORRELATION_LENGTH, SCENE, SETUP, SUMMARY
+from springblock.io.schemas import (
+    BATCH,
+    CORRELATION,
+    CORRELATION_LENGTH,
+    SCENE,
+    SETUP,
+    SUMMARY,
+    said,
+)
 
 _PAGE = """# The tables
 
@@ -27,6 +35,7 @@ Most tables begin with the columns of the scene and its constants:
 """
 #: Columns that identify a scene and its constants.
 _COMMON = pa.schema([*SCENE, *SETUP])
+_BATCHES = "realisations/SCENE/batch-NUMBER"  #: file of the batches
 
 
 def page() -> str:
@@ -36,6 +45,7 @@ def page() -> str:
     from springblock.mechanism import tables as mechanism
 
     kinds = {
+        "batches": ("a realisation, with its curves and fields", BATCH),
         "realisations": ("a realisation", SUMMARY),
         "correlation": ("a distance along a kind of side", CORRELATION),
         "correlation_length": ("a kind of side", CORRELATION_LENGTH),
@@ -51,9 +61,10 @@ def page() -> str:
         "mechanism_budget": ("a time in one run of one model", mechanism.BUDGET),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
-    curves, batches = "a realisation, with its curves and fields", "realisations/SCENE/batch-NUMBER"
-    sections = [_section("batches", batches, curves, BATCH)]
-    sections += [_section(name, f"tables/{name}", *kind) for name, kind in kinds.items()]
+    sections = []
+    for name, (row, schema) in kinds.items():
+        file = _BATCHES if name == "batches" else f"tables/{name}"
+        sections.append(_section(name, file, row, schema))
     return _PAGE.format(common=_table(_COMMON), sections="\n\n".join(sections))
 
 
@@ -72,13 +83,12 @@ def _table(schema: pa.Schema) -> str:
 
 
 def columns(schema: pa.Schema) -> list[list[str]]:
-    """Name, type, unit and meaning of each column, as the file says."""
+    """Return name, type, unit and meaning of each column."""
     return [
-        [f"`{field.name}`", str(field.type).replace("element: ", ""), *_said(field)]
+        [
+            f"`{field.name}`",
+            str(field.type).replace("element: ", ""),
+            *(text.replace("|", "\\|") for text in said(field)),
+        ]
         for field in schema
     ]
-
-
-def _said(field: pa.Field) -> list[str]:
-    said = field.metadata or {}
-    return [said.get(key, b"").decode().replace("|", "\\|") for key in (b"unit", b"meaning")]

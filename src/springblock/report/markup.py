@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import pyarrow as pa
@@ -10,6 +11,7 @@ from markdown_it.token import Token
 from markupsafe import Markup, escape
 
 from springblock.claims.page import anchor
+from springblock.io.schemas import said
 
 #: Symbols with an index, which the paper prints below the line; parts of paths have none.
 _SYMBOL = re.compile(r"\b(mu|[A-Za-zμγσω])_(max|min|avg|det|int|[a-z][23]?|0)\b(?!-\w)")
@@ -17,6 +19,8 @@ _ANCHOR = re.compile(r"&lt;a id=&#34;([\w-]+)&#34;&gt;&lt;/a&gt;")
 #: Line that opens or closes a folded part, the only other HTML in a page of the study.
 _FOLD = re.compile(r"<details><summary>([^<>]*)</summary>|</details>")
 _PAGE = re.compile(r"(?:docs/|\.\./)?(\w+)\.md")
+_CHAPTER = ("heading_open", "h2")  #: token that begins a chapter
+_FOLDED, _END = Markup("<details><summary>{}</summary>"), Markup("</details>")
 _SHORT, _LONG = 30, 80  #: characters of a cell that stay on one line, or need a wide one
 _MANY = 20  #: chapters from which on the numbered ones are folded
 
@@ -66,15 +70,16 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
         text = parser.renderer.render(part, parser.options, {})
         return Markup(_ANCHOR.sub(rf'<span id="{name}-\1"></span>', text))
 
-    starts = [i for i, token in enumerate(tokens) if _is_chapter(token)]
-    body = html(_folded(tokens) if len(starts) > _MANY else tokens)
-    opening = [html(block) for block in _blocks(tokens[: [*starts, len(tokens)][0]])]
-    answers = {tokens[i + 1].content: html(next(_blocks(tokens[i + 3 :]), [])) for i in starts}
-    return Page(title, body, opening, answers)
-
-
-def _is_chapter(token: Token) -> bool:
-    return token.type == "heading_open" and token.tag == "h2"
+    starts = [i for i, token in enumerate(tokens) if (token.type, token.tag) == _CHAPTER]
+    opening, *chapters = (tokens[i:j] for i, j in pairwise([0, *starts, len(tokens)]))
+    body = html(opening)
+    for chapter in chapters:
+        heading, rest = html(chapter[:3]), html(chapter[3:])
+        if len(chapters) > _MANY and chapter[1].content[:1].isdigit():
+            heading, rest = _FOLDED.format(heading), rest + _END
+        body += heading + rest
+    answers = {part[1].content: html(next(_blocks(part[3:]), [])) for part in chapters}
+    return Page(title, body, [html(block) for block in _blocks(opening)], answers)
 
 
 def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
@@ -129,11 +134,10 @@ def _fold(tokens: list[Token]) -> None:
     for i, token in enumerate(tokens):
         found = _FOLD.fullmatch(token.content) if token.type == "inline" else None
         if found and tokens[i - 1].type == "paragraph_open":
-            title = found[1]
-            text = (
-                "</details>" if title is None else f"<details><summary>{typeset(title)}</summary>"
-            )
-            tokens[i - 1 : i + 2] = [*_html(text), *_html(" "), *_html(" ")]
+            text = _END if found[1] is None else _FOLDED.format(typeset(found[1]))
+            tokens[i - 1 : i + 2] = [
+                Token("html_block", "", 0, content=part) for part in (text, " ", " ")
+            ]
 
 
 def _width(content: str) -> str:
@@ -142,32 +146,13 @@ def _width(content: str) -> str:
     return "short" if size <= _SHORT else "long" if size > _LONG else "medium"
 
 
-def _folded(tokens: Sequence[Token]) -> list[Token]:
-    """Fold numbered chapters, each below its heading."""
-    folded: list[Token] = []
-    opened = False
-    for i, token in enumerate(tokens):
-        if token.tag == "h2" and token.type == "heading_open":
-            folded += _html("</details>" * opened)
-            opened = tokens[i + 1].content[:1].isdigit()
-            folded += _html("<details><summary>" * opened)
-        folded.append(token)
-        if token.tag == "h2" and token.type == "heading_close":
-            folded += _html("</summary>" * opened)
-    return folded + _html("</details>" * opened)
-
-
-def _html(text: str) -> list[Token]:
-    return [Token("html_block", "", 0, content=text)] if text else []
-
-
 def shown(name: str, table: pa.Table) -> dict[str, Any]:
     """Return the rows of a table, to six digits, what is the same in all of them, and its columns.
 
     Columns have a name, a unit, a meaning, and whether they hold numbers.
     """
     columns = [_column(field) for field in table.schema]
-    values = [[_text(value) for value in table[each["name"]].to_pylist()] for each in columns]
+    values = [[_text(value) for value in column.to_pylist()] for column in table.columns]
     is_same = [table.num_rows > 1 and len(set(texts)) == 1 for texts in values]
     every = list(zip(columns, values, is_same, strict=True))
     kept = [texts for _, texts, same in every if not same]
@@ -180,12 +165,11 @@ def shown(name: str, table: pa.Table) -> dict[str, Any]:
 
 
 def _column(field: pa.Field) -> dict[str, Any]:
-    """What is said of a column; a unit of 1, as words have it, goes without saying."""
-    says = {key.decode(): value.decode() for key, value in (field.metadata or {}).items()}
+    """Describe a column, without a unit of 1 and with none for text."""
+    unit, meaning = said(field)
     is_number = pa.types.is_floating(field.type) or pa.types.is_integer(field.type)
-    unit = says.get("unit", "1") if is_number else "1"
-    said = {"name": field.name, "unit": "" if unit == "1" else unit, "is_number": is_number}
-    return said | {"meaning": says.get("meaning", "")}
+    unit = unit if is_number and unit != "1" else ""
+    return {"name": field.name, "unit": unit, "is_number": is_number, "meaning": meaning}
 
 
 def _text(value: Any) -> str:

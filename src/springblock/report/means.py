@@ -9,13 +9,13 @@ from springblock.analysis.ensembles import Change, Ensemble, extremes, mean, tel
 from springblock.analysis.statistics import Interval
 from springblock.beyond.question import number
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP
+from springblock.io.schemas import SCENE, SETUP, said
 
 #: Units of lengths and constants, by name.
 UNITS = {
     field.name: unit
     for field in (*SCENE, *SETUP)
-    if (unit := field.metadata[b"unit"].decode()) != "1" and not pa.types.is_string(field.type)
+    if (unit := said(field)[0]) != "1" and not pa.types.is_string(field.type)
 }
 
 

@@ -45,16 +45,11 @@ def moving(path: Path, batch: Path) -> dict[str, Any]:
     return {
         "name": path.stem,
         "text": in_words(run),
-        "source": _address("video/mp4", path.read_bytes()),
+        "source": address("video/mp4", path.read_bytes()),
         "poster": _webp(poster),  # at the force maximum
         "width": poster.width,
         "height": poster.height,
     }
-
-
-def embedded(file: Path) -> str:
-    """Return a file as an address that holds all of it."""
-    return _address("application/octet-stream", file.read_bytes())
 
 
 def in_words(run: Record) -> str:
@@ -83,8 +78,9 @@ def _webp(image: Image.Image) -> str:
     """A picture, to the bit, in half the bytes of PNG."""
     kept = BytesIO()
     image.save(kept, "WEBP", lossless=True, quality=50, method=4)
-    return _address("image/webp", kept.getvalue())
+    return address("image/webp", kept.getvalue())
 
 
-def _address(kind: str, content: bytes) -> str:
+def address(kind: str, content: bytes) -> str:
+    """Return the address of a file that holds all of the file."""
     return f"data:{kind};base64,{b64encode(content).decode()}"

@@ -12,12 +12,14 @@ import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from springblock.analysis.ensembles import constants, ensembles
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, decided, numbered_parts
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
+from springblock.model.material import Material
 from springblock.report import findings, markup, media
-from springblock.report import own as own_scenes
+from springblock.report.means import UNITS, changes_over_ends, in_words, means
 
 #: Parts of the page in their order, before further pages, and the titles of those without a page.
 ORDER = ("claims", "figures", "mechanism", "accuracy", "beyond", "glossary")
@@ -52,11 +54,6 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
 
     Files are told by their suffix: .png, .md or .parquet. With `own` it is a study of one's own
     scenes, which has pictures and the table `realisations`.
-
-    Raises
-    ------
-    ValueError
-        Where a file has another suffix, or the table of own scenes is missing.
     """
     kinds: dict[str, list[Path]] = {".png": [], ".md": [], ".parquet": []}
     for file in files:
@@ -73,7 +70,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
     rows = {name: table.to_pylist() for name, table in data.items()}
     if own and "realisations" not in rows:
         raise ValueError("a report on own scenes needs the table realisations.parquet")
-    content = own_scenes.content(rows) if own else _of_study(rows, figures, pages)
+    content = _of_own(rows["realisations"]) if own else _of_study(rows, figures, pages)
     return rendered(
         "own.html" if own else "page.html",
         **content,
@@ -82,9 +79,34 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
         pages=pages,
         films=[media.moving(file, batch) for file, batch in films.items()],
         tables=[markup.shown(name, table) for name, table in data.items()],
-        files={file.stem: media.embedded(file) for file in kinds[".parquet"]},
+        files={
+            file.stem: media.address("application/octet-stream", file.read_bytes())
+            for file in kinds[".parquet"]
+        },
         origin=origin(data),
     )
+
+
+def _of_own(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return means and changes of ensembles, and the parameters of all that are not the paper's."""
+    members = ensembles(rows)
+    paper = dict(Material().items())
+    changes = changes_over_ends(members, ["static_friction"])
+    return {
+        "means": _spaced(means(members, ["static_friction", "t_max", "t_avg"])),
+        "changes": _spaced(changes) if changes else (),
+        "common": [
+            f"{name} = {value} {UNITS.get(name, '')}".strip()
+            for name, value in constants(members).items()
+            if value and value != paper.get(name)
+        ],
+    }
+
+
+def _spaced(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
+    """Return the headings and cells of a table, with the observable that is no symbol in words."""
+    head, cells = in_words(rows)
+    return [name.replace("static_friction", "static friction") for name in head], cells
 
 
 def _of_study(

@@ -42,21 +42,11 @@ _TYPES = {
 
 
 def archive(study: Path, results: Path, configuration: Path, output: Path) -> int:
-    """Write code, configuration and results of a finished study into one zip file.
+    """Pack code, configuration and results of a finished study; return the number of files.
 
     `results` and `configuration` are in the folder `study`, a clone. Logs and untracked files of
     the study are omitted. Modification times are preserved, so that no result appears to be out of
     date.
-
-    Returns
-    -------
-    int
-        Number of files in the archive.
-
-    Raises
-    ------
-    ValueError
-        If the folder is not a clone, or has no results.
     """
     made = _results(study, results)
     files = sorted({*_code(study), *made})

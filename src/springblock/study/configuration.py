@@ -68,11 +68,6 @@ def completed(configuration: Configuration) -> dict[str, Any]:
 
     YAML reads 1e-3, without a decimal point, as text, and so does Snakemake with nested values of
     `--config`.
-
-    Raises
-    ------
-    ValueError
-        If `add` is not a mapping.
     """
     whole = {key: _with_numbers(value, key) for key, value in configuration.items()}
     added = whole.pop("add", None) or {}
@@ -103,13 +98,7 @@ def _continued(node: Any, more: Any) -> Any:
 
 
 def check(configuration: Configuration, schema: Mapping[str, Any]) -> None:
-    """Refuse an invalid configuration before any computation.
-
-    Raises
-    ------
-    TypeError, ValueError
-        With the key, its value and the allowed values.
-    """
+    """Refuse an invalid configuration, before any computation, by a TypeError or ValueError."""
     check_texts(configuration)
     error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(configuration))
     if error is not None:
@@ -205,11 +194,6 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     """Expand each group of scenes, by name.
 
     A scene that occurs in several groups is one ensemble, with the largest number of seeds.
-
-    Raises
-    ------
-    ValueError
-        With the name of the group, if its lists do not match.
     """
     groups: dict[str, list[Ensemble]] = {}
     largest: dict[Scene, Ensemble] = {}

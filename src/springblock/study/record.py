@@ -23,11 +23,6 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
     """Refuse results of unknown origin, which may be of another configuration or other code.
 
     Writes nothing, so that dry runs may call it.
-
-    Raises
-    ------
-    ValueError
-        With the reason.
     """
     record = read(results)
     if record is None:
@@ -51,10 +46,7 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
 def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> None:
     """Record configuration and code of a run before its first job.
 
-    Raises
-    ------
-    ValueError
-        If `snakemake --touch` would mark results of another configuration or code as up to date.
+    `snakemake --touch`, which would mark any results as up to date, must have the same.
     """
     record = read(results)
     if touched and record is not None:
@@ -71,13 +63,7 @@ def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> Non
 
 
 def read(results: Path) -> dict[str, Any] | None:
-    """Return the record of a results folder, or None.
-
-    Raises
-    ------
-    ValueError
-        If the file is damaged.
-    """
+    """Return the record of a results folder, or None without one."""
     try:
         record: dict[str, Any] = json.loads((results / RECORD).read_text(encoding="utf-8"))
         _ = record["identity"], record["made"][-1]["configuration"]["realisations_per_job"]
