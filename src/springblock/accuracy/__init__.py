@@ -1,7 +1,6 @@
 """The error study: how far results can be trusted, measured and written down.
 
 conventions       what tables, page, figures and claims agree on, and which residuals are suspect
-specimens         surfaces that errors are measured on
 reference         the solution that locates every event
 plain_rk4         Runge-Kutta as one would first write it
 work_precision    error against work, in two comparisons

@@ -13,7 +13,6 @@ import pyarrow as pa
 from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
-from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import mean_interval, standard_error
@@ -21,8 +20,9 @@ from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
+from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.run import Realisation
+from springblock.simulation.run import Array, Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 
@@ -115,8 +115,9 @@ def simulate_ensembles(
     preludes = {h: timed(partial(compute_prelude, pattern.contact, setups[h])) for h in STEPS}
     kept: dict[float, list[Kept]] = {h: [] for h in STEPS}
     for seed in tqdm(range(seeds), desc="seeds"):
+        surface = Surface.draw(pattern.contact, seed)
         for h, (prelude, _) in preludes.items():
-            pull = partial(simulate, drawn(pattern, seed), setups[h], prelude=prelude)
+            pull = partial(simulate, surface, setups[h], prelude=prelude)
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
     return seconds, {h: tuple(map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}

@@ -10,7 +10,7 @@ paired     ensembles against the leapfrog at a fine step with the same seeds: wh
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
@@ -28,13 +28,12 @@ from springblock.accuracy.conventions import (
     SAMPLE_INTERVAL,
     half_width,
 )
-from springblock.accuracy.specimens import Array, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.run import Realisation
+from springblock.simulation.run import Array, Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
@@ -98,7 +97,7 @@ Cost = tuple[float, float]  #: median CPU time, s, and mean force evaluations of
 Result = TypeVar("Result")
 
 
-def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
+def run_errors(run: Computed, exact: reference.Reference, until: float) -> dict[str, float]:
     """Return the relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
@@ -115,12 +114,6 @@ def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
         "t_det before horizon": root_mean_square(shift[both & (exact.t_det < until)]),
         "horizon": until / exact.t_max,
     }
-
-
-def stacked(errors: Iterable[dict[str, float]]) -> Errors:
-    """Collect the errors of several runs by their names."""
-    rows = list(errors)
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def root_mean_square(values: Array) -> float:
@@ -158,7 +151,7 @@ def cost_of(integrator: str, runs: Sequence[Timed]) -> Cost:
 def single_rows(scene: str) -> Iterator[Row]:
     """All methods and steps against the reference solution."""
     pattern, duration, seeds, *_ = _SURFACES[scene]
-    surfaces = [drawn(pattern, seed) for seed in range(seeds)]
+    surfaces = [Surface.draw(pattern.contact, seed) for seed in range(seeds)]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed)) for seed in range(seeds)]
@@ -167,7 +160,8 @@ def single_rows(scene: str) -> Iterator[Row]:
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
             computed = [run for run, _ in runs]
-            found[step] = stacked(map(run_errors, computed, exact, horizons))
+            each = [*map(run_errors, computed, exact, horizons)]
+            found[step] = {name: np.array([errors[name] for errors in each]) for name in each[0]}
             cost = cost_of(integrator, runs)
             yield from rows_of("reference", scene, integrator, step, found[step], cost)
         if integrator != PLAIN:
@@ -213,7 +207,7 @@ def ensemble(
         setup = Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
         solve = partial(simulate, setup=setup, prelude=compute_prelude(pattern.contact, setup))
     described = f"{integrator} {step:g}"
-    surfaces = (drawn(pattern, seed) for seed in tqdm(range(seeds), desc=described))
+    surfaces = (Surface.draw(pattern.contact, seed) for seed in tqdm(range(seeds), desc=described))
     return [timed(partial(solve, surface)) for surface in surfaces]
 
 
@@ -224,10 +218,10 @@ def means_of(runs: Sequence[Timed]) -> Errors:
 
 def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
     """Return a run, and one with each threshold changed by a random share like `HORIZON_NUDGE`."""
-    surface, duration = drawn(_SURFACES[scene].single, seed), _SURFACES[scene].duration
-    contact, mu_static = surface.contact, surface.mu_static
-    change = 1.0 + HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(mu_static.shape)
-    nudged = Surface(contact, mu_static * change, surface.mu_dynamic)
+    pattern, duration, *_ = _SURFACES[scene]
+    surface = Surface.draw(pattern.contact, seed)
+    change = HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(surface.mu_static.shape)
+    nudged = Surface(surface.contact, surface.mu_static * (1.0 + change), surface.mu_dynamic)
     one, other = (solve_with("leapfrog", FINE_STEP, each, duration) for each in (surface, nudged))
     return one, other
 

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from springblock.accuracy.specimens import Array, uniform
 from springblock.accuracy.stability.cases import PAPER, UNDAMPED, Case, Outcome, Pull, pulled_at
 from springblock.accuracy.stability.surfaces import beyond_the_limit
 from springblock.model.material import LAWS, Material
+from springblock.model.surface import Surface
+from springblock.simulation.run import Array
 from springblock.solver.stability import limit
 
 SPEED = 0.01
@@ -92,7 +93,7 @@ def spring_force(
         slope = pull.speed * (4.0 + late / pull.h) + 2.0 * drop * pull.h
     release = max(mu_static, mu_dynamic) / pull.speed
     count = math.ceil((release + after) / pull.h)
-    run = pull.simulate(uniform(1, mu_static, mu_dynamic), count)
+    run = pull.simulate(Surface([[True]], mu_static, mu_dynamic), count)
     slid = material.slider_velocity * run.time[-1]
     force = float(slid - run.displacement[0, 0, 0]) * material.k_s / material.block_load
     closed_form = pull.speed * count * pull.h - float(path(count * pull.h - release))
@@ -177,6 +178,6 @@ def stick_slip_forever(integrator: str) -> Outcome:
     """The force saws between mu_s and 2 mu_d - mu_s: its mean is mu_d, but for the first rise."""
     material = pulled_at(SPEED, UNDAMPED)
     pull = Pull(integrator, material, H / material.omega_min)
-    run = pull.simulate(uniform(1, *ROUGH), MILLION, every=20)
+    run = pull.simulate(Surface([[True]], *ROUGH), MILLION, every=20)
     cycles = SPEED * MILLION * pull.h / (2.0 * DROP)
     return pull.judge(run, run.force.mean() / run.normal_force, ROUGH[1], 1.0 / cycles)

@@ -8,7 +8,6 @@ from functools import cache, partial
 import numpy as np
 
 from springblock.accuracy import reference
-from springblock.accuracy.specimens import drawn, flat
 from springblock.accuracy.stability.cases import PAPER, Case, Outcome, Pull, pulled_at
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
@@ -17,7 +16,7 @@ from springblock.solver.stability import limit
 
 SEED = 1
 #: Avalanches on pillars excite the highest modes.
-PILLARS = Pattern.pillars(8, 2, 2)
+PILLARS = Surface.draw(Pattern.pillars(8, 2, 2).contact, SEED)
 OVERDAMPED = Material(gamma=10.0 * PAPER.omega_max, slider_velocity=5e-3)
 #: Ten times the paper's pressure, on a quarter of the blocks: they slip by 0.27 l.
 HEAVY = pulled_at(1e-3, replace(PAPER, pressure=10.0 * PAPER.pressure))
@@ -43,7 +42,7 @@ def steps(integrator: str) -> Iterator[Case]:
 def near_the_limit(integrator: str, material: Material, share: float) -> Outcome:
     """Judge the energy balance, where too long a step shows first."""
     pull = Pull.at(share, integrator, material)
-    run = pull.simulate(drawn(PILLARS, SEED), every=max(1, round(2e-7 / pull.step)))
+    run = pull.simulate(PILLARS, every=max(1, round(2e-7 / pull.step)))
     word = "stable" if pull.keeps_energy(run) else "drifts"
     return Outcome(word, run.energy.relative_residual, run.static_friction)
 
@@ -51,7 +50,7 @@ def near_the_limit(integrator: str, material: Material, share: float) -> Outcome
 def beyond_the_limit(integrator: str, material: Material, share: float) -> Outcome:
     """Pull with an unstable step."""
     try:
-        Pull.at(share, integrator, material).simulate(drawn(PILLARS, SEED))
+        Pull.at(share, integrator, material).simulate(PILLARS)
     except ValueError as error:
         return Outcome("refused" if "is unstable" in str(error) else str(error))
     return Outcome("accepted")
@@ -148,7 +147,8 @@ def first_detachment(
     integrator: str, material: Material, n: int = 8, count: int | None = None
 ) -> Outcome:
     """On a flat surface the weakest block lets go first, at its own threshold, to rounding."""
-    pull, surface = Pull.at(0.2, integrator, material), flat(n, SEED, material)
+    pull = Pull.at(0.2, integrator, material)
+    surface = Surface.draw(Pattern.flat(n).contact, SEED, material)
     run, weakest = pull.simulate(surface, count), np.maximum(surface.mu_static, surface.mu_dynamic)
     first = run.t_first * material.omega_min * pull.speed
     return pull.judge(run, first, weakest.min(), 1e-12)
@@ -177,4 +177,4 @@ def overflows(integrator: str) -> Iterator[Case]:
 def too_fast(integrator: str, n: int, speed: float) -> Outcome:
     """Take ten steps under a slider of this speed, m/s."""
     pull = Pull(integrator, replace(PAPER, slider_velocity=speed), 2e-8)
-    return pull.ends_in_error(flat(n, SEED), 10)
+    return pull.ends_in_error(Surface.draw(Pattern.flat(n).contact, SEED), 10)
