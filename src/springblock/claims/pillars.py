@@ -148,8 +148,7 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records, 10).items():  # smaller ones have no centre inside
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
-        middle = np.zeros((wide, wide), bool)  # half as wide as the inside
-        middle[wide // 4 : wide - wide // 4, wide // 4 : wide - wide // 4] = True
+        middle = surfaces.from_edge(wide) >= wide // 4  # half as wide as the inside
         later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
         yield found_on(scene, name, later, ranges.POSITIVE)
 
