@@ -49,6 +49,12 @@ def measured(rows: Iterable[Row], quantities: Iterable[str]) -> Cases:
     return {key: rows for key, rows in found.items() if rows}
 
 
+def at(step: float, rows: Iterable[Row]) -> Row:
+    """Return the one row of this step."""
+    (row,) = select(rows, step=step)
+    return row
+
+
 def finest_bias(rows: Iterable[Row]) -> float:
     """Largest bias that the finest step h may have itself, as a share of the quantity.
 
@@ -61,8 +67,7 @@ def finest_bias(rows: Iterable[Row]) -> float:
 
 def largest_bias(rows: Sequence[Row]) -> float:
     """Far end of the interval of the default's bias plus the finest step's, as a share."""
-    (default,) = select(rows, step=STEP)
-    return Bias.of(default).high + finest_bias(rows)
+    return Bias.of(at(STEP, rows)).high + finest_bias(rows)
 
 
 def spent(row: Row, seeds: float) -> float:
@@ -83,7 +88,7 @@ def excess(rows: Sequence[Row], fold: float = 1.0) -> dict[float, float]:
     For the CPU time of `fold` times the study's seeds at the default step. The bias of the finest
     step, which `finest_bias` bounds, is neglected.
     """
-    (default,) = select(rows, step=STEP)
+    default = at(STEP, rows)
     seconds = spent(default, fold * STUDY_SEEDS.get(default["quantity"], ENSEMBLE))
     errors = {row["step"]: total_error(row, seconds) for row in rows}
     return {step: error / min(errors.values()) for step, error in errors.items()}

@@ -196,9 +196,9 @@ class _System:
         works = work_in, np.vdot(friction, v), self._gamma * np.vdot(v, v)
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
-    def _alarm(self, t: Array, y: Array) -> Array:
-        """Event functions (n, k), one per block: negative as long as its state lasts."""
-        u, v = self.split(y)
+    def _alarm(self, dense: DenseOutput, t: Array) -> Array:
+        """Event functions (n, k) at times t (k,), one per block: negative while its state lasts."""
+        u, v = self.split(dense(t))
         motive = self._lattice.force(u) + self._slider_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
@@ -212,10 +212,6 @@ class _System:
         left_sliding = np.maximum(stopped, entered)
         states = [state == STUCK, state == CREEPING, state == SLIDING]
         return np.select(states, [released, left_creeping, left_sliding], -1.0)
-
-    def _alarm_at(self, dense: DenseOutput, time: float) -> Array:
-        """Event functions (n,) at one time of a step."""
-        return self._alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
     def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
@@ -302,15 +298,15 @@ class _System:
             return None
         time, after = bracket
         if time < after:
-            accuracy = {"xtol": 1e-300, "rtol": 1e-15}
-            time = brentq(lambda t: self._alarm_at(dense, t).max(), time, after, **accuracy)
-        alarm = self._alarm_at(dense, time)
+            ends = {"a": time, "b": after, "xtol": 1e-300, "rtol": 1e-15}
+            time = brentq(lambda t: self._alarm(dense, np.array([t])).max(), **ends)
+        alarm = self._alarm(dense, np.array([time]))[:, 0]
         # the root may fall a rounding error short of zero: the worst block is due in any case
         return time, alarm >= min(-_TIE, alarm.max())
 
     def _bracket(self, dense: DenseOutput, t: Array) -> tuple[float, float] | None:
         """Two times with no block due at the first and one at the second; equal if due at once."""
-        alarm = self._alarm(t, dense(t))
+        alarm = self._alarm(dense, t)
         reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
         last = reached[0] if reached.size else len(t) - 1
         if reached.size and last == 0:
@@ -324,7 +320,7 @@ class _System:
             peak = int(alarm[block, : last + 1].argmax())
             low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
             best = minimize_scalar(
-                lambda time, block=block: -self._alarm_at(dense, time)[block],
+                lambda time, block=block: -self._alarm(dense, np.array([time]))[block, 0],
                 bounds=(low, high),
                 options={"xatol": 1e-9 * (high - low)},
             )

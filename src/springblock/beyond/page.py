@@ -7,12 +7,7 @@ from springblock.beyond import friction, lattice, peaks, scatter
 from springblock.beyond.question import Ensembles
 
 #: A module per question, in the order of the page's sections.
-QUESTIONS = {
-    "lattice": lattice,
-    "peaks": peaks,
-    "friction": friction,
-    "scatter": scatter,
-}
+QUESTIONS = {"lattice": lattice, "peaks": peaks, "friction": friction, "scatter": scatter}
 _PAGE = Path(__file__).with_name("page.md")
 
 

@@ -43,17 +43,14 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
     paired = select(evidence.precision, comparison="paired", step=PAPER_STEP)
+    source = f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}"
     for integrator in ("leapfrog", "rk4", PLAIN):
         for row in select(paired, integrator=integrator):
             scene, quantity = row["scene"], row["quantity"]
             if (scene, quantity) in errors:
-                yield Finding(
-                    {"integrator": integrator},
-                    f"relative bias of {quantity} at h = {PAPER_STEP:.0e} s, {scene} surface",
-                    samples.interval(row, "error"),
-                    within(errors[scene, quantity]),
-                    f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}",
-                )
+                name = f"relative bias of {quantity} at h = {PAPER_STEP:.0e} s, {scene} surface"
+                bias, claimed = samples.interval(row, "error"), within(errors[scene, quantity])
+                yield Finding({"integrator": integrator}, name, bias, claimed, source)
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
@@ -119,14 +116,9 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
         chosen = scenes[0], scenes[-1], flat
         low, high = (dict(scene.varied)[name] for scene in chosen[:2])
         change = samples.relative(*(over_runs(fronts, evidence.records[s]) for s in chosen))
-        yield Finding(
-            {"constant": name},
-            f"the change in the number of fronts from {name} = {low:g} to {high:g}, over that with "
-            "the paper's constants",
-            samples.magnitude(change),
-            (_AFFECTS, INF),
-            in_files(*chosen),
-        )
+        span = f"from {name} = {low:g} to {high:g}, over that with the paper's constants"
+        statistic, size = f"the change in the number of fronts {span}", samples.magnitude(change)
+        yield Finding({"constant": name}, statistic, size, (_AFFECTS, INF), in_files(*chosen))
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:

@@ -14,7 +14,7 @@ from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Evidence, Finding
+from springblock.claims.rule import Case, Evidence, Finding
 from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
 from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
@@ -277,17 +277,13 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         lowest = _lowest_of(evidence, scenes if own else _of_all_sizes(evidence))
         runs, sizes = evidence.records[broad], [scene.n_p for scene in lowest]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
-        fits = {ranges.PLAIN: fit.fitted, ranges.SCALED: fit.tail}
-        for curve, fitted in fits.items():
+        minimum = f"n_p = {' or '.join(map(str, sizes))}"
+        name = f"the size of lowest static friction, {minimum}, over l_c at n_p = {broad.n_p}"
+        for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
-            yield Finding(
-                {_SCATTER: scatter, "fit": curve},
-                f"the size of lowest static friction, n_p = {' or '.join(map(str, sizes))}, over "
-                f"l_c at n_p = {broad.n_p}",
-                Estimate(sizes[0] / value, sizes[0] / high, sizes[-1] / low, len(runs)),
-                ranges.COMPARABLE,
-                surfaces.in_files(*scenes),
-            )
+            case: Case = {_SCATTER: scatter, "fit": curve}
+            ratio = Estimate(sizes[0] / value, sizes[0] / high, sizes[-1] / low, len(runs))
+            yield Finding(case, name, ratio, ranges.COMPARABLE, surfaces.in_files(*scenes))
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
