@@ -64,13 +64,13 @@ SCHEMA = pa.schema(
 
 
 class _Surfaces(NamedTuple):
-    """Surfaces that stand for a scene."""
+    """Surfaces that represent a scene."""
 
     single: Pattern  #: small enough for the reference solution
     duration: float  #: of single runs, s
     singles: int  #: seeds of these; the reference takes 5 to 20 CPU s for each
     ensemble: Pattern  #: small enough for paired ensembles
-    seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
+    seeds: int  #: of these; enough to resolve a bias of 0.1 %
 
 
 _GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
@@ -82,14 +82,14 @@ _SURFACES = {
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
-PLAIN_STEPS = STEPS[:-2]  # enough to see that its errors hardly decrease
+PLAIN_STEPS = STEPS[:-2]  #: enough to show that errors hardly decrease
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
-Errors = dict[str, Array]  #: by what they are of, one for each realisation
+Errors = dict[str, Array]  #: by quantity, one for each realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
 Timed = tuple[Computed, float]  #: a run and its CPU time, s
@@ -117,12 +117,12 @@ def run_errors(run: Computed, exact: reference.Reference, until: float) -> dict[
 
 
 def root_mean_square(values: Array) -> float:
-    """Return the root of the mean square, zero for no values at all."""
+    """Return the root of the mean square; zero without values."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
-    """Return what `solve` returns, and the CPU seconds that it took."""
+    """Return the result of `solve`, and its CPU time, s."""
     start = time.process_time()
     return solve(), time.process_time() - start
 
@@ -212,7 +212,7 @@ def ensemble(
 
 
 def means_of(runs: Sequence[Timed]) -> Errors:
-    """Return what ensembles are used for, each (seeds,)."""
+    """Return the quantities averaged over ensembles, each (seeds,)."""
     return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
 
 

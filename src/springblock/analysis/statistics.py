@@ -21,7 +21,7 @@ from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
-#: Least force of a load peak over the largest force; in sliding it is two thirds or less.
+#: Least force of a load peak over the largest force; during sliding it is at most two thirds.
 _LOAD_PEAK = 0.9
 _PROMINENT = 0.01  #: least prominence of a load peak over the largest force
 

@@ -1,4 +1,4 @@
-"""The page of what goes beyond the paper, from its template."""
+"""The page of questions beyond the paper, from its template."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ _PAGE = Path(__file__).with_name("page.md")
 
 
 def page(ensembles: Ensembles) -> str:
-    """Write the page: first the answers, then how each was obtained and the values behind it."""
+    """Write the page: the answers, then the method and the values of each."""
     answers, values = [], {}
     for i, (name, module) in enumerate(QUESTIONS.items(), 1):
         answer, *rest = [*module.answers(ensembles)] or [

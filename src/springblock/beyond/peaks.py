@@ -1,4 +1,4 @@
-"""Load peaks over the grooves' widths and the sliding direction, with pillars and without."""
+"""Load peaks against widths of grooves and sliding direction, with pillars and without."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -34,8 +34,8 @@ def prominences(runs: Sequence[Record]) -> pd.Series:
 def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, pd.Series]]:
     """Prominences by widths and by the angle between sliding and grooves.
 
-    Of grooves alone and grooves on pillars, of the study's material; on surfaces of several sizes,
-    those with the most realisations.
+    Grooves are alone or on pillars, with the study's material; of surfaces of several sizes the one
+    with the most realisations is used.
     """
     found = grouped(
         (Grooves(scene.n_p, scene.n_s2, scene.n_p2), degrees(scene.direction), prominences(runs))
@@ -89,7 +89,7 @@ def _difference(first: pd.Series, second: pd.Series) -> Interval:
 
 
 def _significant(differences: Sequence[Interval]) -> tuple[int, int]:
-    """Count differences above zero and below it, by their intervals."""
+    """Count the differences significantly above zero, and those below."""
     above = [bool(each.low > 0.0) for each in differences]
     below = [bool(each.high < 0.0) for each in differences]
     return sum(above), sum(below)

@@ -306,10 +306,9 @@ def _larger_there(
 ) -> Iterator[Finding]:
     """Yield the excess of a quantity where static friction is lowest over other pillars.
 
-    These are the smallest and the largest ones, or those of `every` size.
-
-    Where several sizes may have the lowest friction, the interval encloses those of all of them. It
-    has no upper end on these sizes themselves, and where they differ in sign.
+    The others are the smallest and the largest pillars, or those of `every` size. If several sizes
+    may have the lowest friction, the interval encloses those of all; it has no upper end for these
+    sizes themselves, and where the intervals differ in sign.
     """
     scenes = _of_all_sizes(evidence)
     lowest = _lowest_of(evidence, scenes) if scenes else []

@@ -1,6 +1,6 @@
 """The register of statements, written before the run on fresh seeds that judges them.
 
-`register.csv` is the table `claims` of earlier seeds, in the words of its day, with the verdicts on
+`register.csv` is the table `claims` of earlier seeds, in its original wording, with the verdicts on
 these seeds and those of version 1.0.0, which had another rule; `confirmed.csv` has the verdicts of
 the registered tests on the fresh seeds. Statements are matched by name.
 """
@@ -46,9 +46,9 @@ def verdicts() -> dict[str, Row]:
 def changes(table: Sequence[Row]) -> str:
     """List in a Markdown table which tests differ from those registered, and why.
 
-    Forms, ranges and cases are compared: what is new counts, since what is absent may not have been
-    simulated. A test that differs in its definition alone is listed by its reason; new words for
-    the same test are not.
+    Forms, ranges and cases are compared. Only new ones count, since absent ones may not have been
+    simulated. A test that differs only in its definition is listed if it has a reason; rewordings
+    are not listed.
     """
     before, why = registered("register.csv"), reasons()
     known = {row["claim"] for row in before}

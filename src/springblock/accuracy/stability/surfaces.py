@@ -1,4 +1,4 @@
-"""Columns and surfaces: step, stiffness, strain, scatter, load, size, and sliders too fast."""
+"""Columns and surfaces: step, stiffness, strain, scatter, load, size, and too fast sliders."""
 
 import math
 from collections.abc import Iterator
@@ -25,7 +25,7 @@ DISPLACEMENT = "displacement, l"
 
 
 def steps(integrator: str) -> Iterator[Case]:
-    """Steps up to the stability limit and beyond, without damping and far overdamped."""
+    """Yield steps up to the stability limit and beyond, with weak and with strong damping."""
     case = partial(Case, "step", integrator)
     stable = [("pillars", PAPER, share) for share in (0.05, 0.1, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99)]
     for name, material, share in (*stable, ("strained pillars", HEAVY, 0.99)):
@@ -40,7 +40,7 @@ def steps(integrator: str) -> Iterator[Case]:
 
 
 def near_the_limit(integrator: str, material: Material, share: float) -> Outcome:
-    """Judge the energy balance, where too long a step shows first."""
+    """Judge the energy balance, which first shows that a step is too long."""
     pull = Pull.at(share, integrator, material)
     run = pull.simulate(PILLARS, every=max(1, round(2e-7 / pull.step)))
     word = "stable" if pull.keeps_energy(run) else "drifts"
@@ -57,7 +57,7 @@ def beyond_the_limit(integrator: str, material: Material, share: float) -> Outco
 
 
 def stiffnesses(integrator: str) -> Iterator[Case]:
-    """Stiffness, strain and scatter."""
+    """Yield cases of stiffness, strain and scatter."""
     case = partial(Case, "stiffness", integrator)
     for ratio in (1e-4, 1e-2, 1.0, 1e2, 1e4):
         name = f"column at K_s/K_int = {ratio:g}"
@@ -77,7 +77,7 @@ def stiffnesses(integrator: str) -> Iterator[Case]:
 
 
 def loads(integrator: str) -> Iterator[Case]:
-    """Springs that leave the range of their series, and springs that collapse or burst."""
+    """Yield springs beyond the range of their series, and springs that collapse or burst."""
     case = partial(Case, "load", integrator)
     for strain in (0.02, 0.3, 0.6, -0.1, -0.3):
         name = f"column {'stretched' if strain > 0 else 'squeezed'} by {abs(strain):g}"
@@ -94,16 +94,16 @@ def layer(ratio: float, strain: float) -> Material:
 
 
 def scattered(sigma: float, speed: float = 0.01) -> Material:
-    """Return the paper's material with another scatter; mu_d has half that of mu_s, as there."""
+    """Return the paper's material with another scatter of mu_s; that of mu_d is half of it."""
     return pulled_at(speed, replace(PAPER, mu_static_std=sigma, mu_dynamic_std=sigma / 2.0))
 
 
 def pulled_column(ratio: float, strain: float) -> tuple[Surface, Material, float]:
-    """Hold one of two columns of two blocks, and pull the other away, or towards it for strain < 0.
+    """Return two columns of two blocks, of which one is fixed, the material, and a duration, s.
 
-    Returns the surface, the material, whose slider moves the free column by about `strain`
-    spacings (its springs have 1.25 times K_int at small strains), and the duration, s: 13 periods
-    of the highest mode.
+    The slider moves the free column away by about `strain` spacings, or towards the other if
+    strain < 0; its springs have 1.25 times K_int at small strains. The duration is 13 periods of
+    the highest mode.
     """
     contact = [[1, 0], [1, 0]] if strain > 0.0 else [[0, 1], [0, 1]]
     material = layer(ratio, abs(strain))
@@ -122,9 +122,9 @@ def reference_column(ratio: float, strain: float) -> float:
 
 
 def column(integrator: str, strain: float, ratio: float = 1.0) -> Outcome:
-    """Compare a free column in a hundredth of the stable step with the reference solution.
+    """Compare a free column with the reference solution, at a hundredth of the stable step.
 
-    Leapfrog may be off by its order, (omega_max h)², Runge-Kutta by (omega_max h)⁴.
+    The error may be (omega_max h)² for the leapfrog and (omega_max h)⁴ for Runge-Kutta.
     """
     surface, material, duration = pulled_column(ratio, strain)
     count = math.ceil(duration / (0.01 * limit(integrator, material)))
@@ -146,7 +146,7 @@ def broken_column(integrator: str, strain: float) -> Outcome:
 def first_detachment(
     integrator: str, material: Material, n: int = 8, count: int | None = None
 ) -> Outcome:
-    """On a flat surface the weakest block lets go first, at its own threshold, to rounding."""
+    """Compare the first detachment on a flat surface with the lowest threshold, to rounding."""
     pull = Pull.at(0.2, integrator, material)
     surface = Surface.draw(Pattern.flat(n).contact, SEED, material)
     run, weakest = pull.simulate(surface, count), np.maximum(surface.mu_static, surface.mu_dynamic)
@@ -155,7 +155,7 @@ def first_detachment(
 
 
 def sizes(integrator: str) -> Iterator[Case]:
-    """From one block to a million."""
+    """Yield surfaces from one block to a million."""
     case = partial(Case, "size", integrator)
     for n, speed, count in ((1, 0.01, None), (2, 0.01, None), (3, 0.01, None), (1000, 0.1, 60)):
         material = scattered(0.1, speed)
@@ -164,7 +164,7 @@ def sizes(integrator: str) -> Iterator[Case]:
 
 
 def overflows(integrator: str) -> Iterator[Case]:
-    """Sliders too fast to follow."""
+    """Yield sliders that are too fast to be integrated."""
     case = partial(Case, "overflow", integrator)
     for name, n, speed in (
         ("speed whose energy overflows", 1, 1e160),
