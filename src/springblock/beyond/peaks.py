@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from springblock.analysis.statistics import Interval, mean_interval, prominence
+from springblock.analysis.statistics import PROMINENT, Interval, mean_interval, prominence
 from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
 from springblock.beyond.resampling import interval
 from springblock.io.records import Record
@@ -15,7 +15,7 @@ from springblock.model.direction import degrees
 from springblock.simulation.run import friction
 
 NEEDS = "groups peaks and grooves"
-_TWO = 1.0  #: %, prominence of the lesser of two load peaks, at least
+_TWO = 100.0 * PROMINENT  #: %
 
 
 class Grooves(NamedTuple):

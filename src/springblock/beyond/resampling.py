@@ -14,8 +14,8 @@ from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import (
     Interval,
     bootstrap_weights,
+    of_indices,
     samples_interval,
-    weights_of,
 )
 from springblock.io.records import Record
 from springblock.simulation.run import Array
@@ -54,9 +54,5 @@ def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | N
         return found.weighted(weights)[:, 1 : last + 1]
 
     error = curve(bootstrap_weights(k)).std(axis=0)
-
-    def length(drawn: NDArray[np.intp], axis: int) -> Array:
-        weights = weights_of(drawn.reshape(-1, drawn.shape[axis]), k)
-        return fit_tail(curve(weights), error).reshape(drawn.shape[:-1])
-
+    length = of_indices(lambda weights: fit_tail(curve(weights), error), k)
     return interval([np.arange(k)], length)
