@@ -70,7 +70,7 @@ def largest_bias(rows: Sequence[Row]) -> float:
 
 
 def spent(row: Row, seeds: float) -> float:
-    """CPU time of an ensemble at the step of this row, s."""
+    """CPU time of `seeds` realisations at the step of this row, s."""
     return float(row["prelude_seconds"] + seeds * row["cpu_seconds"])
 
 

@@ -25,7 +25,8 @@ PAPER_STEP = 1e-8  #: s
 SAMPLE_INTERVAL = 8e-8  #: s, of runs on small surfaces
 #: Realisations per scene behind the paper's figures; errors must stay under their scatter.
 ENSEMBLE = 20
-#: Relative change of the thresholds that defines the horizon: small compared with their scatter.
+#: Relative change of the thresholds that defines the horizon: the largest that is small compared
+#: with any scatter.
 HORIZON_NUDGE = 1e-5
 #: Energy residual, as a share of the slider's work, that no realisation should exceed.
 ENERGY_TOLERANCE = 5e-4

@@ -176,11 +176,11 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
         source = in_rows("correlation_length", scene, side="x")
-        (fit,) = select(rows, side="x")
-        lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
-        for curve, length in lengths.items():
-            case = {"fit": curve, **case_of(scene)}
-            yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
+        for fit in select(rows, side="x"):
+            lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
+            for curve, length in lengths.items():
+                case = {"fit": curve, **case_of(scene)}
+                yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:

@@ -148,7 +148,7 @@ def with_damping(gamma: float, speed: float) -> Material:
 
 
 def weakenings(integrator: str) -> Iterator[Case]:
-    """Yield cases of friction that weakens within a slip or, as Coulomb's law, within a step."""
+    """Yield cases of friction that weakens within a slip or, like Coulomb's law, within a step."""
     case = partial(Case, "weakening", integrator)
     for law, unit, rates in (
         ("slip_weakening", "K_s", (1.5, 10.0, 1e2, 1e3, 1e4, 1e6, 1e12, 1e100)),
