@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.verification.problems import Answer, Reference
-from springblock.accuracy.specimens import Array
 from springblock.accuracy.work_precision import root_mean_square
+from springblock.simulation.run import Array
 
 
 class Metrics(NamedTuple):

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock.accuracy.specimens import Array
 from springblock.files import write_text
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
+from springblock.simulation.run import Array
 
 SURFACE = ("y", "x", "contact", "mu_static", "mu_dynamic")
 T_DET = ("y", "x", "t_det")

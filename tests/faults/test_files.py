@@ -16,8 +16,8 @@ from faults.damages import (
     replaced,
     truncated,
 )
+from specimens import uniform
 from springblock import simulate, write_fields
-from springblock.accuracy.specimens import uniform
 from springblock.files import read_sealed
 from springblock.provenance import code_version
 from springblock.simulation.prelude import Prelude

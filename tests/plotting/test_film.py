@@ -8,8 +8,8 @@ from imageio_ffmpeg import count_frames_and_secs
 from matplotlib.colors import to_rgb
 from PIL import Image
 
+from specimens import drawn
 from springblock import Pattern, Realisation, Surface, animate, simulate
-from springblock.accuracy.specimens import drawn
 from springblock.plotting import film
 from springblock.plotting.maps import painted
 from springblock.plotting.style import VERMILION

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from specimens import drawn
 from springblock import Material, Pattern, Realisation, Setup, compute_prelude, simulate
-from springblock.accuracy.specimens import drawn
 from springblock.simulation.checkpoint import Checkpoint
 
 PILLARS = Pattern.pillars(12, 4, 2)

@@ -6,8 +6,8 @@ import mpmath
 import numpy as np
 import pytest
 
+from specimens import uniform
 from springblock import Material, Setup, Surface, simulate
-from springblock.accuracy.specimens import uniform
 from springblock.simulation.energy import elastic_energy
 
 PAPER = Material()

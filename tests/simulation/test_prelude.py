@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from specimens import drawn
 from springblock import (
     Material,
     Pattern,
@@ -12,7 +13,6 @@ from springblock import (
     compute_prelude,
     simulate,
 )
-from springblock.accuracy.specimens import drawn
 from springblock.simulation.motion import Motion
 from springblock.simulation.prelude import HOLDING
 from springblock.solver.springs import Grid

@@ -6,8 +6,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
+from specimens import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
-from springblock.accuracy.specimens import drawn, flat, uniform
 from springblock.model.defaults import STEP
 from springblock.simulation.run import first_minimum
 

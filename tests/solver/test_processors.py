@@ -8,8 +8,8 @@ import sys
 import numpy as np
 import pytest
 
+from specimens import drawn
 from springblock import Pattern, simulate
-from springblock.accuracy.specimens import drawn
 
 #: Of force and times up to the peak. Rounding differs by 1e-16 a step and grows over some thousand
 #: steps; beyond the peak of patterned surfaces, avalanches reorder (docs/accuracy.md).
@@ -18,9 +18,8 @@ TOLERANCE = 1e-9
 ELSEWHERE = """
 import sys
 import numpy as np
-from springblock import Pattern, simulate
-from springblock.accuracy.specimens import drawn
-run = simulate(drawn(Pattern.pillars(24, 8, 4), 1))
+from springblock import Pattern, Surface, simulate
+run = simulate(Surface.draw(Pattern.pillars(24, 8, 4).contact, 1))
 np.savez(sys.argv[1], force=run.force, t_det=run.t_det, t_max=run.t_max)
 """
 

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from specimens import flat, uniform
 from springblock import Setup, simulate
-from springblock.accuracy.specimens import flat, uniform
 from springblock.accuracy.stability.cases import UNDAMPED
 from springblock.accuracy.stability.one_block import slip
 from springblock.model.defaults import STEP

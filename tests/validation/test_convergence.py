@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from specimens import flat
 from springblock import Material, Setup, simulate
 from springblock.accuracy import plain_rk4
 from springblock.accuracy.reference import solve
-from springblock.accuracy.specimens import flat
 from springblock.solver.integrators import INTEGRATORS
 from validation.test_surfaces import LAWS, oblong
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from specimens import flat, uniform
 from springblock import Material, Pattern, Surface, compute_prelude, read, simulate
-from springblock.accuracy.specimens import flat, uniform
 from springblock.model.law import LawFile
 from springblock.simulation.setup import Setup
 from studies import PAPER as STUDY

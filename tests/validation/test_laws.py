@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from specimens import uniform
 from springblock import Material, Setup, simulate
-from springblock.accuracy.specimens import uniform
 from springblock.accuracy.stability.one_block import slip
 
 FAST = Material(gamma=0.0, slider_velocity=5e-3)

@@ -1,13 +1,12 @@
-"""The error study: how far results can be trusted, measured and written down.
+"""The error study: errors of single runs and of ensembles, and the page on them.
 
-conventions       what tables, page, figures and claims agree on, and which residuals are suspect
-specimens         surfaces that errors are measured on
-reference         the solution that locates every event
-plain_rk4         Runge-Kutta as one would first write it
+conventions       constants that tables, page, figures and claims share; suspect residuals
+reference         solution that locates every event
+plain_rk4         Runge-Kutta method with the friction of each stage
 work_precision    error against work, in two comparisons
-production        bias, scatter and cost of the study's own ensembles
-budget            what an ensemble misses for so much CPU time
+production        bias, scatter and cost of ensembles of the study's size
+budget            total error of an ensemble for a given CPU time
 consistency       whether the physics is the same where bits differ
 stability         stiff and extreme cases
-page              what to trust, in words
+page              the page on errors
 """

@@ -1,7 +1,7 @@
-"""Bias of ensembles, and which step is best for so much CPU time.
+"""Bias of ensembles, and the best step for a given CPU time.
 
-The mean over k seeds is off by its bias, which the step leaves, and by its scatter, which falls
-with k. Their root mean square is the total error,
+The mean over k seeds has a bias, caused by the step, and a scatter, which falls with k. The root
+of the sum of their squares is the total error,
 
     E² = bias² + deviation²/k,    k = (CPU time - that of the prelude)/(CPU time of a realisation).
 
@@ -19,7 +19,7 @@ from springblock.io.rows import Row, select
 from springblock.model.defaults import STEP
 
 Cases = dict[tuple[str, str], list[Row]]  #: rows at each step, by quantity and scene
-#: Realisations of a scene in the study, by what errors are asked of; the decay length needs more.
+#: Realisations of a scene in the study, by quantity; the decay length needs more.
 STUDY_SEEDS = {"static_friction": ENSEMBLE, DELAY: ENSEMBLE, LENGTH: 60}
 
 
@@ -31,10 +31,9 @@ class Bias(NamedTuple):
 
     @classmethod
     def of(cls, row: Row) -> "Bias":
-        """Take it from a row of the table `production`.
+        """Return the bias in a row of the table `production`.
 
-        A measured bias is too large by its own scatter, E[b²] = bias² + error²: what that adds is
-        taken off.
+        The scatter of a measured bias b, E[b²] = bias² + error², is subtracted.
         """
         squared = max(row["bias"] ** 2 - row["bias_error"] ** 2, 0.0)
         high = max(abs(row["ci_low"]), abs(row["ci_high"]))
@@ -42,18 +41,24 @@ class Bias(NamedTuple):
 
 
 def measured(rows: Iterable[Row], quantities: Iterable[str]) -> Cases:
-    """Rows of the table `production` by quantity and scene, where there are any, finest first."""
+    """Rows of the table `production`, finest step first, by quantity and scene that have any."""
     ordered = sorted(rows, key=lambda row: row["step"])
     keys = product(quantities, SCENES)
     found = {key: select(ordered, quantity=key[0], scene=key[1]) for key in keys}
     return {key: rows for key, rows in found.items() if rows}
 
 
-def finest_bias(rows: Iterable[Row]) -> float:
-    """Largest bias that the finest step h may have itself, as a share of the quantity.
+def at(step: float, rows: Iterable[Row]) -> Row:
+    """Return the one row of this step."""
+    (row,) = select(rows, step=step)
+    return row
 
-    Of order p, it is the bias of the next step, r h, from that of h, over r^p - 1. We take p = 1,
-    the lower bound of orders across events, and the far end of the 95 % interval.
+
+def finest_bias(rows: Iterable[Row]) -> float:
+    """Largest bias of the finest step h itself, as a share of the quantity.
+
+    For an error of order p it is the bias of the next step, r h, against h over r^p - 1. We take
+    p = 1, the lower bound of orders across events, and the far end of the 95 % interval.
     """
     finest, following = sorted(rows, key=lambda row: row["step"])[:2]
     return Bias.of(following).high / (following["step"] / finest["step"] - 1.0)
@@ -61,29 +66,28 @@ def finest_bias(rows: Iterable[Row]) -> float:
 
 def largest_bias(rows: Sequence[Row]) -> float:
     """Far end of the interval of the default's bias plus the finest step's, as a share."""
-    (default,) = select(rows, step=STEP)
-    return Bias.of(default).high + finest_bias(rows)
+    return Bias.of(at(STEP, rows)).high + finest_bias(rows)
 
 
 def spent(row: Row, seeds: float) -> float:
-    """CPU time of so many seeds at the step of this row, s."""
+    """CPU time of `seeds` realisations at the step of this row, s."""
     return float(row["prelude_seconds"] + seeds * row["cpu_seconds"])
 
 
 def total_error(row: Row, seconds: float) -> float:
-    """Total error for so much CPU time, s; infinite where that is less than a realisation's."""
+    """Total error for a CPU time, s; infinite if it does not suffice for one realisation."""
     seeds = (seconds - row["prelude_seconds"]) / row["cpu_seconds"]
     scatter = row["deviation"] / row["scale"]
     return sqrt(Bias.of(row).estimate ** 2 + scatter**2 / seeds) if seeds >= 1.0 else inf
 
 
 def excess(rows: Sequence[Row], fold: float = 1.0) -> dict[float, float]:
-    """Total error at each step over that at the best one, of one scene and quantity.
+    """Total error at each step over that at the best step, for one scene and quantity.
 
-    For the CPU time of `fold` times the study's seeds at the default step. The bias of the finest
-    step, which `finest_bias` bounds, is neglected.
+    The CPU time is that of `fold` times the study's seeds at the default step. The bias of the
+    finest step, which `finest_bias` bounds, is neglected.
     """
-    (default,) = select(rows, step=STEP)
+    default = at(STEP, rows)
     seconds = spent(default, fold * STUDY_SEEDS.get(default["quantity"], ENSEMBLE))
     errors = {row["step"]: total_error(row, seconds) for row in rows}
     return {step: error / min(errors.values()) for step, error in errors.items()}

@@ -37,7 +37,7 @@ OBSERVABLES = ("static_friction", "t_max", "t_avg")
 RECORD = Path(__file__).with_name("consistency.csv")
 #: Probability of a false alarm, for all observables of all scenes together.
 LEVEL = 0.01
-#: Relative differences up to this are rounding that nothing has amplified.
+#: Largest relative difference that is rounding, not amplified by avalanches.
 _ROUNDING = 1e-9
 
 

@@ -1,6 +1,6 @@
-"""What tables, page, figures and claims agree on, and which residuals are suspect.
+"""Constants that tables, page, figures and claims share, and the test for suspect residuals.
 
-Nothing here is slow to import.
+The workflow imports this module at every start: no slow imports.
 """
 
 from collections import defaultdict
@@ -15,8 +15,8 @@ from springblock.io.rows import Row
 
 SCENES = ("flat", "pillared", "grooved")
 COMPARISONS = ("reference", "paired")
-MEANS = ("static_friction", "t_max", "t_avg")  #: what ensembles are used for
-#: What orders of convergence are measured of.
+MEANS = ("static_friction", "t_max", "t_avg")  #: quantities averaged over ensembles
+#: Quantities whose orders of convergence are measured.
 ORDERED = ("static_friction", "t_det before horizon")
 DELAY = "t_max - t_avg"  #: by how much the force peak comes after the mean detachment
 LENGTH = "decay length"  #: of c(r) along the sides of pillars
@@ -25,12 +25,12 @@ PAPER_STEP = 1e-8  #: s
 SAMPLE_INTERVAL = 8e-8  #: s, of runs on small surfaces
 #: Realisations per scene behind the paper's figures; errors must stay under their scatter.
 ENSEMBLE = 20
-#: Relative change of the thresholds that sets the horizon; the largest that is small against any
-#: spread.
+#: Relative change of the thresholds that defines the horizon: the largest that is small compared
+#: with any scatter.
 HORIZON_NUDGE = 1e-5
 #: Energy residual, as a share of the slider's work, that no realisation should exceed.
 ENERGY_TOLERANCE = 5e-4
-#: How many times the median of its scene a residual may be.
+#: Largest residual over the median of its scene.
 OUT_OF_LINE = 10.0
 
 
@@ -40,7 +40,7 @@ def half_width(deviation: float, count: int) -> float:
 
 
 def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> float:
-    """Return the standard error of a mean over so many seeds, from another number's interval."""
+    """Return the standard error of a mean over `realisations`, from a row with another number."""
     half = (scatter["ci_high"] - scatter["ci_low"]) / 2.0
     count = scatter["realisations"]
     deviation = half / students_t(count - 1) * count**0.5
@@ -50,7 +50,7 @@ def ensemble_error(scatter: Mapping[str, Any], realisations: int = ENSEMBLE) -> 
 def suspects(realisations: Iterable[Row], scene: Iterable[str]) -> list[Row]:
     """Return rows whose energy residual is too large, or out of line with those of the same scene.
 
-    `scene` names the columns that tell scenes apart.
+    `scene` names the columns that distinguish scenes.
     """
     keys, groups = list(scene), defaultdict(list)
     for row in realisations:

@@ -6,7 +6,7 @@ from pathlib import Path
 from statistics import median
 
 from springblock.accuracy import budget
-from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, finest_bias, largest_bias
+from springblock.accuracy.budget import STUDY_SEEDS, Bias, Cases, at, finest_bias, largest_bias
 from springblock.accuracy.conventions import (
     DELAY,
     ENERGY_TOLERANCE,
@@ -133,7 +133,7 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=_PERCENT * most, **_KNOWN)
     cases = budget.measured(rows, (*MEANS, LENGTH))
-    larger = [_scatter(case) > Bias.of(_at(STEP, case)).estimate for case in cases.values()]
+    larger = [_scatter(case) > Bias.of(at(STEP, case)).estimate for case in cases.values()]
     return _OPENING.format(
         biases=_largest(largest_bias, cases),
         errors=_largest(_scatter, cases),
@@ -162,7 +162,7 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
         return _WITHOUT
     finest, following = sorted({row["step"] for row in rows})[:2]
     pillars = select(rows, quantity="t_avg", scene="pillared")
-    default, fine = _at(STEP, pillars), _at(_FINE, pillars)
+    default, fine = at(STEP, pillars), at(_FINE, pillars)
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}
     return _FULL_SIZE.read_text(encoding="utf-8").format(
         **_KNOWN,
@@ -198,12 +198,6 @@ def _name(quantity: str) -> str:
     return _NAMES.get(quantity, quantity)
 
 
-def _at(step: float, rows: Iterable[Row]) -> Row:
-    """Return the one row of this step."""
-    (row,) = select(rows, step=step)
-    return row
-
-
 def _error(row: Row) -> str:
     """Format an error, or "none" where runs agree to every digit."""
     return f"{row['error']:.1e}" if row["error"] else "none"
@@ -236,14 +230,14 @@ def _paired_bias(bias: Row, scatter: Row) -> str:
 
 def _scatter(rows: Sequence[Row]) -> float:
     """Standard error of the study's mean, as a share."""
-    row = _at(STEP, rows)
+    row = at(STEP, rows)
     seeds = STUDY_SEEDS.get(row["quantity"], ENSEMBLE)
     return float(row["deviation"] / row["scale"] / sqrt(seeds))
 
 
 def _value(*rows: Row) -> str:
     """Return value ± statistical ± numerical error, to two digits of the statistical error."""
-    row = _at(STEP, rows)
+    row = at(STEP, rows)
     unit, factor = _UNITS[row["unit"]]
     value, scale = factor * row["value"], factor * row["scale"]
     statistical = factor * half_width(row["deviation"], row["realisations"])
@@ -254,7 +248,7 @@ def _value(*rows: Row) -> str:
 
 def _bias(*rows: Row) -> str:
     """Return bias, interval, bias of the finest step and error of the mean, in percent."""
-    row = _at(STEP, rows)
+    row = at(STEP, rows)
     percent = _PERCENT / row["scale"]
     bias, low, high = (percent * row[key] for key in ("bias", "ci_low", "ci_high"))
     finest, error = _PERCENT * finest_bias(rows), _PERCENT * _scatter(rows)

@@ -1,8 +1,8 @@
-"""Runge-Kutta as one would first write it, whose errors hardly decrease with the step.
+"""Runge-Kutta method with the friction of each stage; its errors hardly decrease with the step.
 
 Friction opposes the velocity of each *stage*, and a block sticks again when its velocity turns
 back. The stage velocities of a slow block alternate in sign, so that it creeps instead of coming
-to rest. SI units throughout, one force evaluation per stage, no thought given to speed.
+to rest. SI units, one force evaluation per stage; not optimised.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass
 class Solution:
-    """Names and units as in `springblock.Realisation`."""
+    """Result of a run; names and units as in `springblock.Realisation`."""
 
     time: Array
     force: Array

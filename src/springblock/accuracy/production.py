@@ -1,8 +1,8 @@
 """Errors of ensembles at the study's own size: the rows of results/tables/production.parquet.
 
 Ensembles of the study's scenes with N = 120 at several steps, against the leapfrog at the finest
-of them with the same seeds. Pairing takes most of the scatter from seed to seed out of the
-difference, which is the bias; the scatter itself says what so many seeds are worth.
+of them with the same seeds. The bias is the mean difference of pairs, which has little of the
+scatter from seed to seed; the scatter determines the standard error of an ensemble.
 """
 
 from collections.abc import Iterator
@@ -13,7 +13,6 @@ import pyarrow as pa
 from tqdm import tqdm
 
 from springblock.accuracy.conventions import DELAY, LENGTH, MEANS
-from springblock.accuracy.specimens import Array, drawn
 from springblock.accuracy.work_precision import timed
 from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import mean_interval, standard_error
@@ -21,8 +20,9 @@ from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
 from springblock.model.pattern import Pattern
+from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.run import Realisation
+from springblock.simulation.run import Array, Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 
@@ -62,7 +62,7 @@ PATTERNS = {
     "pillared": Pattern.pillars(120, 20, 20),
     "grooved": Pattern.pillars(120, 58, 62).grooved(8, 2),
 }
-#: As many as a quarter of an hour allows, more where a realisation costs less.
+#: Number of seeds: a quarter of an hour in all; more where a realisation costs less.
 SEEDS = {"flat": 100, "pillared": 60, "grooved": 40}
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9)
 #: A multiple of all steps, near the study's 2e-7 s.
@@ -71,7 +71,7 @@ QUANTITIES = (*MEANS, DELAY)  #: of every realisation
 #: Of one run, or of k stacked, (k, ...) each: the quantities, the times along sides as of
 #: `side_times`, s (none where pillars are not whole), and the CPU time, s.
 Kept = tuple[Array, ...]
-UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of what is no time
+UNITS = {"static_friction": "1", LENGTH: "blocks"}  #: of quantities other than times
 
 
 def production_rows(scene: str) -> Iterator[Row]:
@@ -106,24 +106,25 @@ def production_rows(scene: str) -> Iterator[Row]:
 def simulate_ensembles(
     pattern: Pattern, seeds: int
 ) -> tuple[dict[float, float], dict[float, Kept]]:
-    """Return the CPU time of each step's prelude, and what is kept of so many seeds.
+    """Return the CPU time of the prelude and the results of all seeds, by step.
 
-    Steps take turns at every seed, so that what slows one of them slows all.
+    Each seed is run with all steps in turn, so that other load on the machine affects all alike.
     """
     setups = {h: Setup(step=h, sample_interval=SAMPLE_INTERVAL) for h in STEPS}
     compute_prelude(Pattern.flat(4).contact)  # compiled first
     preludes = {h: timed(partial(compute_prelude, pattern.contact, setups[h])) for h in STEPS}
     kept: dict[float, list[Kept]] = {h: [] for h in STEPS}
     for seed in tqdm(range(seeds), desc="seeds"):
+        surface = Surface.draw(pattern.contact, seed)
         for h, (prelude, _) in preludes.items():
-            pull = partial(simulate, drawn(pattern, seed), setups[h], prelude=prelude)
+            pull = partial(simulate, surface, setups[h], prelude=prelude)
             kept[h].append(keep(pattern, *timed(pull)))
     seconds = {h: spent for h, (_, spent) in preludes.items()}
     return seconds, {h: tuple(map(np.stack, zip(*kept[h], strict=True))) for h in STEPS}
 
 
 def keep(pattern: Pattern, run: Realisation, seconds: float) -> Kept:
-    """Keep of a run what ensembles are used for: means, and sides where pillars are whole."""
+    """Return the quantities of a run, the times along sides of whole pillars, and the CPU time."""
     means = [*(getattr(run, name) for name in MEANS), run.t_max - run.t_avg]
     whole = len(pattern.levels) == 1
     sides = side_times([run], pattern, "x")[0] if whole else np.empty(0)
@@ -147,8 +148,8 @@ def of_mean(values: Array, exact: Array) -> Row:
 def of_length(sides: dict[float, Array]) -> dict[float, Row]:
     """Decay length and its bias by step, from the times along the sides of the same k seeds.
 
-    The same resamples of seeds at every step; range of r and weights of the fit are those at the
-    default step, so that nothing but the times differs.
+    All steps have the same resamples of seeds, and the range of r and the weights of the fit at
+    the default step: only the times differ.
     """
     curves = {step: Correlation(times) for step, times in sides.items()}
     span = slice(1, curves[STEP].last + 1)

@@ -1,6 +1,6 @@
 """Reference solution of the spring-block model, event by event, for small lattices.
 
-It shares nothing with the package but its constants, and is meant for up to about 20 x 20 blocks.
+It shares only constants with the solver, and is meant for up to about 20 x 20 blocks.
 Between two events the equations of motion are smooth, and DOP853 (Hairer, Nørsett & Wanner 1993,
 order 8) follows them to a relative tolerance of 1e-10; every detachment and every stop is located
 on the dense output of the step that holds it, and integration starts afresh from there.
@@ -63,7 +63,7 @@ _SLACK = 1e-9  #: share of F_n by which F_mot must fall below mu_d F_n for a sta
 
 @dataclass
 class Reference:
-    """What one run yields, in SI units. Arrays over blocks are indexed [y, x]."""
+    """Result of a run, in SI units. Arrays over blocks are indexed [y, x]."""
 
     time: Array  #: (n,) s, multiples of the sample interval
     force: Array  #: (n,) N, |sum of F_s| at these times
@@ -72,7 +72,7 @@ class Reference:
     static_friction: float  #: greatest sampled force over P l² N_y N_x
     t_max: float  #: s, time of that sample
     t_avg: float  #: s, mean of t_det over the contact blocks that detached
-    relative_residual: float  #: what the energy balance misses, over the slider's work
+    relative_residual: float  #: of the energy balance, over the work of the slider
 
 
 def _units(material: Material) -> tuple[float, float, float]:
@@ -101,7 +101,7 @@ class _Lattice:
         bond, signs = np.tile(np.arange(len(bonds)), 2), np.repeat([-1.0, 1.0], len(bonds))
         ends = np.concatenate([first, second]).astype(int)
         one = sparse.csr_array((signs, (bond, ends)), shape=(len(bonds), block.size))
-        # one product for both components: most of the time would go into calling two
+        # one product for both components: calls take most of the time
         self._difference = sparse.block_diag([one, one], format="csr")
         self._net = sparse.csr_array(-self._difference.T)
         self._axis = np.array(axis)[:, :, None]  # L e
@@ -196,9 +196,9 @@ class _System:
         works = work_in, np.vdot(friction, v), self._gamma * np.vdot(v, v)
         return np.concatenate([v.ravel(), acceleration.ravel(), works])
 
-    def _alarm(self, t: Array, y: Array) -> Array:
-        """Event functions (n, k), one per block: negative as long as its state lasts."""
-        u, v = self.split(y)
+    def _alarm(self, dense: DenseOutput, t: Array) -> Array:
+        """Event functions (n, k) at times t (k,), one per block: negative while its state lasts."""
+        u, v = self.split(dense(t))
         motive = self._lattice.force(u) + self._slider_force(t, u)
         force, speed = np.hypot(*motive), np.hypot(*v)
         released = (force - self.threshold[:, None]) / self.load
@@ -212,10 +212,6 @@ class _System:
         left_sliding = np.maximum(stopped, entered)
         states = [state == STUCK, state == CREEPING, state == SLIDING]
         return np.select(states, [released, left_creeping, left_sliding], -1.0)
-
-    def _alarm_at(self, dense: DenseOutput, time: float) -> Array:
-        """Event functions (n,) at one time of a step."""
-        return self._alarm(np.array([time]), dense(np.array([time])))[:, 0]
 
     def _creep_limits(self, motive: Array, u: Array, v: Array) -> tuple[Array, Array]:
         """Event functions (n, k) for the end of creeping and, stricter, for its return."""
@@ -254,7 +250,7 @@ class _System:
         return detaching
 
     def residual(self, y: Array) -> float:
-        """What the energy balance misses at the time of the last event, over the slider's work."""
+        """Residual of the energy balance at the last event, over the work of the slider."""
         u, v = self.split(y[:, None])
         pull = self._slider_force(np.zeros(1), u)
         work_in, friction, viscous = (float(work) for work in y[-3:])
@@ -296,21 +292,21 @@ class _System:
     def _first_event(
         self, dense: DenseOutput, start: float, end: float
     ) -> tuple[float, Flags] | None:
-        """Earliest time in a step at which an event function reaches zero, and whose it is."""
+        """Earliest time in a step at which an event function reaches zero, and the blocks due."""
         bracket = self._bracket(dense, np.linspace(start, end, _SAMPLES + 1))
         if bracket is None:
             return None
         time, after = bracket
         if time < after:
-            accuracy = {"xtol": 1e-300, "rtol": 1e-15}
-            time = brentq(lambda t: self._alarm_at(dense, t).max(), time, after, **accuracy)
-        alarm = self._alarm_at(dense, time)
+            ends = {"a": time, "b": after, "xtol": 1e-300, "rtol": 1e-15}
+            time = brentq(lambda t: self._alarm(dense, np.array([t])).max(), **ends)
+        alarm = self._alarm(dense, np.array([time]))[:, 0]
         # the root may fall a rounding error short of zero: the worst block is due in any case
         return time, alarm >= min(-_TIE, alarm.max())
 
     def _bracket(self, dense: DenseOutput, t: Array) -> tuple[float, float] | None:
         """Two times with no block due at the first and one at the second; equal if due at once."""
-        alarm = self._alarm(t, dense(t))
+        alarm = self._alarm(dense, t)
         reached = np.flatnonzero((alarm >= 0.0).any(axis=0))
         last = reached[0] if reached.size else len(t) - 1
         if reached.size and last == 0:
@@ -324,7 +320,7 @@ class _System:
             peak = int(alarm[block, : last + 1].argmax())
             low, high = t[max(peak - 1, 0)], t[min(peak + 1, last)]
             best = minimize_scalar(
-                lambda time, block=block: -self._alarm_at(dense, time)[block],
+                lambda time, block=block: -self._alarm(dense, np.array([time]))[block, 0],
                 bounds=(low, high),
                 options={"xatol": 1e-9 * (high - low)},
             )

@@ -10,7 +10,7 @@ paired     ensembles against the leapfrog at a fine step with the same seeds: wh
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
@@ -28,13 +28,12 @@ from springblock.accuracy.conventions import (
     SAMPLE_INTERVAL,
     half_width,
 )
-from springblock.accuracy.specimens import Array, drawn
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.run import Realisation
+from springblock.simulation.run import Array, Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
@@ -65,13 +64,13 @@ SCHEMA = pa.schema(
 
 
 class _Surfaces(NamedTuple):
-    """Surfaces that stand for a scene."""
+    """Surfaces that represent a scene."""
 
     single: Pattern  #: small enough for the reference solution
     duration: float  #: of single runs, s
     singles: int  #: seeds of these; the reference takes 5 to 20 CPU s for each
     ensemble: Pattern  #: small enough for paired ensembles
-    seeds: int  #: of these; enough to tell a bias of 0.1 % from the scatter
+    seeds: int  #: of these; enough to resolve a bias of 0.1 %
 
 
 _GROOVES = Pattern.pillars(6, 5, 1).grooved(2, 1), Pattern.pillars(16, 8, 8).grooved(2, 1)
@@ -83,14 +82,14 @@ _SURFACES = {
 
 STEPS = (8e-8, 4e-8, 2e-8, 1e-8, 5e-9, 2.5e-9, 1e-9)
 SETTLED_STEPS = STEPS[3:]  #: errors fall with one order, on patterned surfaces too
-PLAIN_STEPS = STEPS[:-2]  # enough to see that its errors hardly decrease
+PLAIN_STEPS = STEPS[:-2]  #: enough to show that errors hardly decrease
 #: By one step of each method.
 FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.items()}
 FORCE_EVALUATIONS[PLAIN] = 4
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
 FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
-Errors = dict[str, Array]  #: by what they are of, one for each realisation
+Errors = dict[str, Array]  #: by quantity, one for each realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference
 Timed = tuple[Computed, float]  #: a run and its CPU time, s
@@ -98,7 +97,7 @@ Cost = tuple[float, float]  #: median CPU time, s, and mean force evaluations of
 Result = TypeVar("Result")
 
 
-def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
+def run_errors(run: Computed, exact: reference.Reference, until: float) -> dict[str, float]:
     """Return the relative errors of one run; times relative to the exact t_max.
 
     `until` is the horizon, s, up to which single runs can be compared.
@@ -117,19 +116,13 @@ def run_errors(run: Solved, exact: Solved, until: float) -> dict[str, float]:
     }
 
 
-def stacked(errors: Iterable[dict[str, float]]) -> Errors:
-    """Collect the errors of several runs by their names."""
-    rows = list(errors)
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
-
-
 def root_mean_square(values: Array) -> float:
-    """Return the root of the mean square, zero for no values at all."""
+    """Return the root of the mean square; zero without values."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def timed(solve: Callable[[], Result]) -> tuple[Result, float]:
-    """Return what `solve` returns, and the CPU seconds that it took."""
+    """Return the result of `solve`, and its CPU time, s."""
     start = time.process_time()
     return solve(), time.process_time() - start
 
@@ -158,7 +151,7 @@ def cost_of(integrator: str, runs: Sequence[Timed]) -> Cost:
 def single_rows(scene: str) -> Iterator[Row]:
     """All methods and steps against the reference solution."""
     pattern, duration, seeds, *_ = _SURFACES[scene]
-    surfaces = [drawn(pattern, seed) for seed in range(seeds)]
+    surfaces = [Surface.draw(pattern.contact, seed) for seed in range(seeds)]
     solve = partial(reference.solve, duration=duration, sample_interval=SAMPLE_INTERVAL)
     exact = [solve(surface) for surface in tqdm(surfaces, desc=f"{scene}, reference")]
     horizons = [horizon(*twins(scene, seed)) for seed in range(seeds)]
@@ -167,7 +160,8 @@ def single_rows(scene: str) -> Iterator[Row]:
         for step in tqdm(PLAIN_STEPS if integrator == PLAIN else STEPS, desc=integrator):
             runs = [timed(partial(solve_with, integrator, step, s, duration)) for s in surfaces]
             computed = [run for run, _ in runs]
-            found[step] = stacked(map(run_errors, computed, exact, horizons))
+            each = [*map(run_errors, computed, exact, horizons)]
+            found[step] = {name: np.array([errors[name] for errors in each]) for name in each[0]}
             cost = cost_of(integrator, runs)
             yield from rows_of("reference", scene, integrator, step, found[step], cost)
         if integrator != PLAIN:
@@ -213,21 +207,21 @@ def ensemble(
         setup = Setup(integrator=integrator, step=step, sample_interval=SAMPLE_INTERVAL)
         solve = partial(simulate, setup=setup, prelude=compute_prelude(pattern.contact, setup))
     described = f"{integrator} {step:g}"
-    surfaces = (drawn(pattern, seed) for seed in tqdm(range(seeds), desc=described))
+    surfaces = (Surface.draw(pattern.contact, seed) for seed in tqdm(range(seeds), desc=described))
     return [timed(partial(solve, surface)) for surface in surfaces]
 
 
 def means_of(runs: Sequence[Timed]) -> Errors:
-    """Return what ensembles are used for, each (seeds,)."""
+    """Return the quantities averaged over ensembles, each (seeds,)."""
     return {name: np.array([getattr(run, name) for run, _ in runs]) for name in MEANS}
 
 
 def twins(scene: str, seed: int) -> tuple[Computed, Computed]:
     """Return a run, and one with each threshold changed by a random share like `HORIZON_NUDGE`."""
-    surface, duration = drawn(_SURFACES[scene].single, seed), _SURFACES[scene].duration
-    contact, mu_static = surface.contact, surface.mu_static
-    change = 1.0 + HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(mu_static.shape)
-    nudged = Surface(contact, mu_static * change, surface.mu_dynamic)
+    pattern, duration, *_ = _SURFACES[scene]
+    surface = Surface.draw(pattern.contact, seed)
+    change = HORIZON_NUDGE * np.random.default_rng(seed).standard_normal(surface.mu_static.shape)
+    nudged = Surface(surface.contact, surface.mu_static * (1.0 + change), surface.mu_dynamic)
     one, other = (solve_with("leapfrog", FINE_STEP, each, duration) for each in (surface, nudged))
     return one, other
 

@@ -73,8 +73,7 @@ def _places(table: pa.Table) -> dict[tuple[object, ...], int]:
 
 def _difference(name: str, first: pa.ChunkedArray, second: pa.ChunkedArray) -> Difference:
     rows, largest, relative = 0, 0.0, 0.0
-    for one, other in zip(first, second, strict=True):
-        a, b = (np.atleast_1d(np.asarray(_values(value))) for value in (one, other))
+    for a, b in zip(_arrays(first), _arrays(second), strict=True):
         if a.shape == b.shape and np.array_equal(a, b, equal_nan=a.dtype.kind == "f"):
             continue
         rows += 1
@@ -88,6 +87,5 @@ def _difference(name: str, first: pa.ChunkedArray, second: pa.ChunkedArray) -> D
     return Difference(name, rows, largest, relative)
 
 
-def _values(value: pa.Scalar) -> object:
-    is_list = isinstance(value, pa.ListScalar)
-    return value.values.to_numpy(zero_copy_only=False) if is_list else value.as_py()
+def _arrays(column: pa.ChunkedArray) -> list[np.ndarray]:
+    return [np.atleast_1d(value) for value in column.to_numpy()]

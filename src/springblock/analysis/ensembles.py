@@ -73,14 +73,10 @@ def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
     ValueError
         If there is no such name.
     """
+    once = {(*_names(row).items(), row["seed"]): row for row in rows}
     found: dict[tuple[object, ...], Ensemble] = {}
-    seen = set()
-    for row in sorted(rows, key=lambda row: row["seed"]):
+    for row in sorted(once.values(), key=lambda row: row["seed"]):
         every = _names(row)
-        realisation = (*every.items(), row["seed"])
-        if realisation in seen:
-            continue
-        seen.add(realisation)
         for key in by:
             if key not in every:
                 raise ValueError(f"by: unknown name {key!r}; choose from {', '.join(every)}")

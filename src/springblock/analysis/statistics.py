@@ -21,9 +21,9 @@ from springblock.simulation.run import Array, Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
-#: Least force of a load peak over the largest force; in sliding it is two thirds or less.
+#: Least force of a load peak over the largest force; during sliding it is at most two thirds.
 _LOAD_PEAK = 0.9
-_PROMINENT = 0.01  #: least prominence of a load peak over the largest force
+PROMINENT = 0.01  #: least prominence of a load peak over the largest force
 
 
 class Interval(NamedTuple):
@@ -140,23 +140,25 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     percentiles if the statistic does not change when any one realisation is omitted, and NaN for
     fewer than three realisations.
     """
-
-    def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
-        flat = drawn.reshape(-1, drawn.shape[axis])
-        values = np.moveaxis(statistic(weights_of(flat, k)), 0, -1)
-        return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
-
     value = statistic(np.full((1, k), 1.0 / k))[0]
     if k < 3:
         return Interval(value, *np.full((2, *value.shape), np.nan))
     resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
-    return _bca(value, (np.arange(k),), of_drawn, n_resamples=0, bootstrap_result=given)
+    options = {"n_resamples": 0, "bootstrap_result": given}
+    return _bca(value, (np.arange(k),), of_indices(statistic, k), **options)
 
 
-def weights_of(drawn: NDArray[np.intp], k: int) -> Array:
-    """Weights, (b, k), of the realisations in each of b resamples, given by index, (b, n)."""
-    return np.stack([np.bincount(numbers, minlength=k) for numbers in drawn]) / drawn.shape[1]
+def of_indices(statistic: Callable[[Array], Array], k: int) -> Callable[..., Array]:
+    """Return a statistic of resamples given by index, (..., n), from one of weights, (b, k)."""
+
+    def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
+        flat = drawn.reshape(-1, drawn.shape[axis])
+        weights = np.stack([np.bincount(numbers, minlength=k) for numbers in flat]) / flat.shape[1]
+        values = np.moveaxis(statistic(weights), 0, -1)
+        return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
+
+    return of_drawn
 
 
 def standard_error(values: Array) -> Array:
@@ -297,12 +299,12 @@ def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
     """Return the indices of the load peaks of a force curve, (n,). Section 3.3.
 
     The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
-    `_PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
+    `PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
     least `_LOAD_PEAK` of the largest force, which excludes those of sliding.
     """
     from scipy.signal import find_peaks  # slow to import, and few figures need it
 
-    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), _PROMINENT * curve.max())
+    needed = np.maximum(2.0 * np.broadcast_to(scatter, curve.shape), PROMINENT * curve.max())
     return find_peaks(curve, prominence=needed, height=_LOAD_PEAK * curve.max())[0]
 
 

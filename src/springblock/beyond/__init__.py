@@ -1,6 +1,6 @@
-"""What goes beyond the paper: a module per question, and the page that says what was learnt.
+"""Questions beyond the paper, one module each, and the page of their answers.
 
-The page has each question and how it is measured; a module's `answers` finds the answer, its other
-functions what it rests on, from realisations by scene. The surfaces are those of Costagliola, Bosia
+The page states each question and its method. The function `answers` of a module yields the answer
+and the tables behind it, from realisations by scene. The surfaces are those of Costagliola, Bosia
 & Pugno 2022, doi:10.1016/j.ijsolstr.2022.111525.
 """

@@ -1,4 +1,4 @@
-"""Static friction over the size of pillars and over their distance, at one total load."""
+"""Static friction against the size of pillars and their distance, at constant total load."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,7 +23,7 @@ _SHARES = ("size", "contact", "more by size", "interaction")
 
 
 def friction_map(ensembles: Ensembles) -> dict[Pillars, Array]:
-    """Static friction by pillars, on surfaces of the N with most kinds of pillars.
+    """Static friction by pillars, on surfaces of the N with the most kinds of pillars.
 
     Pillars whose period does not divide its N are taken from surfaces at most a tenth larger.
     """
@@ -73,10 +73,10 @@ def crossed(found: Map) -> dict[Pillars, Array]:
 def explained(found: Map) -> dict[str, Interval]:
     """Fractions of the variance of mean static friction over the map.
 
-    They are what "size" explains beyond contact fraction, what "contact" explains beyond size, how
-    much more the former is, and what is left for their "interaction". Sizes and contact fractions
-    are unevenly combined, so that both explain less than the sum of what each explains alone. The
-    models are a number for each size, one for each contact fraction, and both added.
+    These are the fraction that "size" explains beyond contact fraction, the one that "contact"
+    explains beyond size, their difference, and the rest, their "interaction". Sizes and contact
+    fractions are combined unevenly, so that together they explain less than the sum of what each
+    explains alone. The models have a number for each size, one for each contact fraction, or both.
     """
     factors = np.array([(at[0], float(distance(at))) for at in found]).T
     size, contact = (np.equal.outer(each, np.unique(each)).astype(float) for each in factors)
@@ -85,7 +85,7 @@ def explained(found: Map) -> dict[str, Interval]:
 
     def fractions(*samples: Array, axis: int) -> Array:
         means = np.stack([values.mean(axis=axis) for values in samples], axis=-1)
-        # what each model leaves unexplained
+        # variance that each model leaves unexplained
         by_size, by_contact, by_both = (
             ((means @ left) ** 2).mean(axis=-1) / means.var(axis=-1) for left in projections
         )

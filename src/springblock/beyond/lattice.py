@@ -32,7 +32,7 @@ NEEDS = "groups lattice, disorder and layer"
 MICRO = 1e6  #: µm per m
 _VARIED = {"spacing", "thickness", "mu_static_std", "mu_dynamic_std", "correlation_length", "step"}
 _FEWEST = 3  #: surfaces of a comparison
-_SIZES = 4  #: of pillars, among which the lowest friction is looked for
+_SIZES = 4  #: least number of sizes of pillars for a minimum of friction
 
 
 class Lattice(NamedTuple):
@@ -41,19 +41,19 @@ class Lattice(NamedTuple):
     spacing: float  #: l, µm
     thickness: float  #: l_z, µm
     scatter: float  #: standard deviation of the static coefficients
-    length: float  #: over which coefficients are alike, µm; 0 where each block has its own
+    length: float  #: correlation length of the coefficients, µm; 0 if they are independent
 
 
 Sizes = Mapping[float, Sequence[Record]]  #: realisations by the size of their pillars, µm
 Surfaces = Mapping[Lattice, Sizes]
-Changes = dict[str, tuple[str, str]]  #: how a value changes, by comparison: verb, and more words
+Changes = dict[str, tuple[str, str]]  #: change of a value by comparison: verb, and all words
 
 
 class Comparison(NamedTuple):
     """Surfaces that differ in one length: coarse to fine lattices, or thin to thick layers."""
 
-    words: str  #: what else is the same
-    axis: str  #: the length, of `Lattice`
+    words: str  #: name of the comparison
+    axis: str  #: the length, a field of `Lattice`
     surfaces: Surfaces
 
     @property
@@ -68,7 +68,7 @@ Comparisons = Mapping[str, Comparison]
 def by_lattice(ensembles: Ensembles) -> Surfaces:
     """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer.
 
-    Without scatter all realisations are equal; one is listed twice, as an exact value.
+    Without scatter all realisations are equal; one is listed twice, so that intervals vanish.
     """
     items = []
     for scene, runs in ensembles.items():
@@ -88,10 +88,10 @@ def usual(surfaces: Surfaces) -> Lattice:
 
 
 def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
-    """Lattices of one l_z, refined with each disorder, and layers of one l; three or more of each.
+    """Lattices of one l_z with the same disorder, and layers of one l; three or more of each.
 
-    Disorder is one scatter of all blocks ("block"), one disorder per area, with a scatter that is
-    proportional to 1/l ("area"), disorder of one correlation length ("length"), or none.
+    The disorder is that of the same scatter on all lattices ("block"), the same per area, with a
+    scatter proportional to 1/l ("area"), one of a fixed correlation length ("length"), or none.
     """
     common = usual(surfaces)
     product = common.spacing * common.scatter
@@ -117,7 +117,7 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
 
 
 def stress_ratio(runs: Sequence[Record]) -> float:
-    """Largest elastic stress on a block over the mean, before any slip; there is no scatter."""
+    """Largest elastic stress on a block over the mean, before any slip."""
     stress = Layer(runs[0].scene.contact, runs[0].material).stress
     return float(stress.max() / stress.mean())
 
@@ -191,8 +191,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Changes:
     """Return how a value changes from the first to the last surface of each comparison, l <= l_z.
 
-    The words are the difference or, between values without scatter, the verb, and whether the means
-    between do not follow it.
+    The words are the difference or, between values without scatter, the verb; and a note if the
+    means are not monotonic.
     """
     changed = {}
     for kind, each in compared.items():
@@ -208,7 +208,7 @@ def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Change
 
 
 def _moves(compared: Comparisons) -> Changes:
-    """Say how the friction-minimising size changes, where l <= l_z, among sizes that all have."""
+    """Return how the friction-minimising size changes for l <= l_z, among sizes common to all."""
     changed = {}
     for kind, each in compared.items():
         fine = {at: sizes for at, sizes in each.fine.items() if len(sizes) >= _SIZES}
@@ -230,7 +230,7 @@ def _moves(compared: Comparisons) -> Changes:
 def _conclusion(
     compared: Comparisons, changed: Mapping[str, Changes], moves: Changes, broad: float
 ) -> str:
-    """Say how the friction-minimising size, friction and a decay length change."""
+    """Write how the friction-minimising size, friction and a decay length change."""
     length = f"decay length on pillars of {broad:g} µm"
     values = [
         f"{name} {_refined(compared, by)}"
@@ -247,7 +247,7 @@ def _conclusion(
 
 
 def _refined(compared: Comparisons, changed: Changes) -> str:
-    """Say what most refinements of the lattice do, and in brackets what the others do."""
+    """Write the change by most refinements of the lattice, and in brackets those by the others."""
     found = {kind: verb for kind, (verb, _) in changed.items() if kind != "layer"}
     usual = mode(found.values()) if found else "is not compared"
     others = [

@@ -1,4 +1,4 @@
-"""The page of what goes beyond the paper, from its template."""
+"""The page of questions beyond the paper, from its template."""
 
 from pathlib import Path
 from textwrap import fill
@@ -8,18 +8,13 @@ from springblock.beyond import friction, lattice, peaks, scatter
 from springblock.beyond.question import Ensembles
 
 #: A module per question, in the order of the page's sections.
-QUESTIONS = {
-    "lattice": lattice,
-    "peaks": peaks,
-    "friction": friction,
-    "scatter": scatter,
-}
+QUESTIONS = {"lattice": lattice, "peaks": peaks, "friction": friction, "scatter": scatter}
 _PAGE = Path(__file__).with_name("page.md")
 _WIDTH = 120  #: characters of a line
 
 
 def page(ensembles: Ensembles) -> str:
-    """Write the page: first the answers, then how each was obtained and the values behind it."""
+    """Write the page: the answers, then the method and the values of each."""
     answers, values = [], {}
     for i, (name, module) in enumerate(QUESTIONS.items(), 1):
         answer, *rest = [*module.answers(ensembles)] or [

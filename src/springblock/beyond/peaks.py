@@ -1,4 +1,4 @@
-"""Load peaks over the grooves' widths and the sliding direction, with pillars and without."""
+"""Load peaks against widths of grooves and sliding direction, with pillars and without."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from springblock.analysis.statistics import Interval, mean_interval, prominence
+from springblock.analysis.statistics import PROMINENT, Interval, mean_interval, prominence
 from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
 from springblock.beyond.resampling import interval
 from springblock.io.records import Record
@@ -15,7 +15,7 @@ from springblock.model.direction import degrees
 from springblock.simulation.run import friction
 
 NEEDS = "groups peaks and grooves"
-_TWO = 1.0  #: %, prominence of the lesser of two load peaks, at least
+_TWO = 100.0 * PROMINENT  #: %
 
 
 class Grooves(NamedTuple):
@@ -34,8 +34,8 @@ def prominences(runs: Sequence[Record]) -> pd.Series:
 def by_grooves(ensembles: Ensembles) -> dict[Grooves, dict[float, pd.Series]]:
     """Prominences by widths and by the angle between sliding and grooves.
 
-    Of grooves alone and grooves on pillars, of the study's material; on surfaces of several sizes,
-    those with the most realisations.
+    Grooves are alone or on pillars, with the study's material; of surfaces of several sizes the one
+    with the most realisations is used.
     """
     found = grouped(
         (Grooves(scene.n_p, scene.n_s2, scene.n_p2), degrees(scene.direction), prominences(runs))
@@ -91,7 +91,7 @@ def _difference(first: pd.Series, second: pd.Series) -> Interval:
 
 
 def _significant(differences: Sequence[Interval]) -> tuple[int, int]:
-    """Count differences above zero and below it, by their intervals."""
+    """Count the differences significantly above zero, and those below."""
     above = [bool(each.low > 0.0) for each in differences]
     below = [bool(each.high < 0.0) for each in differences]
     return sum(above), sum(below)

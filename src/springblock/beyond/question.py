@@ -10,7 +10,7 @@ from springblock.analysis.statistics import Interval, independent_difference
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 
-_DIGITS = 5  #: after the point, at most
+_DIGITS = 5  #: largest number of decimals
 UNCHANGED = "does not change significantly"
 
 T = TypeVar("T")
@@ -58,7 +58,7 @@ def is_even(scene: Scene, varied: Collection[str] = ()) -> bool:
 
 
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
-    """Write a value with its 95 % interval, to the digits that the interval leaves."""
+    """Write a value with its 95 % interval, to two digits of its width."""
     value, low, high = (factor * float(each) for each in interval)
     if high == low:  # exact
         return f"{value:.4g}{unit}"
@@ -69,7 +69,7 @@ def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
 
 
 def direction(first: Interval, last: Interval) -> str:
-    """Say whether a value changes: the 95 % interval of the difference excludes zero."""
+    """Write whether a value changes: the 95 % interval of the difference excludes zero."""
     apart = independent_difference(last, first)
     if apart.high < 0.0:
         return "decreases"

@@ -1,4 +1,4 @@
-"""Intervals of statistics of several ensembles, each resampled by itself.
+"""Intervals of statistics of several ensembles, each resampled independently.
 
 Bias-corrected and accelerated bootstrap over realisations (BCa; Efron & Tibshirani 1993,
 doi:10.1201/9780429246593, chapter 14). Ensembles are independent of each other.
@@ -14,16 +14,16 @@ from springblock.analysis.correlation import Correlation, fit_tail, side_times
 from springblock.analysis.statistics import (
     Interval,
     bootstrap_weights,
+    of_indices,
     samples_interval,
-    weights_of,
 )
 from springblock.io.records import Record
 from springblock.simulation.run import Array
 
 _RESAMPLES = 1000
-#: Realisations that a correlation needs here: no resample of so many is one of them alone.
+#: Least number of realisations for a correlation: no resample consists of a single one.
 FEWEST = 10
-_DISTANCES = 3  #: that a fit of two unknowns needs
+_DISTANCES = 3  #: least number for a fit of two unknowns
 
 
 def interval(samples: Sequence[NDArray[Any]], statistic: Callable[..., Any]) -> Interval:
@@ -41,8 +41,8 @@ def interval(samples: Sequence[NDArray[Any]], statistic: Callable[..., Any]) -> 
 def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
     """Decay length along the sides of pillars, blocks: of A exp(-r/l) from r = 1 to n_p/3.
 
-    Or to `most` blocks on larger pillars; none of too few realisations or on too short sides. The
-    errors that the fit takes stay those of all realisations.
+    On larger pillars up to `most` blocks; None with too few realisations or on too short sides. All
+    resamples are fitted with the errors of the whole ensemble.
     """
     scene, k = runs[0].scene, len(runs)
     last = min(scene.n_p // 3, most or scene.n_p)
@@ -54,9 +54,5 @@ def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | N
         return found.weighted(weights)[:, 1 : last + 1]
 
     error = curve(bootstrap_weights(k)).std(axis=0)
-
-    def length(drawn: NDArray[np.intp], axis: int) -> Array:
-        weights = weights_of(drawn.reshape(-1, drawn.shape[axis]), k)
-        return fit_tail(curve(weights), error).reshape(drawn.shape[:-1])
-
+    length = of_indices(lambda weights: fit_tail(curve(weights), error), k)
     return interval([np.arange(k)], length)

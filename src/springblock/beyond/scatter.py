@@ -1,4 +1,4 @@
-"""Decay of correlation and lowest friction by the scatter of thresholds."""
+"""Decay length and lowest friction against the scatter of thresholds."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -25,7 +25,7 @@ Sizes = Mapping[int, Sequence[Record]]  #: realisations by n_p
 
 
 def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
-    """Pillars by the standard deviation of their static coefficients, of sizes that all have."""
+    """Pillars of the sizes common to all, by the standard deviation of static coefficients."""
     found = on_one_side(
         (scene.n_blocks, runs[0].material.mu_static_std, scene.n_p, runs)
         for scene, runs in ensembles.items()
@@ -38,7 +38,7 @@ def by_scatter(ensembles: Ensembles) -> dict[float, Sizes]:
 
 
 def decay_lengths(scatters: Mapping[float, Sizes]) -> dict[int, dict[float, Interval]]:
-    """Decay lengths, blocks, on pillars of each size on which they can be fitted, by scatter."""
+    """Decay lengths, blocks, by scatter, on pillars of each size on which they can be fitted."""
     return grouped(
         (n_p, std, length)
         for std, sizes in scatters.items()
@@ -66,7 +66,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 
 
 def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequence[Lowest]) -> str:
-    """Say what changes from the least scatter to the most."""
+    """Write the changes from the smallest to the largest scatter."""
     changed: dict[str, dict[str, str]] = {}
     for n_p, by_std in lengths.items():
         (least, first), *_, (most, last) = by_std.items()

@@ -44,18 +44,17 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
     paired = select(evidence.precision, comparison="paired", step=PAPER_STEP)
+    source = f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}"
     for integrator in ("leapfrog", "rk4", PLAIN):
         for row in select(paired, integrator=integrator):
             scene, quantity = row["scene"], row["quantity"]
             if (scene, quantity) in errors:
                 name = quantity.replace("static_friction", "static friction")
-                yield Finding(
-                    {"integrator": integrator},
-                    f"the relative bias of {name} at h = {PAPER_STEP:.0e} s on the {scene} surface",
-                    samples.interval(row, "error"),
-                    within(errors[scene, quantity]),
-                    f"tables/work_precision: comparison = paired, step = {PAPER_STEP:.0e}",
+                statistic = (
+                    f"the relative bias of {name} at h = {PAPER_STEP:.0e} s on the {scene} surface"
                 )
+                bias, claimed = samples.interval(row, "error"), within(errors[scene, quantity])
+                yield Finding({"integrator": integrator}, statistic, bias, claimed, source)
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
@@ -124,14 +123,9 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
         chosen = scenes[0], scenes[-1], flat
         low, high = (dict(scene.varied)[name] for scene in chosen[:2])
         change = samples.relative(*(over_runs(fronts, evidence.records[s]) for s in chosen))
-        yield Finding(
-            {"constant": name},
-            f"the change in the number of fronts from {name} = {low:g} to {high:g}, over that with "
-            "the paper's constants",
-            samples.magnitude(change),
-            (_AFFECTS, INF),
-            in_files(*chosen),
-        )
+        span = f"from {name} = {low:g} to {high:g}, over that with the paper's constants"
+        statistic, size = f"the change in the number of fronts {span}", samples.magnitude(change)
+        yield Finding({"constant": name}, statistic, size, (_AFFECTS, INF), in_files(*chosen))
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
@@ -213,8 +207,8 @@ def peaks_apart(run: Record) -> float:
 def average_is_propagation(run: Record) -> float:
     """Tested: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, which is the time from a tenth to nine tenths of the detachments.
-    t_max differs from t_avg by 0.77 of this duration. The verdict is the same for any bound from 0.3
-    on, and for windows of 0.2 to 5 % of t_max.
+    t_max differs from t_avg by 0.77 of this duration. The verdict is the same for any bound from
+    0.3 on, and for windows of 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 

@@ -11,7 +11,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from springblock.analysis.statistics import pillar_map, prominence
+from springblock.analysis.statistics import PROMINENT, pillar_map, prominence
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Case, Evidence, Finding, Range
 from springblock.claims.samples import found_on
@@ -19,8 +19,7 @@ from springblock.claims.surfaces import ALONG, across, slid_both_ways
 from springblock.model.direction import degrees
 from springblock.model.scene import Scene
 
-_STANDS_OUT = 0.01  #: smallest prominence of a load peak over the largest force, as in figure 9
-_TWO_PEAKS, _ONE_PEAK = (_STANDS_OUT, ranges.INF), (-ranges.INF, _STANDS_OUT)
+_TWO_PEAKS, _ONE_PEAK = (PROMINENT, ranges.INF), (-ranges.INF, PROMINENT)
 _LESSER = "the prominence of the lesser peak over the largest force"
 _LASTING = "the time from 10 to 90 % of detachments"
 

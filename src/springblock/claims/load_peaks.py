@@ -205,7 +205,6 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     most runs have two peaks. An interval that only grows with pillar length would not require the
     difference.
     """
-
     found = twice_peaked(surfaces.grooved(evidence.records))
     n_p, n_p2 = (np.array([float(getattr(s, name)) for s in found]) for name in ("n_p", "n_p2"))
     if len(found) < _FEWEST or len(set(n_p)) < 2 or len(set(n_p2)) < 2:

@@ -80,7 +80,7 @@ def anchor(heading: str) -> str:
 
 
 def decided(part: Sequence[Row]) -> str:
-    """Say where a statement holds and fails, and what the finding that decided its verdict is."""
+    """Write where a statement holds and fails, and the finding that decided its verdict."""
     found = _deciding(part)
     if found is None:
         return _missing(part[0])
@@ -122,7 +122,7 @@ def _clearness(row: Row) -> float:
 
 
 def _in_words(row: Row, part: Sequence[Row]) -> str:
-    """Write a finding as a sentence, with the keys of its case that its statement's others lack."""
+    """Write a finding as a sentence, with the keys of its case that distinguish it."""
     common = set.intersection(*(set(other["case"].split(", ")) for other in part))
     where = [key.split(" = ", 1) for key in row["case"].split(", ") if key not in common]
     statistic = row["statistic"]
@@ -136,7 +136,7 @@ def _says(statistic: str, key: str, value: str) -> bool:
 
 
 def _needed(row: Row) -> str:
-    """Say how many realisations, or surfaces, would settle an open finding."""
+    """Write how many realisations, or surfaces, would settle an open finding."""
     wanted = row["needed"]
     if math.isnan(wanted):
         return "no interval"
@@ -160,7 +160,7 @@ def _section(number: int, part: Sequence[Row]) -> str:
 
 
 def _opened(part: Sequence[Row]) -> list[str]:
-    """Name the data and, if there are several findings, list these, in a part that opens."""
+    """Return the data and, if there are several findings, a collapsible list of them."""
     sources = dict.fromkeys(name for row in part for name in row["rests_on"].split("; "))
     data = f"Data: {', '.join(f'`{source}`' for source in sources)}"
     if not part[1:]:

@@ -15,7 +15,7 @@ from springblock.analysis.estimate import Estimate
 from springblock.analysis.lowest import BIAS
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims import ranges, samples, surfaces
-from springblock.claims.rule import Evidence, Finding
+from springblock.claims.rule import Case, Evidence, Finding
 from springblock.claims.samples import Quantity, found_on, mean_over, over_runs, share_over
 from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
@@ -150,8 +150,7 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records, 10).items():  # smaller ones have no centre inside
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
-        middle = np.zeros((wide, wide), bool)  # half as wide as the inside
-        middle[wide // 4 : wide - wide // 4, wide // 4 : wide - wide // 4] = True
+        middle = surfaces.from_edge(wide) >= wide // 4  # half as wide as the inside
         later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
         yield found_on(scene, name, later, ranges.POSITIVE)
 
@@ -286,17 +285,13 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         lowest = _lowest_of(evidence, scenes if own else _of_all_sizes(evidence))
         runs, sizes = evidence.records[broad], [scene.n_p for scene in lowest]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
-        fits = {ranges.PLAIN: fit.fitted, ranges.SCALED: fit.tail}
-        for curve, fitted in fits.items():
+        minimum = f"n_p = {' or '.join(map(str, sizes))}"
+        name = f"the size of lowest static friction, {minimum}, over l_c at n_p = {broad.n_p}"
+        for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
-            yield Finding(
-                {_SCATTER: scatter, "fit": curve},
-                f"the size of lowest static friction, n_p = {' or '.join(map(str, sizes))}, over "
-                f"l_c at n_p = {broad.n_p}",
-                Estimate(sizes[0] / value, sizes[0] / high, sizes[-1] / low, len(runs)),
-                ranges.COMPARABLE,
-                surfaces.in_files(*scenes),
-            )
+            case: Case = {_SCATTER: scatter, "fit": curve}
+            ratio = Estimate(sizes[0] / value, sizes[0] / high, sizes[-1] / low, len(runs))
+            yield Finding(case, name, ratio, ranges.COMPARABLE, surfaces.in_files(*scenes))
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
@@ -319,10 +314,9 @@ def _larger_there(
 ) -> Iterator[Finding]:
     """Yield the excess of a quantity where static friction is lowest over other pillars.
 
-    These are the smallest and the largest ones, or those of `every` size.
-
-    Where several sizes may have the lowest friction, the interval encloses those of all of them. It
-    has no upper end on these sizes themselves, and where they differ in sign.
+    The others are the smallest and the largest pillars, or those of `every` size. If several sizes
+    may have the lowest friction, the interval encloses those of all; it has no upper end for these
+    sizes themselves, and where the intervals differ in sign.
     """
     scenes = _of_all_sizes(evidence)
     lowest = _lowest_of(evidence, scenes) if scenes else []

@@ -46,9 +46,9 @@ def verdicts() -> dict[str, Row]:
 def changes(table: Sequence[Row]) -> str:
     """List in a Markdown table which tests differ from those registered, and why.
 
-    Forms, ranges and cases are compared: what is new counts, since what is absent may not have been
-    simulated. A test that differs in its definition alone is listed by its reason; new words for
-    the same test are not.
+    Forms, ranges and cases are compared. Only new ones count, since absent ones may not have been
+    simulated. A test that differs only in its definition is listed if it has a reason; rewordings
+    are not listed.
     """
     before, why = registered("register.csv"), reasons()
     known = {row["claim"] for row in before}

@@ -33,7 +33,7 @@ static_friction: Quantity = attrgetter("static_friction")
 
 
 def over_runs(quantity: Callable[[T], float], runs: Iterable[T]) -> Array:
-    """Return a number per realisation, (k,), without those for which it is undefined, NaN."""
+    """Return a number per realisation, (k,), without those that are NaN."""
     values = np.array([quantity(run) for run in runs], dtype=float)
     return values[np.isfinite(values)]
 

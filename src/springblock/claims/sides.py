@@ -39,12 +39,8 @@ _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 
 def paired_difference(first: Estimate, second: Estimate) -> Estimate:
     """Return first - second of the same runs; errors add up, as their correlation is unknown."""
-    return Estimate(
-        first.value - second.value,
-        first.ci_low - second.ci_high,
-        first.ci_high - second.ci_low,
-        min(first.n, second.n),
-    )
+    low, high = first.ci_low - second.ci_high, first.ci_high - second.ci_low
+    return Estimate(first.value - second.value, low, high, min(first.n, second.n))
 
 
 def unpaired_difference(first: Estimate, second: Estimate) -> Estimate:
@@ -114,11 +110,11 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
     """
     name = "the size of an event in excess of chance, on sides along x minus along y"
     for scene in pillars(evidence.records):
-        sizes = {}
+        excess = []
         for side in "xy":
             number = [events(times).mean(axis=(1, 2)) for times in _sides_of(evidence, scene, side)]
-            sizes[side] = (scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1]
-        larger = samples.mean(sizes["x"] - sizes["y"])
+            excess.append((scene.n_p - 2) / number[0] - (scene.n_p - 2) / number[1])
+        larger = samples.mean(excess[0] - excess[1])
         yield found_on(scene, name, larger, ranges.POSITIVE, "blocks")
 
 
@@ -161,17 +157,16 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
         found = Correlation(side_times(runs, scene.pattern, ALONG))
-        span = slice(1, LAST + 1)
 
-        def distances(weights: Array, found: Correlation = found, span: slice = span) -> Array:
-            exponential, *others = misfits(found.weighted(weights)[:, span])
+        def distances(weights: Array, found: Correlation = found) -> Array:
+            exponential, *others = misfits(found.weighted(weights)[:, 1 : LAST + 1])
             return np.column_stack([exponential, *(exponential - other for other in others)])
 
-        intervals = bootstrap_interval(distances, len(runs))
+        intervals = np.transpose(bootstrap_interval(distances, len(runs)))
         names = ("", " minus that from the best power law", " minus that from the best line")
         claims = ((-INF, 0.05), ranges.NEGATIVE, ranges.NEGATIVE)
-        for i, (more, claimed) in enumerate(zip(names, claims, strict=True)):
-            apart = Estimate.of(Interval(*(limit[i] for limit in intervals)), len(runs))
+        for more, claimed, each in zip(names, claims, intervals, strict=True):
+            apart = Estimate.of(Interval(*each), len(runs))
             statistic = f"the rms distance of c_x from the best exponential{more}"
             yield found_on(scene, statistic, apart, claimed)
 
@@ -197,14 +192,10 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     if len(lengths) < 2:
         return
     first, *_, last = lengths
-    yield Finding(
-        {},
-        f"l_c at n_p = {last} minus l_c at n_p = {first} (from both intervals)",
-        unpaired_difference(lengths[last], lengths[first]),
-        ranges.POSITIVE,
-        f"tables/correlation_length: n_p = {first} and {last}, side = x",
-        "blocks",
-    )
+    name = f"l_c at n_p = {last} minus l_c at n_p = {first} (from both intervals)"
+    growth = unpaired_difference(lengths[last], lengths[first])
+    source = f"tables/correlation_length: n_p = {first} and {last}, side = x"
+    yield Finding({}, name, growth, ranges.POSITIVE, source, "blocks")
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
@@ -235,14 +226,11 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, like in _with_largest(evidence.correlation):
         ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
+        than = f"minus that at n_p = {like.n_p} without grooves (from both intervals)"
         for (side, name), r in product(_SIDES.items(), range(1, LAST + 1)):
-            yield Finding(
-                {"side": name},
-                f"c(r = {r}) minus that at n_p = {like.n_p} without grooves (from both intervals)",
-                unpaired_difference(ours[side, r], theirs["x", r]),
-                within(0.1),
-                in_rows("correlation", scene, side=side),
-            )
+            apart = unpaired_difference(ours[side, r], theirs["x", r])
+            source = in_rows("correlation", scene, side=side)
+            yield Finding({"side": name}, f"c(r = {r}) {than}", apart, within(0.1), source)
 
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
@@ -251,15 +239,11 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, like in _with_largest(evidence.correlation_length):
         ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))
+        than = f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)"
         for side, name in _SIDES.items():
-            yield Finding(
-                {"side": name},
-                f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)",
-                unpaired_difference(ours[side], theirs["x"]),
-                within(1.0),
-                in_rows("correlation_length", scene, side=side),
-                "blocks",
-            )
+            apart = unpaired_difference(ours[side], theirs["x"])
+            source = in_rows("correlation_length", scene, side=side)
+            yield Finding({"side": name}, than, apart, within(1.0), source, "blocks")
 
 
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
@@ -268,10 +252,7 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     c(r = 1) exceeds when sliding along the grooves. Across the grooves it is small, but not zero.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
-        yield Finding(
-            case_of(scene),
-            f"c(r = 1) on {name} when sliding across the grooves",
-            _correlations(evidence.correlation[across(scene)])[side, 1],
-            _DECAYED,
-            in_rows("correlation", across(scene), side=side, r=1),
-        )
+        found = _correlations(evidence.correlation[across(scene)])[side, 1]
+        statistic = f"c(r = 1) on {name} when sliding across the grooves"
+        source = in_rows("correlation", across(scene), side=side, r=1)
+        yield Finding(case_of(scene), statistic, found, _DECAYED, source)

@@ -81,10 +81,8 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the stress on no pillar deviates from that on the mean pillar, in the root mean
     square, by more than a fifth of the standard deviation on the mean pillar.
     """
-    name = (
-        "the largest rms deviation of a pillar's stress from the mean pillar's, over the standard "
-        "deviation"
-    )
+    largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
+    name = f"{largest}, over the standard deviation"
     for scene in pillars(evidence.stress):
         stresses = _pillar_stress(evidence, scene)
         if len(stresses) >= 2:

@@ -20,12 +20,12 @@ from springblock.model.material import Material
 
 Array = NDArray[np.float64]
 
-#: Neighbours (y, x) whose springs a block counts as its own, and the stiffness of these over K_int.
+#: Half of the neighbours of a block, (y, x), and the stiffness of their springs over K_int.
 SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
 
 
 class Layer:
-    """Elasticity of a layer, pulled along x, as its k blocks in contact feel it.
+    """Elasticity of a layer, pulled along x, reduced to its k blocks in contact.
 
     `contact` is (N_y, N_x); edges are free or periodic. Vectors have the x components of all
     blocks, then the y components.
@@ -57,7 +57,7 @@ class Layer:
 
     @property
     def stress(self) -> Array:
-        """Size of b on each block, (k,) N/m: the stress before any slip, over s."""
+        """Modulus of b on each block, (k,) N/m: the stress before any slip, over s."""
         return np.hypot(*self.pull.reshape(2, -1))
 
     def _relaxed(self, force: Array) -> Array:

@@ -1,18 +1,18 @@
 """Models of the onset of sliding, from independent blocks to avalanches with inertia.
 
-Each block i in contact rests up to mu_s F_n and lets go beyond. The models differ in what follows:
+A block in contact detaches where the modulus of F_mot exceeds mu_s F_n, or mu_d F_n if this is
+larger, as in the simulation. The models differ in what follows:
 
-independent    It bears mu_d F_n from then on, and no other block notices.
-quasi_static   It bears mu_d F_n from then on. What it no longer bears, the others do: the layer is
-               in equilibrium all the time, as without inertia or with strong damping.
-overshooting   It slips as a block without damping between neighbours at rest, until its force is
+independent    The block carries mu_d F_n from then on; the others are unaffected.
+quasi_static   The block carries mu_d F_n from then on, and the others take up the load that it has
+               lost: the layer is always in equilibrium, as without inertia or with strong damping.
+overshooting   The block slips as without damping between neighbours at rest, until its force is
                as far below mu_d F_n as it was above, (2 mu_d - mu_s) F_n, and sticks again. Slips
-               follow one another while the slider stands still, the most overloaded block first,
-               until all blocks hold.
+               follow one another, the most overloaded block first, while the slider does not move,
+               until no block exceeds its threshold.
 
-Blocks let go by the size of F_mot; the friction force is its component along x, the direction of
-the slider, and so is that of sliding blocks. As in the simulation, a block with
-mu_s < mu_d lets go at mu_d F_n.
+The friction force is the component of F_mot along x, the direction of the slider, as is the
+friction of sliding blocks.
 """
 
 from typing import NamedTuple
@@ -22,15 +22,15 @@ from numpy.typing import NDArray
 
 from springblock.mechanism.elasticity import Array, Layer
 
-#: Least stress drop of an overshooting block, over its strength: without a drop, it would let go
+#: Least stress drop of an overshooting block over its strength; without a drop it would detach
 #: again at once.
 _LEAST_DROP = 0.01
-#: How far above its strength a force counts as too large, against rounding.
+#: Relative excess of a force over the strength that is rounding.
 _SLACK = 1e-9
 
 
 class Curve(NamedTuple):
-    """Friction force and displacement of the slider right before each release."""
+    """Friction force and displacement of the slider just before each detachment."""
 
     slider: Array  #: (n,) m
     force: Array  #: (n,) N
@@ -42,24 +42,24 @@ def stress_variation(layer: Layer) -> float:
 
 
 def independent(layer: Layer, static: Array, dynamic: Array) -> Curve:
-    """Let blocks go on their own; `static` and `dynamic` are mu_s F_n and mu_d F_n, (k,) N."""
+    """Detach independent blocks; `static` and `dynamic` are mu_s F_n and mu_d F_n, (k,) N."""
     slider = np.maximum(static, dynamic) / layer.stress
     order = np.argsort(slider)
     slider, x, dynamic = slider[order], layer.pull[order], dynamic[order]  # along x
-    still_held = np.cumsum(x[::-1])[::-1]
-    return Curve(slider, slider * still_held + np.cumsum(dynamic) - dynamic)
+    attached = np.cumsum(x[::-1])[::-1]  # pull on blocks at rest
+    return Curve(slider, slider * attached + np.cumsum(dynamic) - dynamic)
 
 
 def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
-    """Let blocks go one by one in equilibrium, until all slide.
+    """Detach blocks one by one in equilibrium, until all slide.
 
     With A for the components of sliding blocks, S_AA u_A = s b_A - f_A. The Cholesky factor L of
     S_AA grows by two rows with each block; the rows of L⁻¹ S_A, kept for all blocks, give the
-    forces on those that still hold: F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
+    forces on the blocks at rest: F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
     """
     k = len(static)
     strength, dynamic = np.maximum(static, dynamic), dynamic.copy()
-    # block by block, x then y; those that hold come first, and change places as they let go
+    # block by block, x then y; blocks at rest come first, and change places as they detach
     stiffness = layer.stiffness.reshape(2, k, 2, k).transpose(1, 0, 3, 2).reshape(2 * k, 2 * k)
     pull = layer.pull.reshape(2, k).T.ravel()  # F_mot = s pull + push
     load, push = pull.copy(), np.zeros(2 * k)
@@ -94,9 +94,9 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
 def overshooting(
     layer: Layer, static: Array, dynamic: Array, of: NDArray[np.bool_] | None = None
 ) -> Curve:
-    """Let blocks slip and stick again, until each has let go once.
+    """Let blocks slip and stick again, until each has detached once.
 
-    The force is that on blocks `of`, (k,), on all by default.
+    The force is that on the blocks `of`, (k,) bool, by default on all.
     """
     strength, k = np.maximum(static, dynamic), len(static)
     left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)

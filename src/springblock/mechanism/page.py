@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from springblock.analysis.lowest import Lowest, lowest
-from springblock.analysis.statistics import mean_interval, prominence
+from springblock.analysis.statistics import PROMINENT, mean_interval, prominence
 from springblock.io.rows import listed, markdown_table
 from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
@@ -26,7 +26,7 @@ _STEPS = list(pairwise(NAMES))
 _ALONG = {"x": "along", "y": "across"}
 _CONSTANTS = {"": "the paper's", "mu_dynamic": "other $\\mu_d$", "mu_static_std": "other w"}
 _WIDE = (6, 10)  #: blocks, pawls on which the surfaces of training have two load peaks
-_MEASURED_TWO = 1.0  #: %, prominence of the lesser load peak, at least
+_MEASURED_TWO = 100.0 * PROMINENT  #: %
 _GROOVES = ["varied", "n_p", "n_s2", "n_p2"]
 
 Fields = dict[str, Any]  #: of the template, by name

@@ -1,29 +1,29 @@
-"""Which pawls and grooves have two load peaks: a prediction from elasticity and friction alone.
+"""A prediction of two load peaks on pawls and grooves, from elasticity and friction alone.
 
-Grooves without end leave rows of blocks along them, and a period of n_p2 rows in contact and n_s2
-without is all there is. Its two outer rows in contact, the edges, bear more than the rest, the
-core. Forces are in units of F_n on a block in contact, and s is the load at which the stress on
-edges is s before any slip:
+Endless grooves have a period of n_p2 rows of blocks in contact and n_s2 rows without. The two outer
+rows in contact, the edges, carry more than the others, the core. Forces are in units of F_n on a
+block in contact, and s is the position of the slider at which the stress on edges would be s
+without slip:
 
     mean      R, the mean stress over that on edges: the load is R s before any slip.
-    lost      G, what the load loses, per block in contact, if each edge block bears 1 less.
-    shared    J, the share of what a block of an edge loses that other blocks of this edge take up.
+    lost      G, the load lost per block in contact if each edge block carries 1 less.
+    shared    J, the share of the loss of an edge block that other blocks of its edge take up.
     next_to   c, the stress on the rows next to the edges over that on edges.
-    handed_on T, what these rows gain if each edge block bears 1 less.
+    handed_on T, the load that these rows gain if each edge block carries 1 less.
 
-An edge block lets go at mu_s, normal with the standard deviation w, and loses D = mu_s - mu_d. When
-the share p(z), normal, of edge blocks has let go, those that hold bear s + J D p = mu_s + w z, and
+An edge block detaches at mu_s, normal with the standard deviation w, and loses D = mu_s - mu_d.
+When the share p(z), normal, of edge blocks has detached, the others carry s + J D p = mu_s + w z:
 
     load(z) = R s - G D p = R (mu_s + w z) - (J R + G) D p(z):
 
-linear in p, which is right for the load when all edge blocks have let go and for the stress when
-few have. The load has a maximum and a minimum where p'(z) = R w / ((J R + G) D), so only if
+linear in p, which is exact for the load when all edge blocks have detached, and for the stress when
+few have. The load has a maximum and a minimum where p'(z) = R w / ((J R + G) D), thus only if
 
-    h = (J R + G) D / (R w) > sqrt(2 pi),
+    h = (J R + G) D / (R w) > sqrt(2 pi):
 
-which says that the edges let go faster than the slider loads what still holds. It falls by no more
-than G D. A second peak needs a core that then bears more than at this minimum: the rows next to the
-edges reach mu_s where c s + T (s - mu_d) = mu_s, and the load is R s - G (s - mu_d) there.
+the edges detach faster than the slider loads the blocks at rest. The load falls by at most G D. For
+a second peak the core must then carry more than at this minimum: the rows next to the edges reach
+mu_s where c s + T (s - mu_d) = mu_s, and there the load is R s - G (s - mu_d).
 """
 
 from typing import NamedTuple
@@ -41,7 +41,7 @@ _ALONG = 16  #: blocks along the grooves of a layer with periodic edges
 
 
 class Pawl(NamedTuple):
-    """Elasticity of one period of pawl and groove, as the module has it."""
+    """Elasticity of one period of pawl and groove; R, G, J, c and T of the module's docstring."""
 
     mean: float
     lost: float
@@ -59,7 +59,7 @@ def pawl(n_p2: int, n_s2: int, across: bool, material: Material) -> Pawl:
     stiffness = Layer(contact, material, periodic=True).stiffness[own, own]
     blocks = stiffness.reshape(n_p2, _ALONG, n_p2, _ALONG)
     rows = blocks[:, 0].sum(axis=2)  # of rows that move as a whole
-    stress, edges = rows.sum(axis=1), [0, n_p2 - 1]  # the slider pulls as if all rows moved by -s
+    stress, edges = rows.sum(axis=1), [0, n_p2 - 1]  # as if all rows moved by -s
     slip = np.linalg.solve(rows[np.ix_(edges, edges)], np.ones(2))
     change = -rows[:, edges] @ slip
     return Pawl(

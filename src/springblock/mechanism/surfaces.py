@@ -1,4 +1,4 @@
-"""Surfaces of the chapter's tables, by the parts of each that are computed one by one."""
+"""Surfaces of the tables, by the parts of each table that are computed in one job."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -7,21 +7,21 @@ from typing import Any
 from springblock.model.scene import Scene
 
 _SIDE = 120  #: blocks along a side with grooves, or the multiple of the period next to it
-_LEAST = 30  #: blocks along a side of the variants, or the multiple of the period above it
+_LEAST = 30  #: blocks along a side of the variants, or the next multiple of the period
 _SIZES = (2, 4, 6, 8, 10, 15)  #: n_p with another scatter
 
 
 def _pillars(n_p: int, n_s: int, least: int, **varied: float) -> Scene:
     """Return the smallest surface of whole pillars with `least` blocks along a side or more.
 
-    Surfaces are small since the models take the cube of the number of blocks.
+    Surfaces are small since the cost of the models is cubic in the number of blocks.
     """
     period = n_p + n_s
     return Scene(period * -(-least // period), n_p=n_p, n_s=n_s, varied=tuple(varied.items()))
 
 
 def _even(sizes: Iterable[int], **varied: float) -> list[Scene]:
-    """Return pillars of each size with gaps as wide."""
+    """Return pillars of each size with n_s = n_p."""
     return [_pillars(n_p, n_p, _LEAST, **varied) for n_p in sizes]
 
 
@@ -50,12 +50,12 @@ _VARIANTS = {
     "thickness-40": _even((6, 10, 15, 20, 30), thickness=1e-6 * 40),
     **{f"scatter-{std:g}": _even(_SIZES, mu_static_std=std) for std in (0.0, 0.2, 0.3)},
 }
-#: The prediction of two load peaks was chosen on these, which `docs/beyond.md` has in section 2.
+#: Surfaces of section 2 of `docs/beyond.md`, on which the prediction of two load peaks was chosen.
 TRAINING = _both_ways(
     [_grooves(n_p2, 2) for n_p2 in (2, 4, 8, 10, 13, 18, 28)]
     + [_grooves(n_p2, 6) for n_p2 in (2, 4, 6, 9, 14, 24)]
 )
-#: What it said of these is in `tests/mechanism/predicted.csv` since before they were simulated.
+#: Predictions for these surfaces were recorded in `tests/mechanism/predicted.csv` beforehand.
 TEST = _both_ways(
     [_grooves(n_p2, 1) for n_p2 in (5, 7, 11)]
     + [_grooves(n_p2, 2) for n_p2 in (3, 5, 6, 7, 9, 12, 16)]
@@ -68,7 +68,7 @@ TEST = _both_ways(
     + [_grooves(8, 2, 58, mu_dynamic=mu) for mu in (0.5, 0.7)]
     + [_grooves(n_p2, 2, mu_static_std=std) for std in (0.05, 0.2) for n_p2 in (8, 13)]
 )
-_JOBS = 4  #: that share the surfaces with grooves
+_JOBS = 4  #: for the surfaces with grooves
 
 #: Surfaces of each part of each table.
 TABLES: dict[str, dict[str, list[Scene]]] = {

@@ -1,8 +1,8 @@
-"""Tables of the chapter: their columns, and the rows on each surface.
+"""Tables of the page: their columns, and their rows for each surface.
 
-A block without contact bears its inertia alone, as one that slides does beside its friction: the
-elastic force on it. The springs between blocks add up to nothing, so that the forces on edges, on
-the core and on blocks without contact add up to the friction force.
+The elastic forces on edges, on the core and on blocks without contact add up to the friction force,
+since the forces of the springs between blocks add up to zero. On a block without contact the
+elastic force equals its inertia, on a sliding block its inertia and friction.
 """
 
 from collections.abc import Iterator
@@ -92,7 +92,7 @@ def measure(part: str) -> tuple[pa.Schema, Iterator[Row]]:
 
 
 def friction_rows(surface: Scene) -> Iterator[Row]:
-    """Yield one row per seed: all models on the same coefficients."""
+    """Yield one row per seed, with all models on the same coefficients."""
     contact, material = surface.contact, _material(surface)
     layer, normal_force = Layer(contact, material), material.block_load * contact.size
     load = normal_force / np.count_nonzero(contact)
@@ -110,7 +110,7 @@ def friction_rows(surface: Scene) -> Iterator[Row]:
 
 
 def peaks_rows(surface: Scene) -> Iterator[Row]:
-    """Yield one row per seed: load peaks as predicted by `pawls` and as simulated."""
+    """Yield one row per seed, with the load peak predicted by `pawls` and the simulated one."""
     own = {"trained": surface in TRAINING, "predicted": predicted(surface)}
     for same, _, run in _runs(surface, SEEDS_OF_GROOVES):
         yield same | own | {"measured": 100.0 * prominence(friction(run))}
@@ -155,15 +155,15 @@ def budget_rows(surface: Scene) -> Iterator[Row]:
 
 
 def edge_blocks(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the blocks in contact with a neighbour along x or y that is not, (N_y, N_x)."""
+    """Return the blocks in contact beside one without, along x or y, (N_y, N_x)."""
     return contact & ~binary_erosion(contact, border_value=1)
 
 
 def elastic_force(stiffness: csc_array, displacement: Array, pull: float, axis: int) -> Array:
     """Return the force of all springs along `axis`, 0 for x, on each block, (N_y, N_x) N.
 
-    Displacements are (2, N_y, N_x) m; the slider has moved along the axis and pulls with `pull`,
-    N, on a block that has not.
+    Displacements are (2, N_y, N_x) m; `pull` is the force of the slider on a block at its initial
+    position, N.
     """
     force = -stiffness @ displacement.ravel()
     return np.asarray(force.reshape(displacement.shape)[axis] + pull)

@@ -1,14 +1,14 @@
 """Stiff and extreme cases, and the rows of results/tables/stability.parquet.
 
-Every case says what it expects, in a word, and measures what comes out. Most compare a number with
-its closed form or with an accurate integration; how far it may be off follows from the order of the
-scheme. A release is placed within its step: exactly where the force rises evenly, as it does before
-the first one. A stop falls on the boundary of the step that holds it. What depends on stops, or on
-damping that is stiff within a step, may be wrong by what changes in one step. Each of these also
-bounds what may be missing from the energy balance (`Pull.keeps_energy`).
+Each case has an expected outcome, a word, and is run to find its outcome. Most compare a number
+with its closed form or with an accurate integration, within a tolerance that follows from the order
+of the scheme. A release is placed within its step: exactly where the force rises linearly, as it
+does before the first release. A stop is placed at the end of its step. Values that depend on stops,
+or on damping that is stiff within a step, may be wrong by their change in one step. Most cases also
+bound the residual of the energy balance (`Pull.keeps_energy`).
 
-Units in the code: forces in F_n, lengths in F_n/K_s, times in 1/omega with omega² = K_s/m, and so
-speeds in F_n omega/K_s, unless they are said to be SI.
+Units in the code, unless they are said to be SI: forces in F_n, lengths in F_n/K_s, times in
+1/omega with omega² = K_s/m, and speeds in F_n omega/K_s.
 """
 
 import sys
@@ -67,19 +67,19 @@ FAMILIES = (
 
 
 def all_cases() -> Iterator[Case]:
-    """Return every case, by both integrators."""
+    """Yield each case with each integrator."""
     for cases in FAMILIES:
         for integrator in INTEGRATORS:
             yield from cases(integrator)
 
 
 def stability_rows() -> list[Row]:
-    """Try every case; return a row for each.
+    """Run all cases; return a row for each.
 
     Raises
     ------
     ValueError
-        Where a case came out otherwise than expected; names each of them.
+        If outcomes are not the expected ones; names these cases.
     """
     rows, wrong = [], []
     for case in tqdm(list(all_cases()), unit="case"):

@@ -1,4 +1,4 @@
-"""A case of the table, how a surface is pulled in it, and how its outcome is judged."""
+"""Cases of the table, runs of the solver for them, and the judgement of outcomes."""
 
 import math
 from collections.abc import Callable
@@ -19,7 +19,7 @@ PAPER, UNDAMPED = Material(), Material(gamma=0.0)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came out of a case."""
+    """Outcome of a case, with a value and its closed form where there are any."""
 
     outcome: str
     energy_error: float = math.nan
@@ -35,23 +35,23 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Case:
-    """One extreme, the attempt that shows it, and the outcome that is expected."""
+    """An extreme case, the function that runs it, and its expected outcome."""
 
     family: str
     integrator: str
     extreme: str
     parameter: float  #: what varies within the family
-    quantity: str  #: what `Outcome.value` is
+    quantity: str  #: name of `Outcome.value`
     attempt: Callable[[str], Outcome]  #: takes the integrator
     expected: str = "agrees"
 
     @property
     def name(self) -> str:
-        """Return the name of the case, which no other one has."""
+        """Return the unique name of the case."""
         return f"{self.extreme}, {self.integrator}"
 
     def outcome(self) -> Outcome:
-        """Run the attempt; an exception that it did not ask for is an outcome too."""
+        """Run the case; an unexpected exception is its outcome."""
         try:
             return self.attempt(self.integrator)
         except Exception as error:
@@ -68,7 +68,7 @@ class Pull:
 
     @classmethod
     def at(cls, share: float, integrator: str, material: Material) -> "Pull":
-        """Take this share of the largest stable step."""
+        """Return a run with this share of the largest stable step."""
         return cls(integrator, material, share * limit(integrator, material))
 
     @property
@@ -82,19 +82,19 @@ class Pull:
         return self.material.slider_velocity / speed_unit(self.material)
 
     def simulate(self, surface: Surface, count: int | None = None, every: int = 0) -> Realisation:
-        """Take `count` steps, sampling `every` so many or at the end; by default until all slid."""
+        """Take `count` steps, by default until all slide; sample `every` so many, or at the end."""
         every = every or count or 5
         setup = Setup(self.material, self.integrator, self.step, every * self.step)
         return simulate(surface, setup, duration=count and count * self.step)
 
     def keeps_energy(self, run: Realisation) -> bool:
-        """Judge the error of the energy balance, as a share of the work.
+        """Return whether the residual of the energy balance is within its bound.
 
-        Of a mode at a share of the stability limit, leapfrog shows between 1 - share² and all of
-        its energy, to and fro; Runge-Kutta loses a share (omega h)⁶/72 in each step. The
-        trapezoidal rule for the slider's work is of second order in both. High modes hold a tenth
-        of the work, or two tenths. Where the run ends in the midst of sliding, friction and
-        damping of one step are under way.
+        For a mode at a share of the stability limit, the energy of the leapfrog varies between
+        1 - share² and all of its energy; Runge-Kutta loses a share (omega h)⁶/72 in each step. The
+        trapezoidal rule for the work of the slider is of second order in both. High modes have one
+        or two tenths of the work. If the run ends during sliding, the residual also holds friction
+        and damping of one step.
         """
         share = self.step / limit(self.integrator, self.material)
         drift = 0.1 * share**2 + (8.0 * share**5 if self.integrator == "rk4" else 0.0)
@@ -109,7 +109,7 @@ class Pull:
     def judge(
         self, run: Realisation, value: float, closed_form: float, tolerance: float
     ) -> Outcome:
-        """Compare `value`, within a relative tolerance, and the energy balance."""
+        """Compare a value, within a relative tolerance, and judge the energy balance."""
         residual, error = run.energy.relative_residual, value / closed_form - 1.0
         word = "agrees" if self.keeps_energy(run) else f"energy is off by {residual:.2g}"
         if not abs(error) <= tolerance:
@@ -117,9 +117,9 @@ class Pull:
         return Outcome(word, residual, float(value), float(closed_form), float(tolerance))
 
     def ends_in_error(self, surface: Surface, count: int) -> Outcome:
-        """Take `count` steps, one of which must fail with an error that names its time."""
+        """Take `count` steps, one of which must raise an error that names its time."""
         try:
-            with np.errstate(all="ignore"):  # the error has to come without NumPy's warnings
+            with np.errstate(all="ignore"):  # the error must not depend on warnings of NumPy
                 self.simulate(surface, count)
         except SimulationError as error:
             return Outcome("raises" if "at t = " in str(error) else str(error))

@@ -12,16 +12,17 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from springblock.accuracy.specimens import Array, uniform
 from springblock.accuracy.stability.cases import PAPER, UNDAMPED, Case, Outcome, Pull, pulled_at
 from springblock.accuracy.stability.surfaces import beyond_the_limit
 from springblock.model.material import LAWS, Material
+from springblock.model.surface import Surface
+from springblock.simulation.run import Array
 from springblock.solver.stability import limit
 
 SPEED = 0.01
 ROUGH = 1.0, 0.6  #: mu_static and mu_dynamic
 DROP = ROUGH[0] - ROUGH[1]
-H = 0.02  #: step where nothing asks for a shorter one
+H = 0.02  #: step, unless a shorter one is needed
 LONGEST = 50.0  #: of a slip
 MILLION = 1_000_000  #: steps
 FORCE = "spring force, F_n"
@@ -30,7 +31,7 @@ FORCE = "spring force, F_n"
 def slip(
     material: Material, mu_static: float, mu_dynamic: float, longest: float = LONGEST
 ) -> tuple[Callable[[Array | float], Any], float]:
-    """Follow a slip from the release of the block until it stops, or for so long, 1/omega.
+    """Integrate a slip from the release of the block to its stop, or for a time `longest`, 1/omega.
 
     Returns the path, F_n/K_s, as a function of the time since the release, and the duration of
     the slip. Integrates m u" = K_s (v t - u) - mu F_n - gamma m u', with the friction of the law.
@@ -58,7 +59,7 @@ def slip(
     stops.terminal, stops.direction = True, -1.0  # type: ignore[attr-defined]
     # Far overdamped, the equation is stiff.
     method = "Radau" if gamma > 100.0 else "DOP853"
-    # Under a fast slider v is negative for about (mu_s - mu_d)/v only, if the stop is missed.
+    # With a fast slider a missed stop leaves u' negative for a time of about (mu_s - mu_d)/v.
     steps = {"first_step": 1e-9, "max_step": 0.5 * drop / speed if drop else math.inf}
     accuracy = {"rtol": 1e-11, "atol": 1e-14, "events": stops, "dense_output": True}
     found = solve_ivp(motion, (0.0, longest), (0.0, 0.0), method, **steps, **accuracy)
@@ -76,12 +77,12 @@ def spring_force(
     slope: float = 0.0,
     late: float = 0.0,
 ) -> Outcome:
-    """Compare the spring force at a time `after` the release; it may be off by `slope` h.
+    """Compare the spring force at a time `after` the release, within `slope` h.
 
-    By default the force is compared after the stop, before the next slip. The stop is worth 4 v h
-    at most, and what friction takes while it weakens, and where the block stops, is off by some
-    2 (mu_s - mu_d) h². The slip may begin `late`. The step is h, but no more than half the stable
-    one.
+    By default it is compared after the stop, before the next slip: the stop adds an error of at
+    most 4 v h, and the work of friction during weakening and the place of the stop one of about
+    2 (mu_s - mu_d) h². The slip may begin `late`. The step is h, or half the largest stable step if
+    this is smaller.
     """
     step = min(h / material.omega_min, 0.5 * limit(integrator, material))
     pull = Pull(integrator, material, step)
@@ -92,7 +93,7 @@ def spring_force(
         slope = pull.speed * (4.0 + late / pull.h) + 2.0 * drop * pull.h
     release = max(mu_static, mu_dynamic) / pull.speed
     count = math.ceil((release + after) / pull.h)
-    run = pull.simulate(uniform(1, mu_static, mu_dynamic), count)
+    run = pull.simulate(Surface([[True]], mu_static, mu_dynamic), count)
     slid = material.slider_velocity * run.time[-1]
     force = float(slid - run.displacement[0, 0, 0]) * material.k_s / material.block_load
     closed_form = pull.speed * count * pull.h - float(path(count * pull.h - release))
@@ -100,7 +101,7 @@ def spring_force(
 
 
 def frictions(integrator: str) -> Iterator[Case]:
-    """Damping, speed and coefficients of friction."""
+    """Yield cases of damping, speed and coefficients of friction."""
     case = partial(Case, "damping", integrator)
     for gamma in (0.0, 0.01, 0.1, 1.0, 2.0, 10.0, 100.0, 1e4):
         material = with_damping(gamma, SPEED)
@@ -110,7 +111,7 @@ def frictions(integrator: str) -> Iterator[Case]:
             attempt = partial(beyond_the_limit, material=material, share=share)
             yield case(name, gamma, "none", attempt, "refused")
         else:
-            slow = max(1.0, gamma)  # time in which the force falls
+            slow = max(1.0, gamma)  # time during which the force falls
             steepest = max(abs(DROP - gamma * SPEED) / slow, SPEED)
             compared = partial(spring_force, h=1e-3 * slow, after=slow, slope=2.0 * steepest)
             attempt = partial(compared, material=material)
@@ -122,7 +123,7 @@ def frictions(integrator: str) -> Iterator[Case]:
         yield case(name, speed, FORCE, partial(spring_force, material=material, h=h))
     case = partial(Case, "coefficients", integrator)
     for ratio, material in (
-        (0.0, with_damping(0.1, 1e-3)),  # without damping it would swing back to -mu_s
+        (0.0, with_damping(0.1, 1e-3)),  # without damping the force would swing to -mu_s
         *((ratio, pulled_at(SPEED, UNDAMPED)) for ratio in (0.3, 0.6, 0.99)),
     ):
         name = f"block with mu_d = {ratio:g} mu_s"
@@ -130,7 +131,7 @@ def frictions(integrator: str) -> Iterator[Case]:
         yield case(name, ratio, FORCE, attempt)
     name = "sticking and slipping for a million steps"
     yield case(name, ROUGH[1] / ROUGH[0], "mean force, F_n", stick_slip_forever)
-    # Without a drop the block leaves at mu_d with v (1 - cos t), and may start late by a step.
+    # Without a drop the velocity is v (1 - cos t); the block may start one step late.
     speed = 0.1
     material = pulled_at(speed, UNDAMPED)
     compared = partial(spring_force, material=material, h=2e-3, after=6.0, slope=2.0 * speed)
@@ -147,7 +148,7 @@ def with_damping(gamma: float, speed: float) -> Material:
 
 
 def weakenings(integrator: str) -> Iterator[Case]:
-    """Friction that weakens, from within a slip to within a step, where both laws are Coulomb's."""
+    """Yield cases of friction that weakens within a slip or, like Coulomb's law, within a step."""
     case = partial(Case, "weakening", integrator)
     for law, unit, rates in (
         ("slip_weakening", "K_s", (1.5, 10.0, 1e2, 1e3, 1e4, 1e6, 1e12, 1e100)),
@@ -156,7 +157,7 @@ def weakenings(integrator: str) -> Iterator[Case]:
         for rate in rates:
             name = f"block with {law.replace('_', ' ')} at {rate:g} {unit}"
             # Slip grows as v/k³ sinh(k t), k² = rate, by exp(2) per step at 1e4 K_s: it may begin
-            # late by the time, 1/omega, until it is d_c = (mu_s - mu_d)/k² and the block weak.
+            # late by the time, 1/omega, in which it reaches d_c = (mu_s - mu_d)/k².
             growth = math.sqrt(rate)
             late = math.asinh(DROP * growth / SPEED) / growth if rate == 1e4 else 0.0
             attempt = partial(spring_force, material=weakening(law, rate), late=late)
@@ -164,7 +165,7 @@ def weakenings(integrator: str) -> Iterator[Case]:
 
 
 def weakening(law: str, rate: float) -> Material:
-    """Return a material whose friction falls at this rate, K_s or m omega."""
+    """Return a material whose friction decreases at this rate, K_s or m omega."""
     material = pulled_at(SPEED, UNDAMPED)
     constant = DROP / rate * material.block_load / material.k_s
     if law == "velocity_weakening":
@@ -174,9 +175,9 @@ def weakening(law: str, rate: float) -> Material:
 
 
 def stick_slip_forever(integrator: str) -> Outcome:
-    """The force saws between mu_s and 2 mu_d - mu_s: its mean is mu_d, but for the first rise."""
+    """Compare the mean force with mu_d; it varies between mu_s and 2 mu_d - mu_s."""
     material = pulled_at(SPEED, UNDAMPED)
     pull = Pull(integrator, material, H / material.omega_min)
-    run = pull.simulate(uniform(1, *ROUGH), MILLION, every=20)
+    run = pull.simulate(Surface([[True]], *ROUGH), MILLION, every=20)
     cycles = SPEED * MILLION * pull.h / (2.0 * DROP)
     return pull.judge(run, run.force.mean() / run.normal_force, ROUGH[1], 1.0 / cycles)

@@ -1,4 +1,4 @@
-"""Columns and surfaces: step, stiffness, strain, scatter, load, size, and sliders too fast."""
+"""Columns and surfaces: step, stiffness, strain, scatter, load, size, and too fast sliders."""
 
 import math
 from collections.abc import Iterator
@@ -8,7 +8,6 @@ from functools import cache, partial
 import numpy as np
 
 from springblock.accuracy import reference
-from springblock.accuracy.specimens import drawn, flat
 from springblock.accuracy.stability.cases import PAPER, Case, Outcome, Pull, pulled_at
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
@@ -17,7 +16,7 @@ from springblock.solver.stability import limit
 
 SEED = 1
 #: Avalanches on pillars excite the highest modes.
-PILLARS = Pattern.pillars(8, 2, 2)
+PILLARS = Surface.draw(Pattern.pillars(8, 2, 2).contact, SEED)
 OVERDAMPED = Material(gamma=10.0 * PAPER.omega_max, slider_velocity=5e-3)
 #: Ten times the paper's pressure, on a quarter of the blocks: they slip by 0.27 l.
 HEAVY = pulled_at(1e-3, replace(PAPER, pressure=10.0 * PAPER.pressure))
@@ -26,7 +25,7 @@ DISPLACEMENT = "displacement, l"
 
 
 def steps(integrator: str) -> Iterator[Case]:
-    """Steps up to the stability limit and beyond, without damping and far overdamped."""
+    """Yield steps up to the stability limit and beyond, with weak and with strong damping."""
     case = partial(Case, "step", integrator)
     stable = [("pillars", PAPER, share) for share in (0.05, 0.1, 0.2, 0.5, 0.8, 0.9, 0.95, 0.99)]
     for name, material, share in (*stable, ("strained pillars", HEAVY, 0.99)):
@@ -41,9 +40,9 @@ def steps(integrator: str) -> Iterator[Case]:
 
 
 def near_the_limit(integrator: str, material: Material, share: float) -> Outcome:
-    """Judge the energy balance, where too long a step shows first."""
+    """Judge the energy balance, which first shows that a step is too long."""
     pull = Pull.at(share, integrator, material)
-    run = pull.simulate(drawn(PILLARS, SEED), every=max(1, round(2e-7 / pull.step)))
+    run = pull.simulate(PILLARS, every=max(1, round(2e-7 / pull.step)))
     word = "stable" if pull.keeps_energy(run) else "drifts"
     return Outcome(word, run.energy.relative_residual, run.static_friction)
 
@@ -51,14 +50,14 @@ def near_the_limit(integrator: str, material: Material, share: float) -> Outcome
 def beyond_the_limit(integrator: str, material: Material, share: float) -> Outcome:
     """Pull with an unstable step."""
     try:
-        Pull.at(share, integrator, material).simulate(drawn(PILLARS, SEED))
+        Pull.at(share, integrator, material).simulate(PILLARS)
     except ValueError as error:
         return Outcome("refused" if "is unstable" in str(error) else str(error))
     return Outcome("accepted")
 
 
 def stiffnesses(integrator: str) -> Iterator[Case]:
-    """Stiffness, strain and scatter."""
+    """Yield cases of stiffness, strain and scatter."""
     case = partial(Case, "stiffness", integrator)
     for ratio in (1e-4, 1e-2, 1.0, 1e2, 1e4):
         name = f"column at K_s/K_int = {ratio:g}"
@@ -78,7 +77,7 @@ def stiffnesses(integrator: str) -> Iterator[Case]:
 
 
 def loads(integrator: str) -> Iterator[Case]:
-    """Springs that leave the range of their series, and springs that collapse or burst."""
+    """Yield springs beyond the range of their series, and springs that collapse or burst."""
     case = partial(Case, "load", integrator)
     for strain in (0.02, 0.3, 0.6, -0.1, -0.3):
         name = f"column {'stretched' if strain > 0 else 'squeezed'} by {abs(strain):g}"
@@ -95,16 +94,16 @@ def layer(ratio: float, strain: float) -> Material:
 
 
 def scattered(sigma: float, speed: float = 0.01) -> Material:
-    """Return the paper's material with another scatter; mu_d has half that of mu_s, as there."""
+    """Return the paper's material with another scatter of mu_s; that of mu_d is half of it."""
     return pulled_at(speed, replace(PAPER, mu_static_std=sigma, mu_dynamic_std=sigma / 2.0))
 
 
 def pulled_column(ratio: float, strain: float) -> tuple[Surface, Material, float]:
-    """Hold one of two columns of two blocks, and pull the other away, or towards it for strain < 0.
+    """Return two columns of two blocks, of which one is fixed, the material, and a duration, s.
 
-    Returns the surface, the material, whose slider moves the free column by about `strain`
-    spacings (its springs have 1.25 times K_int at small strains), and the duration, s: 13 periods
-    of the highest mode.
+    The slider moves the free column away by about `strain` spacings, or towards the other if
+    strain < 0; its springs have 1.25 times K_int at small strains. The duration is 13 periods of
+    the highest mode.
     """
     contact = [[1, 0], [1, 0]] if strain > 0.0 else [[0, 1], [0, 1]]
     material = layer(ratio, abs(strain))
@@ -123,9 +122,9 @@ def reference_column(ratio: float, strain: float) -> float:
 
 
 def column(integrator: str, strain: float, ratio: float = 1.0) -> Outcome:
-    """Compare a free column in a hundredth of the stable step with the reference solution.
+    """Compare a free column with the reference solution, at a hundredth of the stable step.
 
-    Leapfrog may be off by its order, (omega_max h)², Runge-Kutta by (omega_max h)⁴.
+    The error may be (omega_max h)² for the leapfrog and (omega_max h)⁴ for Runge-Kutta.
     """
     surface, material, duration = pulled_column(ratio, strain)
     count = math.ceil(duration / (0.01 * limit(integrator, material)))
@@ -147,15 +146,16 @@ def broken_column(integrator: str, strain: float) -> Outcome:
 def first_detachment(
     integrator: str, material: Material, n: int = 8, count: int | None = None
 ) -> Outcome:
-    """On a flat surface the weakest block lets go first, at its own threshold, to rounding."""
-    pull, surface = Pull.at(0.2, integrator, material), flat(n, SEED, material)
+    """Compare the first detachment on a flat surface with the lowest threshold, to rounding."""
+    pull = Pull.at(0.2, integrator, material)
+    surface = Surface.draw(Pattern.flat(n).contact, SEED, material)
     run, weakest = pull.simulate(surface, count), np.maximum(surface.mu_static, surface.mu_dynamic)
     first = run.t_first * material.omega_min * pull.speed
     return pull.judge(run, first, weakest.min(), 1e-12)
 
 
 def sizes(integrator: str) -> Iterator[Case]:
-    """From one block to a million."""
+    """Yield surfaces from one block to a million."""
     case = partial(Case, "size", integrator)
     for n, speed, count in ((1, 0.01, None), (2, 0.01, None), (3, 0.01, None), (1000, 0.1, 60)):
         material = scattered(0.1, speed)
@@ -164,7 +164,7 @@ def sizes(integrator: str) -> Iterator[Case]:
 
 
 def overflows(integrator: str) -> Iterator[Case]:
-    """Sliders too fast to follow."""
+    """Yield sliders that are too fast to be integrated."""
     case = partial(Case, "overflow", integrator)
     for name, n, speed in (
         ("speed whose energy overflows", 1, 1e160),
@@ -177,4 +177,4 @@ def overflows(integrator: str) -> Iterator[Case]:
 def too_fast(integrator: str, n: int, speed: float) -> Outcome:
     """Take ten steps under a slider of this speed, m/s."""
     pull = Pull(integrator, replace(PAPER, slider_velocity=speed), 2e-8)
-    return pull.ends_in_error(flat(n, SEED), 10)
+    return pull.ends_in_error(Surface.draw(Pattern.flat(n).contact, SEED), 10)
