@@ -25,9 +25,9 @@ class Lowest(NamedTuple):
 def lowest(samples: Mapping[Any, Array]) -> Lowest:
     """Return the position of the lowest mean static friction, from samples by position.
 
-    There is no interpolation. Friction may also be the lowest wherever it exceeds the lowest mean by
-    no more than the numerical bias: where the 95 % interval of the difference, without correction
-    for multiple comparisons, does not lie above `BIAS`.
+    There is no interpolation. Friction may also be the lowest wherever it exceeds the lowest mean
+    by no more than the numerical bias: where the 95 % interval of the difference, without
+    correction for multiple comparisons, does not lie above `BIAS`.
     """
     best = min(samples, key=lambda place: float(samples[place].mean()))
     apart = {place: difference_interval(each, samples[best]) for place, each in samples.items()}
