@@ -63,8 +63,6 @@ class Cut:
             raise ValueError(f"bearing_area must be in (0, 1], not {self.bearing_area!r}")
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
-        if self.detrend not in (None, *TRENDS):
-            raise ValueError(f"detrend must be {' or '.join(TRENDS)}, not {self.detrend!r}")
         heights = self._heights()
         level = self.height
         if self.bearing_area is not None:
