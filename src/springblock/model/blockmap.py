@@ -43,11 +43,10 @@ class Cut:
     @property
     def arguments(self) -> str:
         """The cut as options of `springblock mask`."""
-        named = {key: getattr(self, key) for key in self.__match_args__[1:]}
+        given = {name: value for name, value in vars(self).items() if value is not None}
+        del given["topography"]  # the argument of the command
         return " ".join(
-            f"--{key.replace('_', '-')} {quote(str(value))}"
-            for key, value in named.items()
-            if value is not None
+            f"--{name.replace('_', '-')} {quote(str(value))}" for name, value in given.items()
         )
 
     def mask(self) -> Array:
