@@ -5,16 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from springblock.model.numbers import real_number, whole_number
+from springblock.model.numbers import check_real, check_whole
 
 
 @pytest.mark.parametrize(
     ("check", "value", "sentence"),
     [
-        *((whole_number, value, "a whole number") for value in (4.0, "4", None, True)),
-        (whole_number, 0, "at least 1"),
-        *((real_number, value, "a number") for value in ("1", None, True, 1j)),
-        *((real_number, value, "finite and positive") for value in (0, -1.0, math.nan, math.inf)),
+        *((check_whole, value, "a whole number") for value in (4.0, "4", None, True)),
+        (check_whole, 0, "at least 1"),
+        *((check_real, value, "a number") for value in ("1", None, True, 1j)),
+        *((check_real, value, "finite and positive") for value in (0, -1.0, math.nan, math.inf)),
     ],
 )
 def test_other_numbers_are_refused_by_name(check, value, sentence):
@@ -24,6 +24,6 @@ def test_other_numbers_are_refused_by_name(check, value, sentence):
 
 
 def test_numbers_of_numpy_become_those_of_python_and_zero_may_be_allowed():
-    assert type(whole_number("N", np.int64(1))) is int
-    assert type(real_number("step", np.int8(2))) is float
-    assert whole_number("seed", 0, least=0) == real_number("gamma", 0, may_vanish=True) == 0
+    assert type(check_whole("N", np.int64(1))) is int
+    assert type(check_real("step", np.int8(2))) is float
+    assert check_whole("seed", 0, least=0) == check_real("gamma", 0, may_vanish=True) == 0

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
-from springblock.model.numbers import whole_number
+from springblock.model.numbers import check_whole
 
 if TYPE_CHECKING:
     from scipy.stats.distributions import rv_frozen
@@ -51,7 +51,7 @@ def draw_friction(
         standard deviation, or the correlation length exceeds the surface.
     """
     shape = n_blocks if isinstance(n_blocks, tuple) else (n_blocks, n_blocks)
-    how = whole_number("seed", seed, least=0), shape, material or Material(), periodic
+    how = check_whole("seed", seed, least=0), shape, material or Material(), periodic
     return _draw("mu_static", *how), _draw("mu_dynamic", *how)
 
 

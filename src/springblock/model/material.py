@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from springblock.model.law import LawFile
-from springblock.model.numbers import real_number
+from springblock.model.numbers import check_real
 
 #: Distributions of the friction coefficients, see `springblock.model.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
@@ -87,7 +87,7 @@ class Material:
         for name, value in self.items():
             if name in ("distribution", "law"):
                 continue
-            number = real_number(f"Material.{name}", value, may_vanish=name in _MAY_VANISH)
+            number = check_real(f"Material.{name}", value, may_vanish=name in _MAY_VANISH)
             object.__setattr__(self, name, number)
         self._check_derived()
         self._check_law()

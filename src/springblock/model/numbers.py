@@ -8,7 +8,7 @@ import numpy as np
 REAL = int | float | np.integer | np.floating
 
 
-def whole_number(name: str, value: Any, least: int = 1) -> int:
+def check_whole(name: str, value: Any, least: int = 1) -> int:
     """Return a whole number as int; refuse other types and numbers below `least`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         raise TypeError(f"{name} must be a whole number, not {value!r}")
@@ -17,7 +17,7 @@ def whole_number(name: str, value: Any, least: int = 1) -> int:
     return int(value)
 
 
-def real_number(name: str, value: Any, may_vanish: bool = False) -> float:
+def check_real(name: str, value: Any, may_vanish: bool = False) -> float:
     """Return a number as float; refuse other types and numbers that are not finite and positive.
 
     Zero is accepted if the number `may_vanish`.

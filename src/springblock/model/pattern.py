@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.model.numbers import whole_number
+from springblock.model.numbers import check_whole
 
 #: Largest number of blocks along a side, for which the solver is laid out.
 MAX_BLOCKS = 4096
@@ -75,8 +75,8 @@ class Pattern:
     n_rows: int | None = None  #: blocks along y; None for a square surface
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "n_blocks", whole_number("N", self.n_blocks))
-        rows = self.n_blocks if self.n_rows is None else whole_number("n_rows", self.n_rows)
+        object.__setattr__(self, "n_blocks", check_whole("N", self.n_blocks))
+        rows = self.n_blocks if self.n_rows is None else check_whole("n_rows", self.n_rows)
         object.__setattr__(self, "n_rows", rows)
         for name, blocks in (("N", self.n_blocks), ("n_rows", rows)):
             if blocks > MAX_BLOCKS:
@@ -95,13 +95,13 @@ class Pattern:
 
     def pillared(self, n_p: int, n_s: int) -> "Pattern":
         """Add a level of pillars of n_p blocks, n_s blocks apart."""
-        return self._refined(Level(whole_number("n_p", n_p), whole_number("n_s", n_s)))
+        return self._refined(Level(check_whole("n_p", n_p), check_whole("n_s", n_s)))
 
     def grooved(self, n_p2: int, n_s2: int, along: str = "x") -> "Pattern":
         """Add a level of pawls of n_p2 blocks between grooves of n_s2 blocks that run `along`."""
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', not {along!r}")
-        pawl, groove = whole_number("n_p2", n_p2), whole_number("n_s2", n_s2)
+        pawl, groove = check_whole("n_p2", n_p2), check_whole("n_s2", n_s2)
         return self._refined(Level(pawl, groove, along))
 
     def _refined(self, level: Level) -> "Pattern":

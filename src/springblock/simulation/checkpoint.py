@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.files import read_arrays, whole_file
-from springblock.model.numbers import real_number
+from springblock.model.numbers import check_real
 from springblock.provenance import digest
 from springblock.simulation.motion import Motion
 from springblock.solver.lattice import Samples, State
@@ -45,7 +45,7 @@ class Checkpoint:
     written: float = field(default_factory=monotonic)  #: s, time of the last checkpoint
 
     def __post_init__(self) -> None:
-        real_number("checkpoint_interval", self.interval)
+        check_real("checkpoint_interval", self.interval)
 
     @property
     def is_due(self) -> bool:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
 from springblock.model.law import LawFile
 from springblock.model.material import Material
-from springblock.model.numbers import real_number
+from springblock.model.numbers import check_real
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
@@ -31,7 +31,7 @@ def check_type(name: str, value: Any, kind: type) -> None:
 
 def _whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
     """Return `value` divided by `unit`; raise ValueError unless it is a whole number."""
-    real_number(name, value)
+    check_real(name, value)
     ratio = value / unit
     count = round(ratio) if math.isfinite(ratio) else 0
     if count < 1 or abs(ratio - count) > 1e-6 * count:
@@ -68,7 +68,7 @@ class Setup:
         if self.integrator not in IS_STABLE:
             known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
-        real_number("step", self.step)
+        check_real("step", self.step)
         law = self.material.law
         if isinstance(law, LawFile):
             law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
@@ -130,7 +130,7 @@ class Setup:
         """
         interval, intervals = self.sample_interval, math.inf
         if duration is not None:
-            real_number("duration", duration)
+            check_real("duration", duration)
             intervals = duration / interval + 1e-6
             if intervals < 1.0:
                 raise ValueError(
