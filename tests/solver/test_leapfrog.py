@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Surface
+from springblock import Material, Pattern, Surface, draw_friction
 from springblock.solver import leapfrog
 from springblock.solver.lattice import Samples, prepare
 from springblock.solver.springs import scratch
@@ -33,7 +33,9 @@ SURFACES = {
 
 
 def start(contact, seed, keep_peak=False, material=FAST, periodic=False):
-    surface = Surface.draw(contact, seed, periodic=periodic)
+    n_y, n_x = contact.shape
+    mu = (field[:n_y, :n_x] for field in draw_friction(max(n_y, n_x), seed))
+    surface = Surface(contact, *mu, periodic=periodic)
     return prepare(surface, material, (0.8, 0.6), leapfrog, STEP, keep_peak)
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from springblock import Material, Pattern, Setup, Surface, compute_prelude, simulate
+from springblock import Material, Pattern, Setup, Surface, compute_prelude, draw_friction, simulate
 from springblock.solver import leapfrog, parallel
 from springblock.solver.lattice import Samples, prepare
 
@@ -21,8 +21,13 @@ STEPS, EVERY = 400, 10
 
 
 def start(name, band_rows, periodic=False):
-    surface = Surface.draw(SURFACES[name], seed=0, periodic=periodic)
-    state, constants = prepare(surface, FAST, (np.cos(0.3), np.sin(0.3)), leapfrog, 2e-8)
+    contact, step = SURFACES[name], 2e-8
+    coefficients = (mu[:, : contact.shape[1]] for mu in draw_friction(len(contact), seed=0))
+    surface, heading = (
+        Surface(contact, *coefficients, periodic=periodic),
+        (np.cos(0.3), np.sin(0.3)),
+    )
+    state, constants = prepare(surface, FAST, heading, leapfrog, step)
     return state, constants._replace(band_rows=np.uint64(band_rows))
 
 
