@@ -12,7 +12,6 @@ compared with it step by step (`tests/validation/test_specification.py`):
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from inspect import signature
 from typing import Any, NamedTuple
 
@@ -113,12 +112,9 @@ class Problem:
             name: np.full(contact.shape, value) for name, value in self.law.initial.items()
         }
         self.f_static = surface.mu_static * self.load  #: mu_s F_n, N
-
-    @cached_property
-    def f_c(self) -> Array:
-        """F_c, N, beyond which a block at rest slides: mu_s F_n or, if larger, friction at rest."""
-        at_rest = resistance(self, self.fresh, np.zeros(self.contact.shape))
-        return np.maximum(self.f_static, at_rest * self.m / self.tau)
+        at_rest = resistance(self, self.fresh, np.zeros(contact.shape))
+        #: F_c, N, beyond which a block at rest slides: mu_s F_n or, if larger, friction at rest
+        self.f_c = np.maximum(self.f_static, at_rest * self.m / self.tau)
 
     def call(self, function: Callable[..., Any], memory: Memory, speed: Array, outputs: int) -> Any:
         """Call `friction` or `update` for each block, with the arguments that it names."""

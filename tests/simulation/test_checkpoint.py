@@ -129,7 +129,7 @@ def test_other_files_are_refused(stopped, tmp_path):
     prelude = (tmp_path / "prelude.npz").read_bytes()
     for content in (b"", b"text", whole[:1000], whole[: len(whole) // 2], prelude):
         file.write_bytes(content)
-        with pytest.raises(ValueError, match=r"run.npz is not a checkpoint: "):
+        with pytest.raises(ValueError, match=r"run.npz is not a checkpoint, or damaged"):
             pull(checkpoint=file)
 
 

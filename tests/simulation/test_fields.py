@@ -75,7 +75,7 @@ def test_a_block_that_slides_bears_the_friction_of_its_law(integrator, law, mu, 
 def test_stress_stays_within_friction_and_follows_the_motion(integrator, periodic):
     """At rest up to mu_s F_n/l², sliding mu_d F_n/l² along v.
 
-    Runge-Kutta finds a block to have let go one step later, when neighbours have added to F_mot.
+    Runge-Kutta notices a detachment one step later, when neighbours have added to F_mot.
     """
     contact = Pattern.pillars(24, 4, 4).contact
     mu_static, mu_dynamic = draw_friction(24, seed=1)

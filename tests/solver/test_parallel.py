@@ -16,7 +16,7 @@ SURFACES = {
     "small": Pattern.flat(3).contact,
     "oblong": Pattern.pillars(30, 10, 5).contact[:, :11],
 }
-FAST = Material(slider_velocity=0.05)  # lets go, stops and lets go again within microseconds
+FAST = Material(slider_velocity=0.05)  # blocks detach, stop and detach again within µs
 STEPS, EVERY = 400, 10
 
 
@@ -47,7 +47,7 @@ def test_every_bit_is_as_on_one_core(name, periodic, band_rows, cores):
     ):
         np.testing.assert_array_equal(one, other)
     first = np.isfinite(alone[0].blocks.t_det).sum()
-    assert samples.switches.sum() > first > 0  # some let go again
+    assert samples.switches.sum() > first > 0  # some detach again
 
 
 def test_every_bit_is_as_on_one_core_under_weakening_friction():
@@ -71,7 +71,7 @@ def test_a_broken_spring_is_found_wherever_it_is(row, cores):
     assert x == 4  # its western neighbour tears, too, and comes first
 
 
-def test_so_are_a_prelude_and_a_realisation_from_it():
+def test_a_prelude_and_a_run_from_it_are_the_same_on_several_cores():
     pattern = Pattern.pillars(60, 20, 10)
     surface = Surface.draw(pattern.contact, seed=1)
     preludes = [compute_prelude(pattern.contact, cores=cores) for cores in (1, 2)]

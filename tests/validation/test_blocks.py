@@ -35,7 +35,7 @@ def pull(mu_static, mu_dynamic, integrator, *, after=0.0, step=1e-8, material=UN
 
 @pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("mu_static", [0.31, 1.0, 1.21])
-def test_a_block_sticks_until_its_threshold_and_lets_go_just_then(mu_static, step, integrator):
+def test_a_block_sticks_until_its_threshold_and_detaches_just_then(mu_static, step, integrator):
     run = pull(mu_static, 0.2, integrator, after=1e-7, step=step)
     assert run.t_first == pytest.approx(release_time(mu_static), rel=1e-14)
     stuck = run.time <= release_time(mu_static)
@@ -70,7 +70,7 @@ def test_the_slip_follows_an_accurate_integration(mu_static, mu_dynamic, gamma, 
 def test_a_block_with_mu_s_below_mu_d_does_not_flicker_among_others(integrator):
     """Its v (1 - cos omega t) touches zero once in each of the first few periods.
 
-    Then damping keeps it away; a block that flickers lets go in every step, of which there are
+    Then damping keeps it away; a block that flickers detaches in every step, of which there are
     1500 before the others follow.
     """
     surface = flat(6, seed=3)

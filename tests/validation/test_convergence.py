@@ -14,7 +14,7 @@ from validation.test_surfaces import LAWS, oblong
 
 PAPER = Material()
 STEPS = [2e-8, 1e-8, 5e-9, 2.5e-9]  #: s
-#: Six by six blocks that let go one after another within 1 µs. The slider is ten times as fast
+#: Six by six blocks that detach one after another within 1 µs. The slider is ten times as fast
 #: as the paper's, which shortens the wait before and changes little else: it still moves a
 #: hundred times slower than a block that slips.
 FAST = Material(slider_velocity=5e-3)
@@ -34,7 +34,7 @@ def runs(request):
     return [simulate(SURFACE, setup, duration=DURATION) for setup in setups]
 
 
-def test_the_reference_lets_every_block_go_and_keeps_its_energy(reference):
+def test_in_the_reference_every_block_detaches_and_energy_is_conserved(reference):
     assert np.isfinite(reference.t_det).all()
     assert np.ptp(reference.t_det) > 40 * max(STEPS)
     assert abs(reference.relative_residual) < 1e-9  # of steps accurate to 1e-10
@@ -51,7 +51,7 @@ def of_second_order(errors):
 def test_detachment_times_converge_in_the_order_of_the_reference(reference, runs):
     """Releases are placed within their steps: RMS within half a step, and soon far within.
 
-    Blocks let go in the same order, but for pairs closer than a fifth of a step.
+    Blocks detach in the same order, but for pairs closer than a fifth of a step.
     """
     errors = [np.sqrt(np.mean((run.t_det - reference.t_det) ** 2)) for run in runs]
     assert all(error < h / 2 for error, h in zip(errors, STEPS, strict=True))
@@ -87,7 +87,7 @@ def test_the_reference_solution_refuses_other_laws():
 
 
 def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
-    """Until the first block lets go, on a surface some of whose blocks are free.
+    """Until the first detachment, on a surface some of whose blocks are free.
 
     The leapfrog is wrong by (omega h)²/24 of what oscillates, the other finds it a step too late.
     """
@@ -102,7 +102,7 @@ def test_an_oblong_surface_is_loaded_as_by_plain_runge_kutta():
 
 @pytest.mark.parametrize("law", LAWS)
 def test_both_integrators_converge_to_one_answer_as_friction_weakens(law):
-    """Every block has let go: t_det agrees to a share of a step that falls with the step."""
+    """Every block has detached: t_det agrees to a share of a step that falls with the step."""
     material, apart = replace(FAST, law=law, **LAWS[law]), []
     for step in (5e-9, 1.25e-9):
         setups = [Setup(material, name, step, INTERVAL) for name in INTEGRATORS]

@@ -1,6 +1,7 @@
 """Friction that weakens, finer than in the table of cases.
 
-A block under a slider lets go at mu_s F_n without a drop. While friction falls along its way s,
+A block under a slider detaches at mu_s F_n without a drop of friction. While friction falls with
+its slip s,
 
     m s" = K_s v t + (W - K_s) s,    W = (mu_s - mu_d) F_n/d_c,
 

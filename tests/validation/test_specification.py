@@ -24,7 +24,7 @@ from springblock.solver.law_file import FromFile
 from springblock.solver.laws import state_of
 
 STEP, ANGLE = 2e-8, 30.0
-#: Loads a hundred times faster than the paper's: blocks let go, stop and let go again soon.
+#: Loads a hundred times faster than the paper's: blocks soon detach, stop and detach again.
 FAST = Material(slider_velocity=5e-2, gamma=5e4)
 LAW_FILES = Path(__file__).parents[2] / "config/examples"
 LAWS = {
@@ -154,7 +154,7 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
         switches += here.switches
     assert np.isfinite(here.t_det[contact]).mean() > 0.9
     if law != "rate and state":
-        assert switches > 1.2 * contact.sum()  # some have stopped and let go again
+        assert switches > 1.2 * contact.sum()  # some have stopped and detached again
         assert law == "slippery" or not here.v[:, contact].all()
 
 
@@ -162,7 +162,7 @@ def test_each_step_is_that_of_the_specification(integrator, law, name, periodic)
     ("integrator", "periodic", "surface"),
     [("leapfrog", False, "pillars"), ("leapfrog", True, "grooves"), ("rk4", True, "pillars")],
 )
-def test_so_are_whole_runs(integrator, periodic, surface):
+def test_whole_runs_are_those_of_the_specification(integrator, periodic, surface):
     """What the solver skips, stores and samples changes nothing, with a prelude or without."""
     contact = SURFACES[surface]
     drawn, setup = Surface.draw(contact, 1, periodic=periodic), Setup(FAST, integrator, STEP)

@@ -8,7 +8,7 @@ import pytest
 from springblock import Material, Setup, Surface, compute_prelude, draw_friction, simulate
 
 PAPER = Material()
-#: Loads a hundred times faster than the paper's: a run of 1500 steps shows all blocks let go.
+#: Loads a hundred times faster than the paper's: in 1500 steps all blocks detach.
 FAST = Material(slider_velocity=5e-2)
 LAWS = {
     "slip_weakening": {"slip_distance": 4e-7},

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
+from springblock.model.numbers import check_whole
 
 if TYPE_CHECKING:
     from scipy.stats.distributions import rv_frozen
@@ -49,12 +50,8 @@ def draw_friction(
         If the seed is not a whole number from zero up, the distribution cannot have this mean and
         standard deviation, or the correlation length exceeds the surface.
     """
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer):
-        raise TypeError(f"seed must be a whole number, not {seed!r}")
-    if seed < 0:
-        raise ValueError(f"seed must be zero or positive, not {seed}")
     shape = n_blocks if isinstance(n_blocks, tuple) else (n_blocks, n_blocks)
-    how = seed, shape, material or Material(), periodic
+    how = check_whole("seed", seed, least=0), shape, material or Material(), periodic
     return _draw("mu_static", *how), _draw("mu_dynamic", *how)
 
 

@@ -43,11 +43,10 @@ class Cut:
     @property
     def arguments(self) -> str:
         """The cut as options of `springblock mask`."""
-        named = {key: getattr(self, key) for key in self.__match_args__[1:]}
+        given = {name: value for name, value in vars(self).items() if value is not None}
+        del given["topography"]  # the argument of the command
         return " ".join(
-            f"--{key.replace('_', '-')} {quote(str(value))}"
-            for key, value in named.items()
-            if value is not None
+            f"--{name.replace('_', '-')} {quote(str(value))}" for name, value in given.items()
         )
 
     def mask(self) -> Array:
@@ -63,8 +62,6 @@ class Cut:
             raise ValueError(f"bearing_area must be in (0, 1], not {self.bearing_area!r}")
         if not self.spacing > 0.0:
             raise ValueError(f"spacing must be positive, not {self.spacing!r}")
-        if self.detrend not in (None, *TRENDS):
-            raise ValueError(f"detrend must be {' or '.join(TRENDS)}, not {self.detrend!r}")
         heights = self._heights()
         level = self.height
         if self.bearing_area is not None:

@@ -2,9 +2,8 @@
 
 import math
 
-import numpy as np
+from springblock.model.numbers import REAL
 
-REAL = int | float | np.integer | np.floating
 _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
 #: Names of the angles, from -180 to 180 degrees, that could be written in two ways.
 _NAMES = {0.0: "x", 90.0: "y", -180.0: "180"}

@@ -56,7 +56,7 @@ class LawFile:
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         digest = hashlib.sha256(source.encode()).hexdigest()[:8]
         law = cls(f"{stem}-{digest}", file=file, source=source)
-        law._check()
+        law._check_definitions()
         units = {
             name: "" if unit == "1" else unit
             for name, (_, unit) in law._module.get("CONSTANTS", {}).items()
@@ -121,9 +121,9 @@ class LawFile:
         return self._function("update")
 
     def _function(self, name: str) -> Callable[..., Any]:
-        if not inspect.isfunction(self._module.get(name)):
+        function = self._module.get(name)
+        if not inspect.isfunction(function):
             raise ValueError(f"{self.file} must define the function {name}")
-        function: Callable[..., Any] = self._module[name]
         return function
 
     @property
@@ -142,28 +142,29 @@ class LawFile:
         """Names of the arguments of `friction` or `update`."""
         return list(inspect.signature(self._function(name)).parameters)
 
-    def _check(self) -> None:
+    def _check_definitions(self) -> None:
         """Refuse a file that does not define a law."""
-        for table in ("CONSTANTS", "STATE"):
-            if not isinstance(self._module.get(table, {}), dict):
-                raise ValueError(f"{self.file}: {table} must be a dictionary")
-        for name, given in self._module.get("CONSTANTS", {}).items():
+        constants, state = (self._module.get(table, {}) for table in ("CONSTANTS", "STATE"))
+        for name, table in {"CONSTANTS": constants, "STATE": state}.items():
+            if not isinstance(table, dict):
+                raise ValueError(f"{self.file}: {name} must be a dictionary")
+        for name, given in constants.items():
             if not (isinstance(given, tuple) and len(given) == 2 and _is_number(given[0])):
                 raise ValueError(
                     f"{self.file}: CONSTANTS[{name!r}] must be (number, unit), not {given!r}"
                 )
-        for name, given in self._module.get("STATE", {}).items():
-            if not (_is_number(given) or given in self.constants):
+        for name, given in state.items():
+            if not (_is_number(given) or given in constants):
                 raise ValueError(
                     f"{self.file}: STATE[{name!r}] must be a number or the name of a constant, "
                     f"not {given!r}"
                 )
-        own = [*self.constants, *self._module.get("STATE", {})]
+        own = [*constants, *state]
         for name in own:
             if name in (*_OF_FRICTION, *_OF_UPDATE) or own.count(name) > 1:
                 raise ValueError(f"{self.file}: the name {name!r} has two meanings; rename one")
         for function, more in {"friction": _OF_FRICTION, "update": _OF_UPDATE}.items():
-            if function == "update" and not self._module.get("STATE"):
+            if function == "update" and not state:
                 continue
             for name in self.arguments(function):
                 if name not in (*own, *more):
@@ -174,18 +175,19 @@ class LawFile:
 
     def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
         """Refuse a law that fails with the mean coefficients at one of several speeds."""
-        known = {**self.constants, "mu_static": mu_static, "mu_dynamic": mu_dynamic}
         if self.file is None:
             raise ValueError(f"the file of the law {self} is not available, only its name")
+        known = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "step": step}
+        known |= self.constants | self.initial
         for speed in _TRIED:
-            at = {**known, "speed": speed, "step": step}
-            mu = self._tried("friction", {**at, **self.initial})
+            at = {**known, "speed": speed}
+            mu = self._tried("friction", at)
             if not (_is_number(mu) and mu >= 0.0):
                 raise ValueError(
                     f"{self.file}: friction must return one number, finite and not negative, "
                     f"not {mu!r} at {speed} m/s{self._with_constants}"
                 )
-            state = self._tried("update", {**at, **self.initial}) if self.initial else ()
+            state = self._tried("update", at) if self.initial else ()
             after = state if isinstance(state, tuple) else (state,)
             if len(after) != len(self.initial) or not all(map(_is_number, after)):
                 raise ValueError(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from springblock.model.law import LawFile
+from springblock.model.numbers import check_real
 
 #: Distributions of the friction coefficients, see `springblock.model.asperities`.
 DISTRIBUTIONS = ("normal", "lognormal", "weibull", "uniform")
@@ -86,15 +87,8 @@ class Material:
         for name, value in self.items():
             if name in ("distribution", "law"):
                 continue
-            if isinstance(value, bool) or not isinstance(value, int | float):
-                raise TypeError(f"Material.{name} must be a number, not {value!r}")
-            may_vanish = name in _MAY_VANISH
-            if not (math.isfinite(value) and (value > 0.0 or (value == 0.0 and may_vanish))):
-                raise ValueError(
-                    f"Material.{name} must be finite and "
-                    f"{'zero or positive' if may_vanish else 'positive'}, not {value!r}"
-                )
-            object.__setattr__(self, name, float(value))
+            number = check_real(f"Material.{name}", value, may_vanish=name in _MAY_VANISH)
+            object.__setattr__(self, name, number)
         self._check_derived()
         self._check_law()
 

@@ -10,36 +10,21 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.model.numbers import check_whole
+
 #: Largest number of blocks along a side, for which the solver is laid out.
 MAX_BLOCKS = 4096
 
 Segments = list[tuple[int, int]]
 
 
-def _count(name: str, value: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer):
-        raise TypeError(f"{name} must be a whole number of blocks, not {value!r}")
-    if value < 1:
-        raise ValueError(f"{name} must be at least 1 block, not {value}")
-    return int(value)
-
-
 @dataclass(frozen=True)
 class Level:
-    """One level of the hierarchy: `size` blocks in contact, separated by gaps of `gap` blocks.
-
-    `axes` names the coordinates that are cut: ("x", "y") gives pillars, ("y",) grooves along x,
-    ("x",) grooves along y.
-    """
+    """One level of the hierarchy: `size` blocks in contact, separated by gaps of `gap` blocks."""
 
     size: int
     gap: int
-    axes: tuple[str, ...]
-
-    @property
-    def along(self) -> str | None:
-        """Direction of the grooves of this level, "x" or "y"; None for pillars."""
-        return None if len(self.axes) == 2 else {"y": "x", "x": "y"}[self.axes[0]]
+    along: str | None = None  #: direction of its grooves, "x" or "y"; None for pillars
 
 
 def _cut_surface(name: str, n: int, level: Level) -> Segments:
@@ -90,8 +75,8 @@ class Pattern:
     n_rows: int | None = None  #: blocks along y; None for a square surface
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "n_blocks", _count("N", self.n_blocks))
-        rows = self.n_blocks if self.n_rows is None else _count("n_rows", self.n_rows)
+        object.__setattr__(self, "n_blocks", check_whole("N", self.n_blocks))
+        rows = self.n_blocks if self.n_rows is None else check_whole("n_rows", self.n_rows)
         object.__setattr__(self, "n_rows", rows)
         for name, blocks in (("N", self.n_blocks), ("n_rows", rows)):
             if blocks > MAX_BLOCKS:
@@ -110,14 +95,14 @@ class Pattern:
 
     def pillared(self, n_p: int, n_s: int) -> "Pattern":
         """Add a level of pillars of n_p blocks, n_s blocks apart."""
-        return self._refined(Level(_count("n_p", n_p), _count("n_s", n_s), ("x", "y")))
+        return self._refined(Level(check_whole("n_p", n_p), check_whole("n_s", n_s)))
 
     def grooved(self, n_p2: int, n_s2: int, along: str = "x") -> "Pattern":
         """Add a level of pawls of n_p2 blocks between grooves of n_s2 blocks that run `along`."""
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', not {along!r}")
-        across = ("y",) if along == "x" else ("x",)
-        return self._refined(Level(_count("n_p2", n_p2), _count("n_s2", n_s2), across))
+        pawl, groove = check_whole("n_p2", n_p2), check_whole("n_s2", n_s2)
+        return self._refined(Level(pawl, groove, along))
 
     def _refined(self, level: Level) -> "Pattern":
         return replace(self, levels=(*self.levels, level))
@@ -131,7 +116,7 @@ class Pattern:
         n, name = (columns if axis == "x" else rows), ("N" if rows == columns else f"N_{axis}")
         segments = [(0, n)]
         for level in self.levels[:depth]:
-            if axis not in level.axes:
+            if axis == level.along:  # grooves do not cut the axis along which they run
                 continue
             if segments == [(0, n)]:
                 segments = _cut_surface(name, n, level)

@@ -71,8 +71,6 @@ class Scene:
             Pattern.flat(self.n_blocks, self.n_rows or None)  # refuses invalid numbers of blocks
         if self.n_rows == self.n_blocks:
             object.__setattr__(self, "n_rows", 0)
-        if self.edges not in EDGES:
-            raise ValueError(f"edges must be {' or '.join(EDGES)}, not {self.edges!r}")
 
     def _check_levels(self) -> None:
         if self.mask and self.names:
@@ -88,8 +86,6 @@ class Scene:
             raise ValueError(f"n_p3 = {self.n_p3} needs n_p2")
         if self.along_3 and not self.n_p3:
             raise ValueError(f"along_3 must be left out without n_p3, not {self.along_3!r}")
-        if self.along_3 not in ("", "x", "y"):
-            raise ValueError(f"along_3 must be 'x' or 'y', not {self.along_3!r}")
         object.__setattr__(self, "along_3", self.along_3 or ("y" if self.n_p3 else ""))
 
     def _check_maps(self) -> None:

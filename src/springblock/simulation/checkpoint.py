@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.files import read_arrays, whole_file
+from springblock.model.numbers import check_real
 from springblock.provenance import digest
 from springblock.simulation.motion import Motion
-from springblock.simulation.setup import check_positive
 from springblock.solver.lattice import Samples, State
 
 Array = NDArray[np.float64]
@@ -35,13 +35,6 @@ def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[
     }
 
 
-def check_belonging(path: Path, theirs: dict[str, Any], ours: dict[str, Any]) -> None:
-    """Refuse the checkpoint of another run, naming what differs."""
-    other = ", ".join(name for name in ours | theirs if theirs.get(name) != ours.get(name))
-    if other:
-        raise ValueError(f"{path} belongs to a run with other {other}; remove it first")
-
-
 @dataclass
 class Checkpoint:
     """Checkpoint file of a run and the interval at which it is written."""
@@ -52,7 +45,7 @@ class Checkpoint:
     written: float = field(default_factory=monotonic)  #: s, time of the last checkpoint
 
     def __post_init__(self) -> None:
-        check_positive("checkpoint_interval", self.interval)
+        check_real("checkpoint_interval", self.interval)
 
     @property
     def is_due(self) -> bool:
@@ -81,13 +74,15 @@ class Checkpoint:
         try:
             kept = read_arrays(self.path)
             belongs = json.loads(str(kept["belongs"]))
-        except KeyError:
+        except (KeyError, ValueError):
             raise ValueError(
-                f"{self.path} is not a checkpoint: it holds {', '.join(kept)}"
+                f"{self.path} is not a checkpoint, or damaged; remove it first"
             ) from None
-        except ValueError as error:
-            raise ValueError(f"{self.path} is not a checkpoint: {error}") from error
-        check_belonging(self.path, belongs, self.belongs)
+        other = [name for name, own in self.belongs.items() if belongs.get(name) != own]
+        if other:
+            raise ValueError(
+                f"{self.path} belongs to a run with other {', '.join(other)}; remove it first"
+            )
         for i, values in enumerate(_fields(motion.state)):
             values[:] = kept[f"field_{i}"]
         taken = Samples(*(kept[name] for name in Samples._fields))

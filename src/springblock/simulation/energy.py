@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from springblock.model.material import Material
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class Energy:
@@ -28,9 +30,7 @@ class Energy:
         return (self.work_in - spent) / self.work_in
 
 
-def _stretch_squared(
-    apart: NDArray[np.float64], rest_x: float, rest_y: float
-) -> NDArray[np.float64]:
+def _stretch_squared(apart: Array, rest_x: float, rest_y: float) -> Array:
     """(r - L)² of springs with rest vector (rest_x, rest_y) and relative displacement `apart`."""
     rest2 = rest_x**2 + rest_y**2
     q = (2.0 * (rest_x * apart[0] + rest_y * apart[1]) + apart[0] ** 2 + apart[1] ** 2) / rest2
@@ -38,10 +38,7 @@ def _stretch_squared(
 
 
 def elastic_energy(
-    displacement: NDArray[np.float64],
-    slider: NDArray[np.float64],
-    material: Material,
-    periodic: bool = False,
+    displacement: Array, slider: Array, material: Material, periodic: bool = False
 ) -> float:
     """Energy of all springs, J, for displacements (2, N_y, N_x) in m and the slider at (2,) in m.
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.model.defaults import INTEGRATOR, SAMPLE_INTERVAL, STEP
-from springblock.model.direction import REAL
 from springblock.model.law import LawFile
 from springblock.model.material import Material
+from springblock.model.numbers import check_real
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
@@ -29,17 +29,9 @@ def check_type(name: str, value: Any, kind: type) -> None:
         raise TypeError(f"{name} must be a {kind.__name__}, not {value!r}")
 
 
-def check_positive(name: str, value: Any) -> None:
-    """Refuse a time that is not finite and positive."""
-    if isinstance(value, bool) or not isinstance(value, REAL):
-        raise TypeError(f"{name} must be a number of seconds, not {value!r}")
-    if not (math.isfinite(value) and value > 0.0):
-        raise ValueError(f"{name} must be finite and positive, not {value!r}")
-
-
 def _whole_multiple(name: str, value: float, unit_name: str, unit: float) -> int:
     """Return `value` divided by `unit`; raise ValueError unless it is a whole number."""
-    check_positive(name, value)
+    check_real(name, value)
     ratio = value / unit
     count = round(ratio) if math.isfinite(ratio) else 0
     if count < 1 or abs(ratio - count) > 1e-6 * count:
@@ -76,7 +68,7 @@ class Setup:
         if self.integrator not in IS_STABLE:
             known = ", ".join(IS_STABLE)
             raise ValueError(f"integrator must be one of {known}, not {self.integrator!r}")
-        check_positive("step", self.step)
+        check_real("step", self.step)
         law = self.material.law
         if isinstance(law, LawFile):
             law.check(self.material.mu_static, self.material.mu_dynamic, self.step)
@@ -138,7 +130,7 @@ class Setup:
         """
         interval, intervals = self.sample_interval, math.inf
         if duration is not None:
-            check_positive("duration", duration)
+            check_real("duration", duration)
             intervals = duration / interval + 1e-6
             if intervals < 1.0:
                 raise ValueError(
@@ -158,23 +150,28 @@ class Setup:
                 f"snapshot_times has {len(at_samples)} times; of {contact.size} blocks at most "
                 f"{_MOST_IN_SNAPSHOTS // contact.size} snapshots can be kept"
             )
-        reason, time = "duration", duration
-        if time is None:
+        if duration is None:
             loading = self.loading_time(contact, threshold)
-            reason, time = "loading time", max(loading, interval, *snapshot_times)
-        steps, samples = time / self.step, time / interval
-        if not steps * contact.size < _MOST_STEPS:
+            time = max(loading, interval, *snapshot_times)
+            self._check_cost(contact.size, "loading time", time)
+            return None, at_samples
+        self._check_cost(contact.size, "duration", duration)
+        return int(intervals), at_samples
+
+    def _check_cost(self, blocks: int, reason: str, time: float) -> None:
+        """Refuse a run over this time, s, that takes too many steps or samples."""
+        steps, samples = time / self.step, time / self.sample_interval
+        if not steps * blocks < _MOST_STEPS:
             raise ValueError(
                 f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
-                f"{steps:.2g} steps of {contact.size} blocks would take "
-                f"{steps * contact.size / _STEPS_PER_YEAR:.2g} years"
+                f"{steps:.2g} steps of {blocks} blocks would take "
+                f"{steps * blocks / _STEPS_PER_YEAR:.2g} years"
             )
         if samples > _MOST_SAMPLES:
             raise ValueError(
-                f"sample_interval = {interval!r} s is too short for a {reason} of "
+                f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
-        return None if duration is None else int(intervals), at_samples
 
 
 #: Setup of the paper.
