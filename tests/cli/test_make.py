@@ -51,7 +51,7 @@ def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
     for file, found in zip(files, parts, strict=True):
         write(pa.Table.from_pylist(found), file, {})
     springblock("make", "mechanism", *files, "--output", tmp_path / "page")
-    assert "lowest on pillars of 20 blocks" in (tmp_path / "page").read_text()
+    assert "lowest on pillars of 20 (or 6) blocks" in (tmp_path / "page").read_text()
 
 
 def test_an_error_is_the_root_mean_square_over_realisations():
@@ -87,8 +87,8 @@ def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tm
     assert "| +0.250 [+0.150, +0.350] ± 0.087 (4.47) |" in text
     assert "| step (s) | 5e-09 | 1e-08 | 2e-08 | 4e-08 | 8e-08 |\n" in text
     # 4.48 % with 20 seeds of half a second; 3.31 % with 40 at twice the step, four times the bias
-    assert "| t_max and t_avg | 2.70 | 1.91 | 1.35 | 1.00 | 1.36 |" in text
-    assert "| t_max and t_avg, 20 times the seeds | 1.94 | 1.37 | 1.00 | 1.17 | 3.84 |" in text
+    assert "| t_avg | 2.70 | 1.91 | 1.35 | 1.00 | 1.36 |" in text
+    assert "| t_avg, 20 times the seeds | 1.94 | 1.37 | 1.00 | 1.17 | 3.84 |" in text
 
 
 def test_the_page_begins_with_the_largest_errors(page, tmp_path):
@@ -99,8 +99,10 @@ def test_the_page_begins_with_the_largest_errors(page, tmp_path):
     worst["deviation"] *= 2.0
     write(pa.Table.from_pylist(rows), tmp_path / "production", {})
     opening = " ".join(page(tmp_path / "production").split("Written by")[0].split())
-    assert "0.44% (static friction), 1.14% (t_max), 0.44% (t_avg), 0.44% (decay length)" in opening
-    assert "4.47% (static friction), 8.94% (t_max), 4.47% (t_avg), 2.58% (decay length)" in opening
+    largest = "0.44 % (static friction), 1.14 % (t_max), 0.44 % (t_avg), 0.44 % (decay length)"
+    errors = "4.47 % (static friction), 8.94 % (t_max), 4.47 % (t_avg), 2.58 % (decay length)"
+    assert largest in opening
+    assert errors in opening
     assert "exceeds the estimated bias in 10 of 10 cases" in opening
     assert "Errors at full size were not measured." in page().split("Written by")[0]
 
@@ -112,8 +114,8 @@ def test_the_page_shows_the_errors_of_plain_runge_kutta_and_where_it_finds_no_er
     of_default = select(rows, comparison="reference", integrator="leapfrog", step=STEP)
     select(of_default, quantity="t_max", scene="flat")[0]["error"] = 0.0
     text = page(precision=rows)
-    assert "runs are 10.0% (flat), 10.0% (pillared), 30.0% (grooved).\n" in text
-    assert "they are 10.0% (flat), 10.0% (pillared), 10.0% (grooved).\n" in text
+    assert "runs are 10.0 % (flat), 10.0 % (pillared), 30.0 % (grooved).\n" in text
+    assert "they are\n  10.0 % (flat), 10.0 % (pillared), 10.0 % (grooved).\n" in text
     assert "| t_max | none | 1.0e-01 | 1.0e-01 |\n" in text
 
 

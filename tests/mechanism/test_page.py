@@ -16,7 +16,7 @@ def written() -> str:
 @pytest.mark.parametrize(
     "said",
     [
-        "lowest on pillars of 20 blocks",
+        "lowest on pillars of 20 (or 6) blocks",
         "of the full model to 0.3 % for n_p up to 6, and to 8.3 % on all sizes",
         "0.30, at n_p = 6",
         "transfer raises friction on pillars of 20 blocks and lowers it on 2 of 3 sizes; "

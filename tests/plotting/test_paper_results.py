@@ -319,7 +319,7 @@ def test_the_fit_with_a_free_amplitude_is_dashed_over_its_range():
     lines = [line.get_xydata() for line in smallest.get_lines() if line.get_linestyle() == "--"]
     assert not any(len(line) > 25 for line in lines)  # two distances fit any two numbers
     names = [text.get_text() for text in curves.get_legend().get_texts()]
-    assert names[-2:] == [r"$\exp(-r/l_c)$", r"$A\,\exp(-r/l)$"]
+    assert names[-2:] == [r"$\exp(-r/l_c)$", r"$A\,\exp(-r/l_d)$"]
 
 
 def test_the_last_panel_shows_the_lengths_along_x_with_their_intervals():

@@ -262,7 +262,8 @@ def _excesses(rows: Sequence[Row]) -> str:
     """
     groups = {
         "static friction, t_max - t_avg, decay length": STUDY_SEEDS,
-        "t_max and t_avg": ("t_max", "t_avg"),
+        "t_max": ("t_max",),
+        "t_avg": ("t_avg",),
     }
     lines = []
     for name, quantities in groups.items():
