@@ -205,8 +205,8 @@ FIGURES: dict[str, Declaration] = {
         groups=("lattice", "disorder", "layer"),
         keys=("folder",),
         marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines: slopes 0 and 1.
-        c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes that do not differ
-        significantly from it.""",
+        c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes that may exceed it
+        by no more than the numerical bias, 0.001.""",
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds",
