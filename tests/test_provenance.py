@@ -57,9 +57,9 @@ def test_formulas_and_nothing_else_change_a_digest(tmp_path, monkeypatch, old, n
     assert (before != after) == is_another
 
 
-@pytest.mark.parametrize("name", ["page.html", "page.css", "page.js", "page.md"])
+@pytest.mark.parametrize("name", ["a.html", "a.css", "a.js", "a.md", "register.csv"])
 def test_what_pages_are_made_of_changes_a_digest(tmp_path, monkeypatch, name):
-    """Their texts, looks and scripts."""
+    """Their texts, looks, scripts and data."""
     before, after = (digest_of(tmp_path, monkeypatch, text, name) for text in ("a", "b"))
     assert before != after
 
@@ -100,6 +100,31 @@ def test_data_moves_one_way(file):
     for name in imports(file):
         part = name.split(".")[1]
         assert part not in places or places[part] <= here, f"{file} imports {name}"
+
+
+def closure(files):
+    """Source files and all that they import, directly or not."""
+    found, left = set(), list(files)
+    while left:
+        file = left.pop()
+        if file not in found:
+            found.add(file)
+            parts = (name.split(".")[1:] for name in imports(file))
+            places = [ROOT.joinpath(*p[:i]) for p in parts for i in range(1, len(p) + 1)]
+            sources = [q for p in places for q in (p.with_suffix(".py"), p / "__init__.py")]
+            left += [path for path in sources if path.is_file()]
+    return found
+
+
+#: Neither reading, writing and configuration count, nor physics: it changes the realisations first.
+ELSEWHERE = {"io", "study", "model", "solver", "simulation"}
+
+
+@pytest.mark.parametrize("step", provenance.STEPS)
+def test_the_digest_of_a_step_covers_all_that_it_imports(step):
+    folders = provenance.STEPS[step]
+    needed = {path.relative_to(ROOT).parts[0] for path in closure((ROOT / folders[-1]).rglob("*.py"))}
+    assert {each for each in needed - ELSEWHERE if (ROOT / each).is_dir()} <= {*folders}
 
 
 def test_the_order_of_keys_does_not_change_a_configuration():

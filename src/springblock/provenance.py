@@ -22,10 +22,10 @@ STEPS: dict[str, tuple[str, ...]] = {
     "simulate": _PHYSICS,
     "analyse": ("model", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
-    "claims": ("model", "analysis", "mechanism", "claims"),
+    "claims": ("model", "analysis", "accuracy", "mechanism", "claims"),
     "beyond": ("model", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
-    "plot": ("model", "analysis", "mechanism", "plotting"),
+    "plot": ("model", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
     "report": ("model", "analysis", *_PAGES, "plotting", "report"),
 }
 #: Folders whose docstrings are part of the results: the criteria of statements.
@@ -62,7 +62,7 @@ def _of_folder(folder: str) -> str:
     for file in sorted((_ROOT / folder).rglob("*")):
         if file.suffix == ".py":
             texts += [file.name, *_skeleton(ast.parse(file.read_bytes()), folder in _SAYING)]
-        elif file.suffix in (".html", ".css", ".js", ".md"):  # templates of pages
+        elif file.suffix in (".html", ".css", ".js", ".md", ".csv"):  # templates and data of pages
             texts.append(file.read_text(encoding="utf-8"))
     return _short("\n".join(texts))
 
