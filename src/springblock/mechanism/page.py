@@ -133,7 +133,7 @@ def _of_budget(table: pd.DataFrame) -> Fields:
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[str(direction)], NAMES[str(model)], *cells])
         falls[direction, model] = runs[:, -1]
-    header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, at the core's maximum"]
+    header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, when the core's is largest"]
     header += ["core, maximum", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),

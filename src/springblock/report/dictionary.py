@@ -15,12 +15,12 @@ from springblock.io.schemas import (
 
 _PAGE = """# The tables
 
-Every table is a Parquet file, read by
+Every table but `means.csv` is a Parquet file, read by
 
     import pandas as pd
 
     pd.read_parquet("results/tables/realisations.parquet")
-    pd.read_parquet("results/realisations")  # all batches at once, with curves and fields
+    pd.read_parquet("results/realisations")  # all batches at once, with curves and maps
 
 This page lists the columns of each. Units are SI, blocks, or 1 for pure numbers. `springblock info
 FILE` prints the columns and the origin of a file; `springblock dictionary` writes this page.
@@ -45,7 +45,7 @@ def page() -> str:
     from springblock.mechanism import tables as mechanism
 
     kinds = {
-        "batches": ("a realisation, with its curves and fields", BATCH),
+        "batches": ("a realisation, with its curves and maps", BATCH),
         "realisations": ("a realisation", SUMMARY),
         "correlation": ("a distance along a kind of side", CORRELATION),
         "correlation_length": ("a kind of side", CORRELATION_LENGTH),

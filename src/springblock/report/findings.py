@@ -112,8 +112,8 @@ def _correlation(tables: Tables) -> dict[str, Any]:
     return {
         "title": f"Detachments along the sliding direction are correlated over {span} blocks",
         "fits": [
-            (curve, [(size, _quoted(row)) for size, row in _by_size(own).items()])
-            for curve in (SCALED, PLAIN)
+            (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
+            for curve, letters in ((SCALED, ("A exp(-r/l_d)", "l_d")), (PLAIN, (PLAIN, "l_c")))
             if (own := [row for row in rows if row["case"].startswith(f"fit = {curve}")])
         ],
         "growth": [

@@ -44,11 +44,6 @@ class Motion:
         return self.samples * self.setup.every
 
     @property
-    def time(self) -> float:
-        """Time so far, s."""
-        return self.steps * self.setup.step
-
-    @property
     def newton(self) -> float:
         """Force in N that adds a velocity of one l per step in one step."""
         material, step = self.setup.material, self.setup.step

@@ -174,5 +174,5 @@ class Setup:
             )
 
 
-#: Setup of the paper.
+#: Default of all functions and commands.
 DEFAULT = Setup()

@@ -27,7 +27,7 @@ _SAMPLES_PER_CALL = 10
 #: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of the
 #: time of the last first detachment.
 _WITHOUT_DROP = 1.5
-#: A run fails at this multiple of the loading time of its strongest block, mu_s F_n/(K_s v).
+#: A run fails at this multiple of the loading time of its strongest block, F_c/(K_s v).
 _LATEST = 3.0
 
 
@@ -53,19 +53,20 @@ def simulate(
     surface : Surface
         Blocks in contact, and their friction coefficients.
     setup : Setup
-        Material, integrator, step and sample interval; the paper's by default.
+        Material, integrator, step and sample interval; by default the paper's material and
+        `leapfrog` with 2e-8 s.
     direction : "x", "y" or an angle from x in degrees
         Sliding direction.
     duration : s, or None
         None: until every contact block has detached and the force has passed its peak and the
-        first minimum after it. If the force does not drop, until 1.5 times the time of the last
-        first detachment.
+        first minimum after it; at the latest until 1.5 times the time of the last first
+        detachment.
     snapshot_times : s
         Times at which `Realisation.fields` are stored, in ascending order; multiples of the
         sample interval. A run without duration lasts at least until the last of them.
     prelude : Prelude
         States of the same scene before its first detachment, see `compute_prelude`. They save
-        time; results are the same.
+        time; results are the same, except that a law from a file changes the rounding of forces.
     cores : int
         Number of cores for the leapfrog on one large surface; results are the same to the bit.
     progress : bool
@@ -127,7 +128,7 @@ def _is_over(motion: Motion, end: int | None, latest: float) -> bool:
     """Return whether the run is complete, see `simulate`; it fails after the time `latest`, s."""
     if end is not None:
         return motion.samples >= end
-    blocks, now = motion.state.blocks, motion.time
+    blocks, now = motion.state.blocks, motion.steps * motion.setup.step
     t_det = blocks.t_det[blocks.static > 0.0] * motion.setup.step
     last = float(t_det.max())
     if math.isfinite(last):

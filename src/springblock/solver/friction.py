@@ -26,8 +26,8 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
         v⁺ = w - T (v + w)/|v + w|:
 
     friction opposes the mean velocity, which is parallel to v + w. T is given by the law at the
-    mean velocity (1 - θ) v + θ w, with θ = `end`, or at θ w if the block reverses. The block is at
-    rest after the step in two cases:
+    speed |(1 - β) v + β w| - β T with β = `end`, or at |β w| - β T if the block reverses. The block
+    is at rest after the step in two cases:
 
     - |w| ≤ T: friction can remove all of w (Moreau's step, exact for a block that stops);
     - w·v ≤ 0 and |F_mot| ≤ mu_s F_n: the block reverses, or was at rest, and static friction holds

@@ -41,7 +41,7 @@ from springblock.solver.laws import (
     store_state,
     threshold_of,
 )
-from springblock.solver.release import effective_theta, force_in_patch, make_releases, release_theta
+from springblock.solver.release import force_in_patch, make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, one_row
 from springblock.solver.stability import leapfrog_force_time
 
@@ -120,7 +120,7 @@ def _list_releases(blocks, law, released, count, band, s, row):
                 law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
             )
             left = 1.0 - friction / force
-            if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * math.hypot(fx, fy):
+            if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * force:
                 released.row[count], released.x[count] = np.int64(row), np.int64(x)
                 released.ax[count], released.ay[count] = vx, vy
                 count += 1
@@ -280,7 +280,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         ax, ay = released.ax[m], released.ay[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - theta
-        theta = effective_theta(theta, epsilon)
+        theta += epsilon * (0.5 - theta)  # θ_ε of (12)
         slip, speed = 0.5 * theta * theta - epsilon / 8.0, 0.5 + theta  # in units of a
         further = slip + speed - 1.0  # displacement beyond that of the loop
         blocks.ux[b] += further * ax

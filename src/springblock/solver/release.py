@@ -7,9 +7,10 @@ between steps k - 1 and k. If the net force adds a velocity a per step, then at 
     θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),    ε = (h/h_limit)²,
     slip s = (θ_ε²/2 - ε/8) a,    velocity θ_ε a,    heat Q = (1 - ε) a²/8 - (K_s + 3 K_int) s²/2.
 
-Q, per mass, is the energy that the leapfrog would not dissipate otherwise; in `rk4` it is zero, and
-s has no term in ε. F_k-1 is needed only for the few blocks that detach, and is reconstructed after
-the loop over all blocks from the earlier displacements of their neighbours.
+Here h and m are 1. Q is the energy that the leapfrog would not dissipate otherwise; in `rk4` it is
+zero, and s has no term in ε. F_k-1, the force one step earlier, is needed only for the few blocks
+that detach, and is reconstructed after the loop over all blocks from the earlier displacements of
+their neighbours.
 
 Under a weakening law the net force at the release is zero, and a is the increase of F_mot since
 then: the slip is of third order in h and the velocity of second, for any θ.
@@ -80,12 +81,6 @@ def force_in_patch(patch, y, x, springs, slider):
     return fx, fy
 
 
-@njit(inline="always")
-def effective_theta(theta, epsilon):
-    """Return θ_ε of (12), which tends to 1/2 at the stability limit, ε = 1."""
-    return theta + epsilon * (0.5 - theta)
-
-
 @kernel
 def release_theta(released, threshold, springs, slider, slide):
     """Return θ of (9) for the central block; `slide` is the slider's displacement per step.
@@ -98,4 +93,4 @@ def release_theta(released, threshold, springs, slider, slide):
     if before > threshold:
         return np.nan
     now = math.hypot(*force_in_patch(released.now, 2, 2, springs, slider))
-    return (now - threshold) / (now - before) if now > threshold else 0.0
+    return (now - threshold) / (now - before) if now > threshold else 0.0  # by rounding

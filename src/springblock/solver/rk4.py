@@ -32,7 +32,7 @@ from springblock.solver.lattice import (
     update_peaks,
 )
 from springblock.solver.laws import resistance, state_of, store_state
-from springblock.solver.release import effective_theta, make_releases, release_theta
+from springblock.solver.release import make_releases, release_theta
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band
 
 
@@ -183,7 +183,7 @@ def _place_releases(blocks, law, stage, released, count, constants, k):
         b, theta = index_of(released.row[m], released.x[m], constants.grid), released.theta[m]
         if blocks.t_det[b] == k:
             blocks.t_det[b] = k - theta
-        theta = effective_theta(theta, epsilon)
+        theta += epsilon * (0.5 - theta)  # θ_ε of (12)
         further = 0.5 * theta * theta - 0.125 + theta - 0.5
         blocks.vx[b], blocks.vy[b] = theta * released.ax[m], theta * released.ay[m]
         stage.dx[b] += further * released.ax[m]

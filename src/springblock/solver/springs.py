@@ -14,9 +14,9 @@ form.
 
 A row takes two short loops, over the forces of its springs and over the sums on its blocks: one
 long loop would need more registers than the processor has. Rows are filled up to whole vectors with
-phantom blocks, which have the displacement of the last block, have no diagonal springs and never
-move. With periodic edges they are images of the first blocks of the row, and an image of the first
-row follows the last one, so that springs across the edges are computed like all others.
+phantom blocks, which copy the displacement of the last block and have no diagonal springs. With
+periodic edges they are images of the first blocks of the row, and an image of the first row follows
+the last one, so that springs across the edges are computed like all others.
 
 Lengths are in l, forces in the velocity that they add in one step, in l per step.
 """
@@ -34,10 +34,9 @@ from springblock.solver.compilation import kernel
 
 Array = NDArray[np.float64]
 
-#: Largest |q| for which g is computed by the polynomial, and its largest relative error, as large
-#: as the rounding error of a strain of 5e-4 between blocks displaced by l.
+#: Largest |q| for which g is computed by the polynomial, whose relative error, 4e-13, is that of
+#: rounding in a strain of 5e-4 between blocks displaced by l.
 SERIES_RANGE = 1.0 / 32.0
-SERIES_ERROR = 4e-13
 SERIES_DEGREE = 6
 
 #: A spring may have 1/2 to 2 times its rest length: -3/4 < q < 3.
@@ -56,7 +55,8 @@ U = np.uint64  # signed indices would be checked for wrap-around, and not vector
 ONE = U(1)
 # Offsets of the fields of scratch: the forces on a band of rows, then, in the view `one_row`, the
 # springs of one row. Their distance is constant, so that the compiler can exclude overlaps, and not
-# a power of two, so that they do not share cache lines.
+# a power of two, so that they do not share cache sets. `EAST_X` and the
+# others count from the start of `one_row`.
 _FIELD = MAX_BLOCKS + 72
 _FIELDS = tuple(U(k * _FIELD) for k in range(10))
 FORCE_X, FORCE_Y = _FIELDS[:2]
@@ -112,7 +112,7 @@ class Columns(NamedTuple):
 class Springs(NamedTuple):
     """Stiffness of the springs, in the kernels' units."""
 
-    kappa: float  #: K_int l
+    kappa: float  #: K_int
     series: tuple[float, ...]  #: kappa times the polynomial of g
     k_s: float  #: K_s
 
@@ -210,7 +210,7 @@ def _row_offsets(row, grid):
 
 
 @njit(inline="always")
-def _last_diagonal(row, grid):
+def _end_of_diagonals(row, grid):
     """Return the first x without diagonal springs to the north.
 
     With free edges this is the last block, or the first one in the last row.
@@ -227,7 +227,7 @@ def _pulls_by_series(ux, uy, row, band, columns, s, c):
     Forces of diagonal springs have the stiffness of axial ones; `_sum_forces` halves them.
     """
     i, j = _row_offsets(row, band.grid)
-    edge, within = _last_diagonal(row, band.grid), True
+    edge, within = _end_of_diagonals(row, band.grid), True
     for x in range(columns.springs, columns.stop):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
@@ -249,7 +249,7 @@ def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
     """Store the spring forces of a row at any strain; return the x of a broken spring, or 0."""
     n = band.grid.n_x
     i, j = _row_offsets(row, band.grid)
-    edge, broken = _last_diagonal(row, band.grid), np.int64(n + ONE)
+    edge, broken = _end_of_diagonals(row, band.grid), np.int64(n + ONE)
     for x in range(columns.springs, columns.stop):
         relative = _relative_displacements(ux, uy, i, j, x)
         q = _stretch(relative)
