@@ -32,5 +32,5 @@ def test_the_page_says_what_scatter_changes(exponent, words, best, minimum):
     conclusion, table = scatter.answers(scattered(lambda std: 2.0 * (10.0 * std) ** exponent, best))
     assert "from 0.05 to 0.2**, the decay length" in conclusion
     assert f"the decay length {words} on pillars of " in conclusion
-    assert conclusion.endswith(f"the friction-minimising n_p {minimum}, among 4, 10 and 20.")
+    assert conclusion.endswith(f"the friction-minimising n_p, among 4, 10 and 20, {minimum}.")
     assert len(table.splitlines()) == 5

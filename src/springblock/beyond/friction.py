@@ -111,8 +111,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         words = "Size and contact fraction explain static friction equally well"
     yield (
         f"**{words}**: over the {len(found)} surfaces whose size and contact fraction both occur "
-        f"more than once, size explains {size} of the variance beyond what contact fraction "
-        f"explains, contact fraction {contact} beyond what size explains (difference: {more}), and "
+        f"more than once, size, added to contact fraction, explains a further {size} of the "
+        f"variance; contact fraction, added to size, a further {contact} (difference: {more}); and "
         f"their interaction up to {100.0 * shares['interaction'].mean:.2g} %."
     )
     header = ["n_s/n_p", "contact fraction (%)", "sizes n_p"]

@@ -55,7 +55,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     friction = {std: samples(sizes) for std, sizes in scatters.items()}
     sizes = [str(n_p) for n_p in next(iter(friction.values()))]
     minima = [lowest(by_size) for by_size in friction.values()]
-    yield f"{_conclusion(lengths, minima)}, among {listed(sizes)}."
+    yield f"{_conclusion(lengths, minima, sizes)}."
     header = ["scatter", *(f"decay length, n_p = {n_p} (blocks)" for n_p in lengths)]
     header += [f"friction-minimising n_p of {', '.join(sizes)}", "lowest friction"]
     lines = []
@@ -65,7 +65,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield markdown_table(header, lines)
 
 
-def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequence[Lowest]) -> str:
+def _conclusion(
+    lengths: Mapping[int, Mapping[float, Interval]], minima: Sequence[Lowest], sizes: Sequence[str]
+) -> str:
     """Write the changes from the smallest to the largest scatter."""
     changed: dict[str, dict[str, str]] = {}
     for n_p, by_std in lengths.items():
@@ -81,5 +83,5 @@ def _conclusion(lengths: Mapping[int, Mapping[float, Interval]], minima: Sequenc
     then = f"changes from {minima[0]} to {minima[-1]}" if are_apart(minima) else stays
     return (
         f"**When the scatter of the thresholds increases from {least:g} to {most:g}**, the decay "
-        f"length {listed(said)}; the friction-minimising n_p {then}"
+        f"length {listed(said)}; the friction-minimising n_p, among {listed(sizes)}, {then}"
     )

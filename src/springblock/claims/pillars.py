@@ -132,13 +132,13 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of positions inside the two outermost rings that are nearer to these than the first "
-    f"{_PATCH} x {_PATCH} patch to detach",
+    "the share of positions enclosed by the two outermost rings that are nearer to these than the "
+    f"first {_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Tested: among the blocks inside the two outermost rings, the first patch of 3 x 3 blocks to
-    detach lies in the outer quarter of the area. The verdict is the same inside 1 to 4 rings and
+    """Tested: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
+    to detach lies in the outer quarter of the area. The verdict is the same inside 1 to 4 rings and
     for patches of 2 to 5 blocks a side; on the flat surface the first patch lies half way to the
     centre.
     """
@@ -163,11 +163,11 @@ def peak_after_average(run: Record) -> float:
 
 @share_over(
     _large,
-    "the share of blocks inside the two outermost rings that detach after t_max",
+    "the share of blocks enclosed by the two outermost rings that detach after t_max",
     ranges.NEARLY_ALL,
 )
 def front_after_peak(run: Record) -> float:
-    """Tested: more than nine tenths of the blocks inside the two outermost rings detach after
+    """Tested: more than nine tenths of the blocks enclosed by the two outermost rings detach after
     t_max.
     """
     return float(np.mean(inside(run) > run.t_max))

@@ -174,7 +174,7 @@ FIGURES: dict[str, Declaration] = {
         pulled along x; e) its standard deviation over its mean, over all contact blocks; f) static
         friction of independent blocks under this stress, with quasi-static load transfer between
         them, with blocks that overshoot and stick again, and of the full model. e), f) Against
-        pillar size, on surfaces of 40 to 48 blocks a side with n_s = n_p; the same 10 seeds for
+        pillar size, on surfaces of 40 to 60 blocks a side with n_s = n_p; the same 10 seeds for
         each.""",
         draws="tables",
         tables=("mechanism",),

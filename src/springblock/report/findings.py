@@ -110,7 +110,7 @@ def _correlation(tables: Tables) -> dict[str, Any]:
         return {}
     span = f"{min(values):.1f} to {max(values):.1f}"
     return {
-        "title": f"Detachments along the sliding direction are correlated over {span} blocks",
+        "title": f"On large pillars, detachments are correlated over {span} blocks",
         "fits": [
             (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
             for curve, letters in ((SCALED, ("A exp(-r/l_d)", "l_d")), (PLAIN, (PLAIN, "l_c")))
@@ -125,12 +125,10 @@ def _correlation(tables: Tables) -> dict[str, Any]:
 def _peaks(tables: Tables) -> dict[str, Any]:
     """Return the fall of the force between two load peaks, with hierarchy and without."""
     along = _by_size(_tested(tables, "Two load peaks along grooves"))
-    square = _tested(tables, "Square pawls have one load peak")
     alone = _tested(tables, "Without hierarchy one load peak")
-    others = alone + [row | {"case": "square pawls"} for row in square]
     if not along:
         return {}
-    others = select(others, outcome="fails")
+    others = select(alone, outcome="fails")
     ordered = sorted(along.items(), key=lambda pair: -pair[1]["value"])
     return {
         "title": "Two load peaks do not need hierarchy" if others else "When the load peaks twice",
