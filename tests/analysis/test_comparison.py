@@ -17,6 +17,7 @@ def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
     with pytest.raises(ValueError, match="differ in their columns: seed"):
         compare(one, other.select(["t_max"]))
     assert compare(one, one.take([2, 0, 1])).same
+    assert not compare(one, one.slice(1)).same
 
 
 def test_cpu_times_make_no_difference():

@@ -49,6 +49,7 @@ def test_intervals_are_as_wide_as_students_t(rng):
     np.testing.assert_array_equal(mean, [1.0, 2.0])
     assert np.isnan([low, high]).all()
     assert np.isinf(standard_error(np.ones((1, 2)))).all()
+    assert standard_error(np.array([1.0, 3.0])) == pytest.approx(1.0)
 
 
 def test_bca_covers_other_statistics_of_ten_better_than_percentiles_do(rng):
@@ -198,6 +199,7 @@ def test_the_bootstrap_takes_any_statistic_of_weights(rng):
     both = bootstrap_interval(lambda w: np.stack([w @ numerator, w @ twice], axis=1), 50)
     np.testing.assert_allclose(np.transpose(both)[0], mean)
     assert np.isnan(bootstrap_interval(lambda w: w @ [2.0, 3.0], 2).low)
+    assert (bootstrap_weights(3).max(axis=1) < 1.0).all()  # one realisation has no variance
 
 
 def test_limits_are_percentiles_if_no_single_realisation_matters():

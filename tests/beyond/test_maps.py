@@ -60,7 +60,9 @@ def test_what_size_and_contact_do_only_together_is_left():
 
 def test_two_realisations_leave_shares_without_intervals():
     made = {scene: runs[:2] for scene, runs in sizes_and_distances(added).items()}
-    assert re.search(r"explains a further [\d.]+ \[no interval\] % of", next(friction.answers(made)))
+    assert re.search(
+        r"explains a further [\d.]+ \[no interval\] % of", next(friction.answers(made))
+    )
 
 
 def test_the_page_has_the_lowest_friction_of_each_contact_fraction():

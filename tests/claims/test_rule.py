@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import t
 
 from springblock import Material, compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
@@ -80,6 +81,15 @@ def test_many_findings_hold_together_as_often_as_one_does(rng):
             misses[i] += any(not low < 0.0 < high for low, high in limits)
     assert misses[0] / 300 == pytest.approx(1.0 - 0.95**30, abs=0.08)
     assert misses[1] / 300 == pytest.approx(0.05, abs=0.04)  # 3 errors
+
+
+def test_intervals_of_means_are_students_at_their_joint_level(rng):
+    """For other numbers of realisations, those expected of samples with the same scatter."""
+    values = rng.normal(size=12)
+    found = Estimate.of(mean_interval(values), 12)
+    for n in (12, 40):
+        half = t.ppf(1.0 - 0.005, n - 1) * values.std(ddof=1) / np.sqrt(n)
+        assert found.limits(5, n) == pytest.approx((values.mean() - half, values.mean() + half))
 
 
 def test_intervals_of_shares_stay_exact_together():

@@ -133,6 +133,13 @@ def test_other_files_are_refused(stopped, tmp_path):
             pull(checkpoint=file)
 
 
+def test_it_is_written_once_per_interval(monkeypatch, tmp_path):
+    kept = Checkpoint(tmp_path / "run.npz", 100.0, {}, written=1000.0)
+    for now, due in ((1099.0, False), (1101.0, True)):
+        monkeypatch.setattr("springblock.simulation.checkpoint.monotonic", lambda now=now: now)
+        assert kept.is_due == due
+
+
 def test_a_short_run_leaves_nothing_behind(tmp_path):
     pull(checkpoint=tmp_path / "run.npz", checkpoint_interval=3600.0, duration=1e-5)
     assert list(tmp_path.iterdir()) == []

@@ -1,5 +1,6 @@
 """The energy ledger: conservation of energy, term by term."""
 
+import math
 from dataclasses import replace
 
 import mpmath
@@ -8,7 +9,7 @@ import pytest
 
 from specimens import uniform
 from springblock import Material, Setup, Surface, simulate
-from springblock.simulation.energy import elastic_energy
+from springblock.simulation.energy import Energy, elastic_energy
 
 PAPER = Material()
 INTEGRATORS = ["leapfrog", "rk4"]
@@ -63,6 +64,11 @@ def test_without_friction_the_ledger_closes_to_second_order(integrator, gamma):
     assert abs(residuals[0]) < (PAPER.omega_max * 2e-8) ** 2
     ratios = np.divide(residuals[:-1], residuals[1:])
     assert ratios == pytest.approx([4.0, 4.0], rel=0.1)
+
+
+def test_without_work_there_is_no_relative_residual():
+    assert math.isnan(Energy(0.0, 0.0, 0.0, 0.0, 0.0).relative_residual)
+    assert Energy(1.0, 0.25, 0.25, 0.25, 0.0).relative_residual == 0.25
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

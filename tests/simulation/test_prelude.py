@@ -85,6 +85,12 @@ def test_fields_are_those_of_the_run_from_zero(integrator, times):
         assert getattr(skipping.fields, name).tobytes() == getattr(plain.fields, name).tobytes()
 
 
+def test_a_snapshot_may_be_taken_where_the_prelude_ends(prelude):
+    scene = drawn(PILLARS, seed=1)
+    how = {"duration": 1.6e-4, "snapshot_times": [skipped(prelude, scene) * 2e-7]}
+    assert answer(simulate(scene, prelude=prelude, **how)) == answer(simulate(scene, **how))
+
+
 def test_a_prelude_stores_six_states_of_the_moving_blocks(tmp_path):
     contact = Pattern.pillars(24, 4, 2).contact
     fast = Material(slider_velocity=5e-3)  # soon over

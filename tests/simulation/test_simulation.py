@@ -192,6 +192,14 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"direction": "z"}, "direction must be 'x', 'y' or an angle"),
         ({"periodic": 1}, "periodic must be True or False, not 1"),
         ({"periodic": True}, r"shape \(2, 2\); with periodic edges each side must have at least 3"),
+        (
+            {"periodic": True, "contact": array(True, bool, (2, 3))},
+            "each side must have at least 3",
+        ),
+        (
+            {"periodic": True, "contact": array(True, bool, (3, 2))},
+            "each side must have at least 3",
+        ),
         ({"step": "2e-8"}, "step must be a number, not"),
         ({"step": 0.0}, "step must be finite and positive"),
         ({"step": 3e-8}, "sample_interval must be a multiple of step"),
@@ -202,6 +210,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"duration": True}, "duration must be a number, not"),
         ({"duration": 1e-7}, "duration must be at least one sample_interval"),
         ({"duration": -1.0}, "duration must be finite and positive"),
+        ({"duration": 1e9}, r"5e\+16 steps of 4 blocks would take 29 years"),
         ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number, not"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number, not"),
         ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
