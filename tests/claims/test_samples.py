@@ -9,9 +9,9 @@ from claims import paper
 from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
 from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
-from springblock.claims.flat import not_all_nucleate, weakest_first
+from springblock.claims.flat import fronts, not_all_nucleate, weakest_first
 from springblock.claims.load_peaks import both_peaks
-from springblock.claims.pillars import _rings
+from springblock.claims.pillars import _over_t_avg, _rings
 from springblock.claims.rule import Evidence
 from springblock.claims.samples import (
     compared,
@@ -25,6 +25,7 @@ from springblock.claims.samples import (
 )
 from springblock.claims.sides import (
     events,
+    larger_events,
     misfits,
     mixed,
     paired_difference,
@@ -108,6 +109,29 @@ def test_the_first_patch_is_placed_from_the_edge_to_the_centre():
 def test_rates_count_what_detaches_around_a_sample():
     run = replace(RUN, detachments=np.array([0, 1, 2, 3, 0, 0]), time=np.arange(6.0))
     assert rates(run, 3.0).tolist() == [1.0, 3.0, 6.0, 5.0, 3.0, 0.0]
+
+
+def test_a_front_has_more_than_twenty_blocks():
+    """Two of 25 blocks that touch the edge, and a cluster of 20."""
+    t_det = np.full((16, 16), 9.0)
+    t_det[:5, :5] = t_det[10:15, :5] = t_det[:4, 10:15] = 4.04
+    curve = {"time": 4.0 * np.arange(3.0), "force": np.array([0.0, 1.0, 0.0])}
+    assert fronts(replace(RUN, t_det=t_det, **curve)) == 2
+
+
+def test_times_may_be_divided_by_t_avg():
+    run = replace(RUN, t_det=np.full((6, 6), 8.0), time=4.0 * np.arange(3.0), force=np.eye(3)[1])
+    assert _over_t_avg(lambda run: 3.0 / run.t_max)(run) == pytest.approx(3.0 / 8.0)
+
+
+def test_events_along_the_sliding_direction_hold_whole_sides():
+    """In each run all blocks of a row detach together, and rows one after another."""
+    scene = paper.PILLARS[1]
+    rows = 0.02 * np.arange(paper.N)[:, None] + np.zeros(paper.N)
+    made = paper.record(scene, 0)
+    runs = [replace(made, t_det=(0.2 + 0.3 * k + rows) * made.t_max) for k in range(2)]
+    (found,) = larger_events(Evidence(records={scene: runs}))
+    assert found.estimate.value == pytest.approx((scene.n_p - 2) - 1)
 
 
 def test_an_event_ends_where_neighbours_detach_apart():
