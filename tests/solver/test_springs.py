@@ -109,6 +109,15 @@ def test_no_bit_depends_on_the_rows_of_a_band(band, periodic, rng):
     np.testing.assert_array_equal(spring_forces(u, band, periodic), whole)
 
 
+@pytest.mark.parametrize("n", [7, 8])
+@pytest.mark.parametrize("axis", [1, 2])
+def test_periodic_forces_move_with_the_displacements(axis, n, rng):
+    """To the last bit, also on rows of whole vectors, 8 blocks."""
+    u = 1e-3 * rng.uniform(-1.0, 1.0, (2, n, n))
+    shifted = spring_forces(np.roll(u, 1, axis), periodic=True)
+    np.testing.assert_array_equal(shifted, np.roll(spring_forces(u, periodic=True), 1, axis))
+
+
 @pytest.mark.parametrize("angle", [1e-9, 1e-3, -0.5, np.pi])
 def test_a_rotation_strains_nothing_beyond_rounding_and_a_translation_nothing(angle):
     """The springs are exact in the angle; linear ones would pull with angle²/2.
