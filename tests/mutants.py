@@ -34,7 +34,8 @@ SECONDS = 400  #: in which tests must end; a mutant whose tests do not is caught
 FOLDERS = {
     "solver": (
         0.35,
-        "tests/solver tests/simulation/test_simulation.py tests/validation/test_blocks.py "
+        "tests/solver tests/simulation/test_simulation.py tests/simulation/test_fields.py "
+        "tests/validation/test_blocks.py tests/validation/test_specification.py "
         "tests/validation/test_convergence.py tests/validation/test_law_files.py",
     ),
     "analysis": (0.25, "tests/analysis tests/cli/test_tables.py tests/claims/test_rule.py"),

@@ -86,6 +86,21 @@ def test_a_file_of_velocity_weakening_is_the_built_in_law(scale, tmp_path):
     assert problem.after({}, np.ones((1, 1))) == {}  # it has no state
 
 
+@pytest.mark.parametrize("scale", [0.01, 0.3, 10.0])
+def test_friction_that_increases_with_speed_is_found_however_steep_it_is(scale, tmp_path):
+    """V = speed - T/2 for T = mu_d (1 + V/scale); without a solution the block stops."""
+    file = tmp_path / "strengthening.py"
+    file.write_text(
+        f"def friction(mu_dynamic, speed):\n    return mu_dynamic * (1.0 + speed / {scale})\n"
+    )
+    law = from_file(LawFile.read(file), np.ones(2, bool), 1.0, 1.0, 1.0)
+    for speed in (0.31, 0.5, 2.0):
+        mean = (speed - 0.5 * DYNAMIC) / (1.0 + 0.5 * DYNAMIC / scale)
+        expected = DYNAMIC * (1.0 + mean / scale)
+        assert resistance(law, 1, speed, -0.5) == pytest.approx(expected, rel=1e-10)
+    assert resistance(law, 1, 0.29, -0.5) == np.inf
+
+
 def test_of_two_solutions_the_larger_speed_holds():
     """T falls faster than 2 V rises: for a force at the threshold, V = 0 is a solution, too."""
     taken = resistance(VelocityWeakening(0.05), 0.0, 0.5 * STATIC, -0.5)
