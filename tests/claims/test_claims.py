@@ -255,7 +255,7 @@ def test_few_blocks_of_very_large_pillars_detach_early(name, share, expected):
 def test_the_springs_of_the_slider_are_those_of_half_the_layer():
     (found,) = BY_NAME["shear_springs"].test(paper.evidence(records()[:1]))
     assert found.estimate.value == pytest.approx(2.0)
-    assert found.outcome() == "fails"
+    assert found.outcome(1) == "fails"
     assert not [*BY_NAME["shear_springs"].test(Evidence())]  # which has no realisations
 
 
@@ -272,14 +272,14 @@ def test_blocks_under_equal_stress_do_not_weaken_the_order(inside, rng):
 def test_where_two_sizes_may_have_the_lowest_friction_neither_speaks_against_the_other(monkeypatch):
     """What holds wherever it is lowest stays; what one of the two alone would refute is open."""
     evidence = paper.evidence(records())
-    known = {f.case["n_p"]: f.outcome() for f in BY_NAME["most_precursors"].test(evidence)}
+    known = {f.case["n_p"]: f.outcome(1) for f in BY_NAME["most_precursors"].test(evidence)}
     assert set(known.values()) == {"holds"}
     monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, scenes: scenes[:2])
     found = {f.case["n_p"]: f for f in BY_NAME["most_precursors"].test(evidence)}
     assert len(found) == len(known) + 1  # the lowest itself as well
     may_be_lowest = list(found.values())[:2]
     assert all(np.isinf(each.estimate.ci_high) for each in may_be_lowest)
-    assert "fails" not in [each.outcome() for each in may_be_lowest]
+    assert "fails" not in [each.outcome(1) for each in may_be_lowest]
 
 
 @pytest.mark.parametrize(("rise", "outcome"), [(0.1, "holds"), (0.0, "open"), (-0.1, "fails")])
@@ -289,14 +289,14 @@ def test_a_slope_is_as_certain_as_its_surfaces_are_alike(rise, outcome, rng):
     beside = 0.5 * x + rng.standard_normal(10)
     found = partial_slope(beside, x, 3.0 * beside + rise * x + 0.1 * rng.standard_normal(10))
     assert found.ci_low < rise < found.ci_high
-    assert Finding({}, "slope", found, (0.0, np.inf), "").outcome() == outcome
+    assert Finding({}, "slope", found, (0.0, np.inf), "").outcome(1) == outcome
 
 
 @pytest.mark.parametrize(("pawls", "expected"), [(5, "holds"), (11, "fails")])
 def test_edges_are_half_of_narrow_pawls(pawls, expected):
     scenes = [Scene(paper.N, 23, 25, pawls, 1, direction=direction) for direction in "xy"]
     (found,) = BY_NAME["equal_parts"].test(Evidence(stress=dict.fromkeys(scenes, np.ones(0))))
-    assert found.outcome() == expected
+    assert found.outcome(1) == expected
 
 
 @pytest.mark.parametrize(("lowest", "expected"), [(1, "reproduced"), (2, PARTLY)])

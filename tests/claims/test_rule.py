@@ -41,7 +41,7 @@ HOLDS, FAILS, OPEN = (1.0, 2.0), (-2.0, -1.0), (-0.1, 0.2)
     ],
 )
 def test_an_interval_decides_by_where_it_lies(interval, claimed, outcome):
-    assert finding(*interval, claimed).outcome() == outcome
+    assert finding(*interval, claimed).outcome(1) == outcome
 
 
 @pytest.mark.parametrize(

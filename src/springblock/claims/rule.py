@@ -48,7 +48,7 @@ class Finding:
     unit: str = "1"
     sample: str = "realisations"  #: of what the statistic has a sample
 
-    def outcome(self, together: int = 1) -> str:
+    def outcome(self, together: int) -> str:
         """Return whether the claim "holds", "fails" or is "open", given several findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
