@@ -51,6 +51,17 @@ def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
     assert stress_variation(flat) == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.parametrize(("n_p", "is_early"), [(3, True), (4, True), (8, False), (10, False)])
+def test_under_stress_alone_small_pillars_peak_with_their_edges_and_larger_ones_after(
+    n_p, is_early, rng
+):
+    """Before or after the slider has moved so far that a block under the mean stress detaches."""
+    layer = Layer(Pattern.pillars(2 * n_p, n_p, n_p).contact, MATERIAL)
+    curve = independent(layer, rng.normal(1.0, 0.1, n_p**2), np.full(n_p**2, 0.6))
+    peak = curve.slider[curve.force.argmax()] * layer.stress.mean()
+    assert peak < 0.95 if is_early else peak > 1.05
+
+
 #: Stiffnesses of a spring between two blocks and of one to the slider.
 K, K_S = MATERIAL.k_int, MATERIAL.k_s
 ROW = Layer(np.ones((1, 2), bool), MATERIAL)
