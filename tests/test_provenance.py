@@ -23,7 +23,7 @@ def force(x):
 
 def digest_of(tmp_path, monkeypatch, source, name="law.py"):
     folder = tmp_path / "solver"
-    folder.mkdir(exist_ok=True)
+    (folder / name).parent.mkdir(parents=True, exist_ok=True)
     (folder / name).write_text(source)
     monkeypatch.setattr(provenance, "_ROOT", tmp_path)
     provenance._of_folder.cache_clear()
@@ -57,7 +57,9 @@ def test_formulas_and_nothing_else_change_a_digest(tmp_path, monkeypatch, old, n
     assert (before != after) == is_another
 
 
-@pytest.mark.parametrize("name", ["a.html", "a.css", "a.js", "a.md", "register.csv"])
+@pytest.mark.parametrize(
+    "name", ["a.html", "a.css", "a.js", "a.md", "register.csv", "stability/a.md"]
+)
 def test_what_pages_are_made_of_changes_a_digest(tmp_path, monkeypatch, name):
     """Their texts, looks, scripts and data."""
     before, after = (digest_of(tmp_path, monkeypatch, text, name) for text in ("a", "b"))

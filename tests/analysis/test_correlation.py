@@ -115,6 +115,7 @@ def test_exact_curves_give_exact_lengths():
     np.testing.assert_allclose(fit_tail(0.6 * curves, error), [0.5, 3.0, 40.0], rtol=2e-3)
     np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
     assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
+    assert (fit_tail(-curves, error) < 0.11).all()  # no anticorrelation is fitted
     assert np.isnan(fit_tail(curves[:, :2], error[:2])).all()
 
 

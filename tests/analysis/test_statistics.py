@@ -8,10 +8,12 @@ from scipy.stats import t, ttest_ind
 
 from springblock import Pattern
 from springblock.analysis.statistics import (
+    Interval,
     bootstrap_interval,
     bootstrap_weights,
     cut,
     difference_interval,
+    independent_difference,
     load_peaks,
     mean_interval,
     mean_of_rest,
@@ -73,6 +75,12 @@ def test_surfaces_are_compared_as_independent_samples(rng):
     assert tuple(found) == pytest.approx((first.mean() - second.mean(), low, high))
     assert tuple(difference_interval([2.0, 2.0], [1.0, 1.0])) == (1.0, 1.0, 1.0)
     assert np.isnan(difference_interval([1.0, 2.0], [1.0]).low)
+
+
+def test_errors_of_independent_values_add_in_quadrature_each_on_its_side():
+    """The difference is smallest where the first is small and the second large."""
+    found = independent_difference(Interval(5.0, 2.0, 6.0), Interval(1.0, 0.0, 5.0))
+    assert tuple(found) == pytest.approx((4.0, 4.0 - 5.0, 4.0 + 2.0**0.5))
 
 
 def test_the_interval_of_a_share_is_exact():

@@ -1,6 +1,7 @@
 """Maps of load peaks and of static friction."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,3 +80,12 @@ def test_sizes_that_do_not_divide_the_side_come_from_larger_surfaces():
     found = friction.friction_map(made | {each: lean(each, 0.5) for each in (odd, far)})
     assert (7, 7) in found
     assert (14, 14) not in found
+
+
+def test_friction_is_that_on_the_common_side_where_there_is_one():
+    made = sizes_and_distances(together)
+    usual = next(scene for scene in made if scene.n_p == 4)
+    larger = replace(usual, n_blocks=usual.n_blocks + usual.n_p + usual.n_s)
+    found = friction.friction_map(made | {larger: lean(larger, 0.5)})
+    at = usual.n_p, usual.n_s
+    np.testing.assert_array_equal(found[at], friction.friction_map(made)[at])

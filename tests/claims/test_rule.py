@@ -1,5 +1,7 @@
 """The rule from intervals to verdicts, and what the table and the page make of it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import t
@@ -69,6 +71,13 @@ def test_the_form_of_a_claim_says_what_its_cases_decide(intervals, universal, ge
 )
 def test_all_findings_of_a_case_must_hold(other, expected):
     assert verdict("general", [finding(*HOLDS, n_p=6), finding(*other, n_p=6)])[0] == expected
+
+
+def test_a_verdict_needs_findings_that_hold_jointly():
+    """Alone the interval lies above zero; as one of two, at 97.5 %, it does not."""
+    near = Finding({"n_p": 1}, "slope", Estimate(1.005, 0.01, 2.0, 20), (0.0, INF), "")
+    assert verdict("general", [near])[0] == "reproduced"
+    assert verdict("general", [near, replace(near, case={"n_p": 2})])[0] == "not settled"
 
 
 def test_many_findings_hold_together_as_often_as_one_does(rng):
