@@ -116,7 +116,11 @@ def test_exact_curves_give_exact_lengths():
     np.testing.assert_allclose(amplitude(0.6 * curves, error, np.array([0.5, 3.0, 40.0])), 0.6)
     assert fit_length(-curves, error).tolist() == pytest.approx([0.1, 0.1, 0.1])
     assert (fit_tail(-curves, error) < 0.11).all()  # no anticorrelation is fitted
+    assert (amplitude(-curves, error, np.array([0.5, 3.0, 40.0])) == 0.0).all()
     assert np.isnan(fit_tail(curves[:, :2], error[:2])).all()
+    assert np.isfinite(fit_tail(curves[:, :3], error[:3])).all()
+    for estimate in (fit_length, fit_tail):  # no decay: the longest length
+        assert estimate(np.ones((1, 6)), error)[0] == pytest.approx(1000.0, rel=0.03)
 
 
 def test_distances_count_by_their_inverse_variance():
@@ -126,8 +130,14 @@ def test_distances_count_by_their_inverse_variance():
     def misfit(length):
         return np.sum(((curve - np.exp(-r / length)) / error) ** 2)
 
-    best = minimize_scalar(misfit, bounds=(0.5, 20.0)).x
-    assert fit_length(curve[None], error)[0] == pytest.approx(best, rel=1e-3)
+    def left(length):
+        decay, weight = np.exp(-r / length), error**-2
+        scale = (weight * curve) @ decay / (weight @ decay**2)
+        return np.sum(((curve - scale * decay) / error) ** 2)
+
+    for fit, function in ((fit_length, misfit), (fit_tail, left)):
+        best = minimize_scalar(function, bounds=(0.5, 20.0)).x
+        assert fit(curve[None], error)[0] == pytest.approx(best, rel=1e-3)
 
 
 def test_sides_are_the_outer_rows_and_columns_of_the_pillars():
@@ -149,6 +159,7 @@ def test_edges_of_grooves_are_the_rows_beside_them():
     edges = groove_times([run, run], pattern)
     assert edges.shape == (2, 4, 4, 8)
     assert edges[0, 1, :, 0].tolist() == [314.0, 514.0, 614.0, 814.0]
+    assert edges[0, 1, 0].tolist() == [300.0 + x for x in range(14, 22)]
     assert side_times([run], pattern, "x").shape == (1, 4, 2, 8)
     with pytest.raises(ValueError, match="along y are not all in contact"):
         side_times([run], pattern, "y")
