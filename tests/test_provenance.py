@@ -44,6 +44,7 @@ def digest_of(tmp_path, monkeypatch, source, name="law.py"):
         ("2.0 * x", "(2.0\n            * x)", False),
         ("2.0", "2.5", True),
         ("x < 0.0", "x <= 0.0", True),
+        ("x < 0.0", "x < 0", True),
         ("* x", "* -x", True),
         ("force(x)", "force(x, y=0)", True),
     ],

@@ -19,3 +19,8 @@ def test_sizes_within_the_numerical_bias_of_the_lowest_friction_are_candidates()
     """Equal realisations have no statistical error; friction has a bias of up to 0.001."""
     exact = {2: np.full(2, 0.6511), 6: np.full(2, 0.65), 20: np.full(2, 0.6509)}
     assert str(lowest(exact)) == "6 (or 20)"
+
+
+def test_a_single_realisation_excludes_no_size():
+    """It has no interval."""
+    assert str(lowest({6: np.array([0.65, 0.65]), 20: np.array([0.70])})) == "6 (or 20)"

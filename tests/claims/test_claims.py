@@ -26,6 +26,7 @@ from claims.paper import (
     Change,
     peaks,
 )
+from springblock.analysis.statistics import bootstrap_interval
 from springblock.claims import CLAIMS
 from springblock.claims.load_peaks import partial_slope
 from springblock.claims.rule import Claim, Evidence, Finding, verdict
@@ -290,6 +291,20 @@ def test_a_slope_is_as_certain_as_its_surfaces_are_alike(rise, outcome, rng):
     found = partial_slope(beside, x, 3.0 * beside + rise * x + 0.1 * rng.standard_normal(10))
     assert found.ci_low < rise < found.ci_high
     assert Finding({}, "slope", found, (0.0, np.inf), "").outcome(1) == outcome
+
+
+def test_the_interval_of_a_slope_is_that_of_resampled_points(rng):
+    x, beside = np.arange(12.0), rng.standard_normal(12)
+    y = x + beside + np.linspace(0.1, 3.0, 12) * rng.standard_normal(12)
+    columns = np.stack([np.ones(12), beside, x], axis=1)
+
+    def slopes(weights):
+        counts = np.rint(12 * weights).astype(int)
+        drawn = [np.repeat(np.arange(12), count) for count in counts]
+        return np.array([np.linalg.lstsq(columns[i], y[i])[0][-1] for i in drawn])
+
+    found, expected = partial_slope(beside, x, y), bootstrap_interval(slopes, 12)
+    assert (found.value, found.ci_low, found.ci_high) == pytest.approx(tuple(expected), rel=0.02)
 
 
 @pytest.mark.parametrize(("pawls", "expected"), [(5, "holds"), (11, "fails")])

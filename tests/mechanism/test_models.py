@@ -51,6 +51,16 @@ def test_like_blocks_on_a_flat_surface_let_go_together(model, n_blocks):
     assert stress_variation(flat) == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_the_force_is_the_pull_of_the_slider_along_its_way(model):
+    """Edges of pillars are also pulled sideways, by free blocks."""
+    layer = Layer(Pattern.pillars(12, 3, 3).contact, MATERIAL)
+    k = len(layer.stress)
+    curve = model(layer, np.ones(k), np.full(k, 0.6))
+    assert curve.force[0] == pytest.approx(curve.slider[0] * layer.pull[:k].sum())
+    assert curve.force[0] < 0.999 * curve.slider[0] * layer.stress.sum()
+
+
 @pytest.mark.parametrize(("n_p", "is_early"), [(3, True), (4, True), (8, False), (10, False)])
 def test_under_stress_alone_small_pillars_peak_with_their_edges_and_larger_ones_after(
     n_p, is_early, rng
