@@ -110,7 +110,7 @@ def _mark(name: str, tokens: Sequence[Token], pages: Collection[str]) -> None:
         for child in token.children or ():
             _link(name, child, pages)
             if child.type == "text":
-                child.type, child.content = "html_inline", symbols(str(escape(child.content)))
+                child.type, child.content = "html_inline", str(symbols(str(escape(child.content))))
 
 
 def _link(name: str, token: Token, pages: Collection[str]) -> None:
@@ -136,7 +136,7 @@ def _fold(tokens: list[Token]) -> None:
         if found and tokens[i - 1].type == "paragraph_open":
             text = _END if found[1] is None else _FOLDED.format(typeset(found[1]))
             tokens[i - 1 : i + 2] = [
-                Token("html_block", "", 0, content=part) for part in (text, " ", " ")
+                Token("html_block", "", 0, content=part) for part in (str(text), " ", " ")
             ]
 
 
