@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from beyond.made_up import grooves, lean, sizes_and_distances
@@ -52,6 +53,15 @@ def test_size_and_contact_that_add_up_leave_nothing():
     shares = friction.explained(found)
     assert shares["interaction"].mean == pytest.approx(0.0, abs=1e-4)
     assert shares["size"].low > shares["contact"].high > 0.001
+
+
+def test_the_share_of_size_is_the_variance_within_contact_fractions():
+    """Friction that depends on size alone."""
+    found = friction.friction_map(sizes_and_distances(lambda n_p, ratio: added(n_p, 0.0)))
+    kinds = pd.Series([friction.distance(at) for at in found])
+    means = pd.Series([values.mean() for values in found.values()])
+    within = ((means - means.groupby(kinds).transform("mean")) ** 2).mean() / means.var(ddof=0)
+    assert friction.explained(found)["size"].mean == pytest.approx(within, abs=1e-3)
 
 
 def test_what_size_and_contact_do_only_together_is_left():

@@ -73,6 +73,13 @@ def test_all_findings_of_a_case_must_hold(other, expected):
     assert verdict("general", [finding(*HOLDS, n_p=6), finding(*other, n_p=6)])[0] == expected
 
 
+def test_one_failing_finding_decides_its_case():
+    """Whether others of the same case hold or are open."""
+    for other in (HOLDS, OPEN):
+        findings = [finding(*FAILS, n_p=6), finding(*other, n_p=6)]
+        assert verdict("universal", findings)[0] == "not reproduced"
+
+
 def test_a_verdict_needs_findings_that_hold_jointly():
     """Alone the interval lies above zero; as one of two, at 97.5 %, it does not."""
     near = Finding({"n_p": 1}, "slope", Estimate(1.005, 0.01, 2.0, 20), (0.0, INF), "")

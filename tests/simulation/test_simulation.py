@@ -214,6 +214,7 @@ def array(value, dtype=float, shape=(2, 2)):
         ({"duration": "long", "snapshot_times": [2e-7]}, "duration must be a number, not"),
         ({"snapshot_times": ["2e-7"]}, "snapshot_times must be a number, not"),
         ({"snapshot_times": [3e-7]}, "snapshot_times must be a multiple of sample_interval"),
+        ({"snapshot_times": [1.2345e-4]}, "snapshot_times must be a multiple of sample_interval"),
         ({"snapshot_times": [4e-7, 2e-7]}, "snapshot_times must be in ascending order"),
         ({"snapshot_times": [2e-7, 2e-7]}, "snapshot_times must be in ascending order"),
         ({"snapshot_times": [4e-6]}, "snapshot_times must lie within the duration"),
