@@ -45,6 +45,7 @@ def digest_of(tmp_path, monkeypatch, source, name="law.py"):
         ("2.0", "2.5", True),
         ("x < 0.0", "x <= 0.0", True),
         ("x < 0.0", "x < 0", True),
+        ("    return", "    check(x)\n    return", True),
         ("* x", "* -x", True),
         ("force(x)", "force(x, y=0)", True),
     ],

@@ -16,23 +16,25 @@ BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 3,
 TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
 
 
-def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path):
+@pytest.mark.parametrize("rows", [6, 9])
+def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_path, rows):
     path, duration = tmp_path / "a.parquet", 1.6e-4
+    scene = Scene(n_blocks=6, n_p=2, n_s=1, n_rows=rows)
     asked = ("--duration", duration, "--snapshot", TIMES[0], "--snapshot", TIMES[1])
-    springblock(*BATCH, *asked, "--output", path)
+    springblock(*BATCH, "--n-rows", rows, *asked, "--output", path)
     read_back = read(str(path))
     assert [run.seed for run in read_back] == [3, 4]
     for run in read_back:
-        surface = Surface.draw(SCENE.contact, run.seed)
+        surface = Surface.draw(scene.contact, run.seed)
         told = simulate(surface, duration=duration, snapshot_times=TIMES)
-        assert run.scene == SCENE
+        assert run.scene == scene
         for name in ("force", "detachments", "switches", "t_det", "contact"):
             np.testing.assert_array_equal(getattr(run, name), getattr(told, name))
         assert run.time == pytest.approx(told.time, rel=1e-15)
         assert (run.t_max, run.static_friction) == (told.t_max, told.static_friction)
         assert run.snapshot_times.tobytes() == told.snapshot_times.tobytes()
         assert run.snapshots.tobytes() == told.snapshots.tobytes()
-        assert run.snapshots.shape == (2, 2, 6, 6)
+        assert run.snapshots.shape == (2, 2, rows, 6)
     assert (read_back[0].snapshots[1] != read_back[1].snapshots[1]).any()
 
 

@@ -130,6 +130,13 @@ def test_a_prelude_of_another_scene_is_refused(prelude, change):
         simulate(surface, prelude=prelude, **scene)
 
 
+def test_a_prelude_with_free_edges_is_none_with_periodic_ones(prelude):
+    free = drawn(PILLARS, seed=1)
+    periodic = Surface(PILLARS.contact, free.mu_static, free.mu_dynamic, periodic=True)
+    with pytest.raises(ValueError, match="prelude belongs to another scene"):
+        simulate(periodic, prelude=prelude)
+
+
 @pytest.mark.parametrize(
     ("pattern", "material"),
     [
