@@ -51,7 +51,7 @@ test-slurm: setup
 	$(APT_INSTALL) munge slurm-client slurmctld slurmd
 	$(BIN)/python -m tests.slurm
 
-# Tests with the lowest versions that pyproject.toml allows, the newest, and pre-releases, in 40
+# Tests with the lowest versions that pyproject.toml allows, the newest, and pre-releases, in 25
 # minutes. Without the extras `slurm` and `topography`, which need newer packages than the others.
 test-versions:
 	@dir=$$(mktemp -d) && trap 'rm -rf "$$dir"' EXIT && \

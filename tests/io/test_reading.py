@@ -11,7 +11,6 @@ from springblock import Surface, read, simulate
 from springblock.io.parquet import write
 from springblock.model.scene import Scene
 
-SCENE = Scene(n_blocks=6, n_p=2, n_s=1)
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 3, "--last-seed", 4)
 TIMES = (1e-6, 1.5e-4)  #: s; before all detachments and amid them
 
