@@ -17,8 +17,11 @@ SURFACE = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("sweep") / "speeds"
+def folder(springblock, tmp_path_factory):
+    """A finished sweep."""
+    place = tmp_path_factory.mktemp("sweep") / "speeds"
+    swept(springblock, place, "--seeds", 2)
+    return place
 
 
 def swept(springblock, folder, *others, refused=False):
@@ -28,7 +31,6 @@ def swept(springblock, folder, *others, refused=False):
 
 def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock, folder, tmp_path):
     """Seeds may be added: what is there stays."""
-    swept(springblock, folder, "--seeds", 2)
     table = pq.read_table(folder / "realisations.parquet")
     assert table.num_rows == 8
     own = ("--vary", "slider_velocity=1e-2", "--direction", "y", "--last-seed", 1)

@@ -52,12 +52,12 @@ def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch
     assert "by: unknown name 'speed'" in springblock("table", folder, "--by", "speed", refused=True)
 
 
-@pytest.mark.parametrize(("last", "paired"), [(2, True), (3, False)])
+@pytest.mark.parametrize(("seeds", "paired"), [((0, 2), True), ((0, 3), False), ((1, 3), False)])
 def test_a_difference_is_paired_where_seeds_are_the_same(
-    springblock, batch, tmp_path, last, paired
+    springblock, batch, tmp_path, seeds, paired
 ):
     """And has the interval of the t test for it."""
-    slow, fast = batch(0, 2), batch(0, last, "--vary", "slider_velocity=1e-3")
+    slow, fast = batch(0, 2), batch(*seeds, "--vary", "slider_velocity=1e-3")
     output = tmp_path / "changes.csv"
     said = springblock("compare", slow, fast, "--of", "static_friction", "--output", output)
     assert f"slider_velocity: 0.0005 in {slow}, 0.001 in {fast}" in said

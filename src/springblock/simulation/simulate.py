@@ -66,7 +66,7 @@ def simulate(
         sample interval. A run without duration lasts at least until the last of them.
     prelude : Prelude
         States of the same scene before its first detachment, see `compute_prelude`. They save
-        time; results are the same, except that a law from a file changes the rounding of forces.
+        time; results are the same, but for the rounding of forces under a law from a file.
     cores : int
         Number of cores for the leapfrog on one large surface; results are the same to the bit.
     progress : bool

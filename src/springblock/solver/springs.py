@@ -54,9 +54,8 @@ LANES = 8
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
 # Offsets of the fields of scratch: the forces on a band of rows, then, in the view `one_row`, the
-# springs of one row. Their distance is constant, so that the compiler can exclude overlaps, and not
-# a power of two, so that they do not share cache sets. `EAST_X` and the
-# others count from the start of `one_row`.
+# springs of one row, counted from its start. Their distance is constant, so that the compiler can
+# exclude overlaps, and not a power of two, so that they do not share cache sets.
 _FIELD = MAX_BLOCKS + 72
 _FIELDS = tuple(U(k * _FIELD) for k in range(10))
 FORCE_X, FORCE_Y = _FIELDS[:2]
