@@ -6,7 +6,14 @@ from springblock.accuracy.conventions import DELAY, LENGTH, MEANS, PAPER_STEP, P
 from springblock.accuracy.production import STEPS, UNITS
 from springblock.model.defaults import STEP
 
-QUANTITIES = ["force", "static_friction", "t_max", "t_avg", "t_det before horizon", "horizon"]
+QUANTITIES = [
+    "force",
+    "static_friction",
+    "t_max",
+    "t_avg",
+    "t_det before horizon",
+    "horizon reached",
+]
 #: Integrators and steps of each comparison.
 COMPARISONS = {
     "reference": (["leapfrog", "rk4", PLAIN], [1e-9, min(STEPS), PAPER_STEP, STEP]),

@@ -82,4 +82,4 @@ def _horizon(problem: Problem, surface: Surface) -> float:
     changes = 1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape)))
     nudged = (Surface(contact, surface.mu_static * each, surface.mu_dynamic) for each in changes)
     one, *others = (simulate(each, setup, duration=problem.duration) for each in nudged)
-    return min(horizon(one, other) for other in others)
+    return min(problem.duration, *(horizon(one, other) for other in others))

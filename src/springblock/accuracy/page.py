@@ -23,7 +23,7 @@ from springblock.accuracy.conventions import (
     ensemble_error,
     half_width,
 )
-from springblock.io.rows import Row, markdown_table, select
+from springblock.io.rows import Row, listed, markdown_table, select
 from springblock.model.defaults import STEP
 from springblock.model.material import Material
 
@@ -40,16 +40,16 @@ _WITHOUT = """This study was run without `production: true`, which measures erro
 the study's size in a quarter of an hour.
 """
 
-_OPENING = """With the default step of {step:.0e} s, means over seeds are biased by at most
+_OPENING = """With the default step of {step:.0e} s, results of ensembles are biased by at most
 {biases}
-on three surfaces of {n_blocks} x {n_blocks} blocks. Each bound is the far end of a 95 % interval
-plus the largest bias that the finest step may have. The standard error of a mean over {ensemble}
-seeds, or {length_ensemble} for the decay length, is up to
+on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars only). Each bound is
+the far end of a 95 % interval plus the largest bias that the finest step may have. The standard
+error of a mean over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}.
 It exceeds the estimated bias in {larger} of {n} cases (a quantity on a surface). Quote means with
 their intervals over seeds, and include the bias in the error where hundreds of realisations are
-pooled. Compare ensembles, not single runs: on patterned surfaces these depend on the step, however
-small it is.
+pooled. Compare ensembles, not single runs: on patterned surfaces of this size single runs differ
+even between the two finest steps.
 """
 
 #: Names of quantities that are not called by their symbol.
@@ -113,7 +113,7 @@ def page(
         single_seeds=min(row["realisations"] for row in default),
         paired_blocks=scatter[0]["n_blocks"],
         paired_seeds=min(row["realisations"] for row in select(paired, step=STEP)),
-        **{row["scene"]: _PERCENT * row["error"] for row in select(default, quantity="horizon")},
+        reached=listed([_runs(row) for row in select(default, quantity="horizon reached")]),
         against=scatter[0]["step"],
         paired=_by_scene("bias", MEANS, [*select(paired, step=STEP), *scatter], _paired_bias),
         full_size=_full_size(production, select(leapfrog, scene="flat")),
@@ -196,6 +196,13 @@ def _by_scene(
 
 def _name(quantity: str) -> str:
     return _NAMES.get(quantity, quantity)
+
+
+def _runs(row: Row) -> str:
+    """Write how many runs of a scene reach the horizon; the error is the root of their share."""
+    return (
+        f"{row['error'] ** 2 * row['realisations']:.0f} of {row['realisations']} ({row['scene']})"
+    )
 
 
 def _error(row: Row) -> str:

@@ -1,6 +1,6 @@
 """Differences between two tables, row by row and to the bit."""
 
-from typing import NamedTuple
+from collections import Counter
 
 import numpy as np
 import pyarrow as pa
@@ -9,36 +9,14 @@ from springblock.model.scene import COLUMNS
 
 #: CPU times, which no second study repeats.
 _MEASURED = "cpu_seconds", "prelude_seconds"
-_KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns that identify a row
+_KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns by which rows are matched
 
 
-class Difference(NamedTuple):
-    """Difference of a column in the rows that two tables have in common."""
+def differences(first: pa.Table, second: pa.Table) -> list[str]:
+    """Describe the differences of two tables, a line each; nothing if they are equal to the bit.
 
-    column: str
-    rows: int  #: number of rows in which it differs; NaN equals NaN
-    largest: float  #: largest absolute difference; NaN if the values are not numbers
-    relative: float  #: largest difference relative to the first value; likewise
-
-
-class Comparison(NamedTuple):
-    """Differences of two tables."""
-
-    both: int  #: number of rows in both tables
-    first: int  #: number of rows in the first table only
-    second: int
-    differences: list[Difference]  #: columns that are not equal to the bit
-
-    @property
-    def same(self) -> bool:
-        """Whether both tables are equal to the bit."""
-        return not (self.first or self.second or self.differences)
-
-
-def compare(first: pa.Table, second: pa.Table) -> Comparison:
-    """Compare rows of the same scene, seed, side and distance; without such columns, by position.
-
-    CPU times are left out.
+    Rows of the same scene, seed, side and distance are compared, and several of these, or tables
+    without such columns, in their order. CPU times are left out.
 
     Raises
     ------
@@ -52,26 +30,28 @@ def compare(first: pa.Table, second: pa.Table) -> Comparison:
     common = [key for key in places if key in others]
     ours = first.take(pa.array([places[key] for key in common], pa.int64()))
     theirs = second.take(pa.array([others[key] for key in common], pa.int64()))
+    rows = f"{len(common) or 'no'} rows in both"
+    for table, where in ((first, "first"), (second, "second")):
+        if more := table.num_rows - len(common):
+            rows += f", {more} only in the {where}"
     names = [name for name in first.column_names if name not in _MEASURED]
-    differences = [_difference(name, ours[name], theirs[name]) for name in names]
-    return Comparison(
-        len(common),
-        first.num_rows - len(common),
-        second.num_rows - len(common),
-        [difference for difference in differences if difference.rows],
-    )
+    found = [line for name in names if (line := _difference(name, ours[name], theirs[name]))]
+    return [rows, *found] if found or first.num_rows + second.num_rows > 2 * len(common) else []
 
 
 def _places(table: pa.Table) -> dict[tuple[object, ...], int]:
-    """Row number of each key."""
-    keys = [name for name in _KEYS if name in table.column_names]
-    if not keys:
-        return {(i,): i for i in range(table.num_rows)}
-    rows = zip(*(table[name].to_pylist() for name in keys), strict=True)
-    return {key: i for i, key in enumerate(rows)}
+    """Row number of each key: values of `_KEYS`, and how many rows before have the same."""
+    columns = [table[name].to_pylist() for name in _KEYS if name in table.column_names]
+    keys = zip(*columns, strict=True) if columns else [()] * table.num_rows
+    places, before = {}, Counter[tuple[object, ...]]()
+    for i, key in enumerate(keys):
+        places[*key, before[key]] = i
+        before[key] += 1
+    return places
 
 
-def _difference(name: str, first: pa.ChunkedArray, second: pa.ChunkedArray) -> Difference:
+def _difference(name: str, first: pa.ChunkedArray, second: pa.ChunkedArray) -> str:
+    """Describe the difference of a column in the rows that both tables have; "" without one."""
     rows, largest, relative = 0, 0.0, 0.0
     for a, b in zip(_arrays(first), _arrays(second), strict=True):
         if a.shape == b.shape and np.array_equal(a, b, equal_nan=a.dtype.kind == "f"):
@@ -84,7 +64,9 @@ def _difference(name: str, first: pa.ChunkedArray, second: pa.ChunkedArray) -> D
         largest = max(largest, float(np.nanmax(apart, initial=0.0)))
         with np.errstate(divide="ignore", invalid="ignore"):
             relative = max(relative, float(np.nanmax(apart / np.abs(a), initial=0.0)))
-    return Difference(name, rows, largest, relative)
+    how_many = "1 row differs" if rows == 1 else f"{rows} rows differ"
+    size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
+    return f"  {name}: {how_many}, {size}" if rows else ""
 
 
 def _arrays(column: pa.ChunkedArray) -> list[np.ndarray]:

@@ -105,7 +105,7 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     parts = {
         "block": ("Same scatter on every lattice", "spacing", block),
         "area": ("Same disorder per area", "spacing", area),
-        "length": ("Disorder of a fixed correlation length", "spacing", length),
+        "length": ("Correlated coefficients", "spacing", length),
         "none": ("No disorder", "spacing", none),
         "layer": (f"Thicker layers, l = {common.spacing:g} µm", "thickness", layers),
     }
@@ -247,10 +247,12 @@ def _conclusion(
 
 
 def _refined(compared: Comparisons, changed: Changes) -> str:
-    """Write the change by most refinements of the lattice, and in brackets those by the others."""
+    """Write the change by most refinements of the lattice, and those by the others."""
     found = {kind: verb for kind, (verb, _) in changed.items() if kind != "layer"}
     usual = mode(found.values()) if found else "is not compared"
     others = [
         f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items() if verb != usual
     ]
-    return f"{usual} ({'; '.join(others)})" if others else usual
+    if 2 * len(others) > len(found):  # no change is that of most
+        return ", ".join(f"{verb} ({compared[kind].words.lower()})" for kind, verb in found.items())
+    return f"{usual} (except with {'; '.join(others)})" if others else usual

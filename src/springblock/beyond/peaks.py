@@ -60,7 +60,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
-        f"than across them** on {more} of {len(found)} surfaces, and less prominent on {less}. "
+        f"than across them** on {more} of {len(found)} surfaces, and less prominent on {less or 'none'}. "
         f"Along the grooves, its prominence is largest with pawls of {most.n_p2} and grooves of "
         f"{most.n_s2} blocks {place}, {number(along[most], ' %')} of the largest force{rank}."
     )
@@ -73,9 +73,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         yield (
             "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
             f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
-            f"and less prominent in {less}. In the {len(two)} cases in which its prominence "
-            f"exceeds {_TWO:g} % on both, it is more prominent on pillars in {more_of_two} and "
-            f"less prominent in {less_of_two}."
+            f"and less prominent in {less or 'none'}. In the {len(two)} cases in which its "
+            f"prominence exceeds {_TWO:g} % on both, it is more prominent on pillars in "
+            f"{more_of_two or 'none'} and less prominent in {less_of_two or 'none'}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

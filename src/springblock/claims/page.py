@@ -141,7 +141,7 @@ def _needed(row: Row) -> str:
     if math.isnan(wanted):
         return "no interval"
     if math.isinf(wanted):
-        return f"no number of {row['sample']} settles it"
+        return f"more {row['sample']} would not settle it"
     digits = 10 ** max(0, len(str(int(wanted))) - 2)
     return f"about {math.ceil(wanted / digits) * digits} {row['sample']} would settle it"
 

@@ -341,8 +341,9 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     size. All sizes whose static friction is within the numerical bias, 0.001, of the lowest are
     candidates; an interval covers all of them, without an upper end where they differ in sign.
     In 80 realisations of each, static friction at n_p = 6 is lower than at 7 by 0.0008 with the
-    default step, and by 0.0003 with 5e-9 s. About 1000 realisations with this step would decide; if
-    friction is lowest at 6 the statement fails, if at 7 it holds.
+    default step, and by 0.0003 with 5e-9 s. More realisations with the default step cannot decide
+    which is lower; about 1000 with 5e-9 s could. If friction is lowest at 6 the statement fails, if
+    at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from springblock.analysis import comparison
+from springblock.analysis.comparison import differences
 from springblock.cli.options import INPUT, OUTPUT, defaulted
 from springblock.io.parquet import load
 from springblock.study import audit
@@ -73,22 +73,11 @@ def _are_the_same(name: str, first: Path, second: Path) -> bool:
     if not second.exists():
         click.echo(f"{name}: missing in the second")
         return False
-    found = comparison.compare(load(first), load(second))
-    click.echo(f"{name}: {_in_words(found)}")
-    return found.same
-
-
-def _in_words(found: comparison.Comparison) -> str:
-    if found.same:
-        return f"the same {found.both} rows, to the bit"
-    lines = [f"{found.both or 'no'} rows in both"]
-    for rows, where in ((found.first, "first"), (found.second, "second")):
-        lines[0] += f", {rows} only in the {where}" if rows else ""
-    for name, rows, largest, relative in found.differences:
-        how_many = "1 row differs" if rows == 1 else f"{rows} rows differ"
-        size = f"by {largest:.3g} at most, or {relative:.3g} of the first"
-        lines.append(f"  {name}: {how_many}, {size}")
-    return "\n".join(lines)
+    table = load(first)
+    found = differences(table, load(second))
+    same = f"the same {table.num_rows} rows, to the bit"
+    click.echo(f"{name}: " + ("\n".join(found) or same))
+    return not found
 
 
 @click.command("repair")
