@@ -146,6 +146,8 @@ def changes(
     found = []
     for ours in first:
         if match := theirs.get(shared(ours)):
-            paired = not _THRESHOLDS & differ.keys() and ours.seeds == match.seeds
+            correlated = {"spacing"} if ours.names.get("correlation_length") else set()
+            drawn = (_THRESHOLDS | correlated) & differ.keys()
+            paired = not drawn and ours.seeds == match.seeds
             found.append(Change(dict(shared(ours)), ours, match, paired))
     return differ, found

@@ -60,9 +60,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
-        f"than across them** on {more} of {len(found)} surfaces, and less prominent on {less or 'none'}. "
-        f"Along the grooves, its prominence is largest with pawls of {most.n_p2} and grooves of "
-        f"{most.n_s2} blocks {place}, {number(along[most], ' %')} of the largest force{rank}."
+        f"than across them** on {more} of {len(found)} surfaces, and less prominent on "
+        f"{less or 'none'}. Along the grooves, its prominence is largest with pawls of "
+        f"{most.n_p2} and grooves of {most.n_s2} blocks {place}, {number(along[most], ' %')} of "
+        f"the largest force{rank}."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:

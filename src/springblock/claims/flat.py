@@ -137,11 +137,11 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, _BEFORE, early, ranges.NEGLIGIBLE, case=case)
 
 
-@_on_flat("the share of precursors that detach while all eight neighbours are at rest", ranges.MOST)
+@_on_flat("the share of precursors that detach before all eight neighbours", ranges.MOST)
 def isolated_precursors(run: Record) -> float:
-    """Tested: most precursors, which “are those occurring before t_max”, detach while all eight
-    neighbours are at rest. Most of the precursors before 0.9 t_max, and most of those before 0.99
-    t_max, do so.
+    """Tested: most precursors, which “are those occurring before t_max”, detach before all of their
+    eight neighbours. Most of the precursors before 0.9 t_max, and most of those before 0.99 t_max,
+    do so.
     """
     return samples.isolated(run)
 
@@ -214,15 +214,15 @@ def average_is_propagation(run: Record) -> float:
 
 
 @_on_flat(
-    "the share of blocks that slide anew in a time as long as the transition, after the first "
-    "force minimum",
+    "the number of slips per block in a time as long as the transition, after the first force "
+    "minimum",
     ranges.NEGLIGIBLE,
 )
 def localized_stick_slip(run: Record) -> float:
-    """Tested: after the first force minimum, less than a tenth of the blocks slide anew in a time
-    as long as the transition, which lasts from a tenth to nine tenths of the first detachments. The
-    share is a mean over the rest of the run; the verdict is the same for the first 1 to 50 such
-    times after the minimum.
+    """Tested: after the first force minimum, there is less than one slip for every ten blocks in a
+    time as long as the transition, which lasts from a tenth to nine tenths of the first
+    detachments. The number is a mean over the rest of the run; the verdict is the same for the
+    first 1 to 50 such times after the minimum.
     """
     minimum = first_minimum(run.force)
     if minimum is None:
@@ -239,9 +239,9 @@ def peak_before_average(run: Record) -> float:
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:
     """Tested: in the core (here the blocks 10 or more from the edge), position explains less than a
-    fifth of the variance; the outermost blocks detach early or late by less than a fifth of a
-    standard deviation, a small effect. The verdict is the same for the two outermost rings; with a
-    bound above 0.38 the statement would hold.
+    fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
+    of a standard deviation, a small effect. The verdict is the same for the two outermost rings;
+    with a bound above 0.38 the statement would hold.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"
@@ -261,7 +261,8 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     within(_SMALL, 0.5),
 )
 def nucleation_anywhere(run: Record) -> float:
-    """Tested: the mean distance from the edge of the first patch of 5 x 5 blocks to detach is that
-    of a random position. The verdict is the same for patches of 1 to 17 blocks a side.
+    """Tested: on average, 30 to 70 % of all positions are nearer to the edge than the first patch
+    of 5 x 5 blocks to detach; for a random position the mean is 50 %. The verdict is the same for
+    patches of 1 to 17 blocks a side.
     """
     return samples.first_patch(run.t_det, _PATCH)

@@ -144,7 +144,9 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
 
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: where the grooves are narrower than the pawls between them."""
+    """Tested: static friction is greater when sliding across the grooves, on surfaces whose grooves
+    are narrower than the pawls between them.
+    """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
         if along.n_s2 < along.n_p2:
@@ -153,9 +155,9 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
-    fronts, is a smaller part of t_max along the grooves. From a quarter to three quarters, the
-    time is a larger part of t_max along grooves between pawls of 4, and the statement would be
-    reproduced in part.
+    fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
+    quarters, which is longer along grooves between pawls of 4, the statement would be reproduced in
+    part.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
@@ -164,7 +166,9 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
 
 
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: static friction changes by more than 1 % from the shortest to the longest pillars."""
+    """Tested: static friction changes by more than 1 % from the shortest to the longest pillars.
+    Pillars of 115 blocks and more are on N = 240, all others on N = 120.
+    """
     scenes = sorted(surfaces.grooved(evidence.records), key=lambda s: (s.n_p2, s.n_p))
     for _, group in groupby(scenes, key=attrgetter("n_p2")):
         shortest, *_, longest = [*group] * 2

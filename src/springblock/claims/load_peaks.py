@@ -104,9 +104,9 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
-    peaks or on average from one peak to the other. In the quietest 0.01 t_avg it does so on
-    surfaces without two load peaks, too.
+    """Tested: the detachment rate falls below half its mean from the first detachment to the last,
+    in the quietest 0.05 t_avg between the peaks or on average from one peak to the other. In the
+    quietest 0.01 t_avg it does so on surfaces without two load peaks, too.
     """
     name = "the detachment rate between the load peaks over the mean rate"
     for part, quantity in (
@@ -134,17 +134,19 @@ def edges_make_first_peak(peaks: Peaks) -> float:
     return share_detached(peaks, edge)
 
 
-@mean_over(_grooved, f"the share of blocks off the edges at rest {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_over(
+    _grooved, f"the share of core blocks that have not detached {_AT_VALLEY}", ranges.NEARLY_ALL
+)
 def rest_between_peaks(peaks: Peaks) -> float:
-    """Tested: at the lowest force between the peaks more than nine tenths of the blocks off the
-    edges have yet to detach.
+    """Tested: at the lowest force between the peaks more than nine tenths of the core blocks have
+    not yet detached.
     """
     return 1.0 - share_detached(peaks, core)
 
 
 @mean_over(
     _grooved,
-    "the number of further slips between the load peaks per block detached by then",
+    "the number of further slips between the load peaks per block detached at the lowest force",
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
@@ -179,8 +181,8 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth of the excess of static friction over the mean
-    mu_dynamic. The growth is below a tenth of the lowest force in every run, and can hardly be
-    larger: the whole excess is little more.
+    mu_dynamic. Divided by the lowest force, the growth is below a tenth in every run; it can hardly
+    be larger, since the whole excess is little more than a tenth of that force.
     """
     run = peaks.run
     detached = np.searchsorted(run.time, np.nanquantile(run.t_det, 0.9))
@@ -201,9 +203,9 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: at equal pillar length the interval is shorter with wider pawls, on surfaces where
-    most runs have two peaks. An interval that only grows with pillar length would not require the
-    difference.
+    """Tested: at equal pillar length the time between the peaks is shorter with wider pawls, on
+    surfaces where most runs have two peaks. A time that only grows with pillar length would not
+    require the difference.
     """
     found = twice_peaked(surfaces.grooved(evidence.records))
     n_p, n_p2 = (np.array([float(getattr(s, name)) for s in found]) for name in ("n_p", "n_p2"))

@@ -110,14 +110,18 @@ def _deciding(part: Sequence[Row]) -> Row | None:
     return choose((row for row in part if row["outcome"] == kind), key=key)
 
 
-def _clearness(row: Row) -> float:
-    """Return the distance from the nearest limit of the range over the arm that points there."""
+def _clearness(row: Row) -> tuple[float, float]:
+    """Return the margin to the nearest limit over the arm of the interval, and the margin itself.
+
+    Exact values have no arm, and the margin alone orders them.
+    """
     value, low, high = row["value"], row["together_low"], row["together_high"]
     ways = []
     for limit in (row["claimed_low"], row["claimed_high"]):
         if math.isfinite(limit):
             arm = value - low if limit < value else high - value
-            ways.append(abs(value - limit) / arm if arm > 0.0 else math.inf)
+            margin = abs(value - limit)
+            ways.append((margin / arm if arm > 0.0 else math.inf, margin))
     return min(ways)
 
 

@@ -139,8 +139,8 @@ def inside(run: Record) -> Array:
 def nucleation_near_edge(run: Record) -> float:
     """Tested: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach lies in the outer quarter of the area. The verdict is the same inside 1 to 4 rings and
-    for patches of 2 to 5 blocks a side; on the flat surface the first patch lies half way to the
-    centre.
+    for patches of 2 to 5 blocks a side; on the flat surface about half of all positions are nearer
+    to the edge than the first patch.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
@@ -277,8 +277,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     friction is within the numerical bias, 0.001, of the lowest are candidates. With another scatter
     only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the distance
     between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). With a
-    scatter of 0.02 or 0.05 it is nearly the side of these pillars. Fitted at n_p = 20 it leaves
-    these cases open; fitted at n_p = 10 they hold.
+    scatter of 0.02 or 0.05 it is nearly the side of these pillars. With l_c fitted at n_p = 20
+    these cases are open; with l_c fitted at n_p = 10 they hold.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -338,28 +338,28 @@ def _larger_there(
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: there are more precursors where static friction is lowest than at every other pillar
-    size. All sizes whose static friction is within the numerical bias, 0.001, of the lowest are
-    candidates; an interval covers all of them, without an upper end where they differ in sign.
-    In 80 realisations of each, static friction at n_p = 6 is lower than at 7 by 0.0008 with the
-    default step, and by 0.0003 with 5e-9 s. More realisations with the default step cannot decide
-    which is lower; about 1000 with 5e-9 s could. If friction is lowest at 6 the statement fails, if
-    at 7 it holds.
+    size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
+    candidates; an interval encloses those of all candidates, without an upper limit where they
+    differ in sign. In 80 realisations of each, static friction at n_p = 6 is lower than at 7 by
+    0.0008 with the default step, and by 0.0003 with 5e-9 s. More realisations with the default step
+    cannot decide which is lower; about 1000 with 5e-9 s could. If friction is lowest at 6 the
+    statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: over t_avg, the force peak is wider where static friction is lowest than on the
-    smallest and on the largest pillars. All sizes whose static friction is within the numerical
-    bias, 0.001, of the lowest are candidates.
+    """Tested: the width of the force peak, divided by t_avg, is larger where static friction is
+    lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
+    within the numerical bias, 0.001, of the lowest are candidates.
     """
     return _larger_there(evidence, f"{_SUPPORTED}, over t_avg,", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: over t_avg, the transition lasts longer where static friction is lowest than on the
-    smallest and on the largest pillars. All sizes whose static friction is within the numerical
-    bias, 0.001, of the lowest are candidates.
+    """Tested: the duration of the transition, divided by t_avg, is larger where static friction is
+    lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
+    within the numerical bias, 0.001, of the lowest are candidates.
     """
     name = "the time from a tenth to nine tenths of the detachments, over t_avg,"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

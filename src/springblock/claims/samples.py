@@ -202,9 +202,9 @@ def lasting(run: Run) -> float:
 
 
 def isolated(run: Run) -> float:
-    """Return the share of blocks detached before t_max while all neighbours were at rest.
+    """Return the share of the blocks detached before t_max that detach before all neighbours.
 
-    Blocks that never detach, NaN, count as resting.
+    Blocks that never detach, NaN, count as later.
     """
     alone = np.all(~(neighbours(run.t_det, np.inf) < run.t_det), axis=0)
     return share_of(alone, run.t_det < run.t_max)

@@ -249,7 +249,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
     the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
-    c(r = 1) exceeds when sliding along the grooves. Across the grooves it is small, but not zero.
+    c(r = 1) exceeds when sliding along the grooves. Across the grooves it is small.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         found = _correlations(evidence.correlation[across(scene)])[side, 1]

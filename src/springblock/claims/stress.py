@@ -59,9 +59,7 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves. Grooves
-    that cross the whole surface have the same effect.
-    """
+    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves."""
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
@@ -150,7 +148,9 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
 
 
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: by the stress component along the sliding direction."""
+    """Tested: the mean stress component along the sliding direction is larger on the external sides
+    than on those along the grooves.
+    """
     for scene in slid_both_ways(evidence.stress):
         forces = _along(evidence, scene)
         parts = {n: float(forces[mask].mean()) for n, mask in surfaces.grooved_parts(scene).items()}

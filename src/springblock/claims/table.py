@@ -39,8 +39,8 @@ SCHEMA = pa.schema(
         ),
         *numbers(
             "1",
-            needed="realisations that decide with a power of 90 %, if value and standard deviation "
-            "are the true ones",
+            needed="realisations, or surfaces (column sample), that decide with a power of 90 % if "
+            "value and standard deviation are the true ones",
         ),
         *texts(
             verdict="verdict on the statement, from all its rows",

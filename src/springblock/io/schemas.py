@@ -40,7 +40,12 @@ SCENE = pa.schema(
         column("n_s", pa.int32(), "blocks", "distance between pillars; 0 without pillars"),
         column("n_p2", pa.int32(), "blocks", "width of a pawl; 0 without grooves"),
         column("n_s2", pa.int32(), "blocks", "width of a groove; 0 without grooves"),
-        column("n_p3", pa.int32(), "blocks", "length of a pawl between grooves of level 3, or 0"),
+        column(
+            "n_p3",
+            pa.int32(),
+            "blocks",
+            "size of the parts of a pawl between grooves of level 3, or 0",
+        ),
         column("n_s3", pa.int32(), "blocks", "width of a groove of level 3, or 0"),
         column("along_3", pa.string(), "x or y", "direction of the grooves of level 3, or ''"),
         column("varied", pa.string(), "name=value", "constants that differ from the study's"),
@@ -99,7 +104,7 @@ SUMMARY = pa.schema(
             pa.float64(),
             "1",
             "mean friction force over the normal force, from the first minimum after the peak to "
-            "the end of the run, which must be well beyond t_max; NaN without a minimum",
+            "the end of a run that lasts well beyond t_max; NaN without a minimum",
         ),
         column("t_max", pa.float64(), "s", "time of the force peak"),
         column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
@@ -186,7 +191,7 @@ BATCH = pa.schema(
             "s",
             "time of first detachment of each block, row by row from y = 0; NaN without one",
         ),
-        column("normal_force", pa.float64(), "N", "normal force P l² N²"),
+        column("normal_force", pa.float64(), "N", "normal force P l² N_x N_y"),
         column(
             "contact",
             pa.list_(pa.bool_()),

@@ -52,7 +52,12 @@ FRICTION = pa.schema(
 PEAKS = pa.schema(
     [
         *_SAME,
-        column("trained", pa.bool_(), "1", "whether the prediction was chosen on this surface"),
+        column(
+            "trained",
+            pa.bool_(),
+            "1",
+            "whether the prediction was chosen on surfaces with this one",
+        ),
         *numbers(
             "%",
             predicted="predicted prominence of the lesser load peak",

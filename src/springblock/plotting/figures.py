@@ -108,9 +108,9 @@ FIGURES: dict[str, Declaration] = {
         title="Force and detachments, grooved pillars",
         module="paper_results",
         caption="""Left: friction force over the normal force; right: share of first detachments per
-        bin; against time, once a force has reached 80 % of its maximum. Grooved pillars, sliding
-        along and across the grooves; a row for each width of pawls and grooves, n_p2/n_s2. Figure 9
-        of the paper, which does not give its sizes.""",
+        bin; against time, from the moment at which one of the mean forces of a row reaches 80 % of
+        its maximum. Grooved pillars, sliding along and across the grooves; a row for each width of
+        pawls and grooves, n_p2/n_s2. Figure 9 of the paper, which does not give its sizes.""",
         groups=("grooves",),
         keys=PATTERN,
         marks=f"""Thin lines: the first {SINGLE} realisations; thick lines: means; bands:
