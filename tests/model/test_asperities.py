@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from springblock import Material, draw_friction
+from springblock import Material, Surface, draw_friction
 from springblock.model.asperities import check_draws, distribution, log_share_above
 
 PAPER = Material()
@@ -98,7 +98,9 @@ def test_a_distribution_has_the_mean_and_scatter_that_are_asked_for(kind, scatte
 def test_the_autocorrelation_is_gaussian_and_crosses_periodic_edges_only(periodic):
     """exp(-r²/ℓ²), within four standard errors of 200 surfaces of about (30/ℓ)²/π areas each."""
     material = replace(PAPER, correlation_length=4e-5)
-    draws = np.array([draw_friction(30, seed, material, periodic)[0] for seed in range(200)])
+    flat = np.ones((30, 30), bool)
+    surfaces = [Surface.draw(flat, seed, material, periodic) for seed in range(200)]
+    draws = np.array([surface.mu_static for surface in surfaces])
     z = (draws - 1.0) / 0.1
     bound = 4 / np.sqrt(200 * 30**2 / (np.pi * 4.0**2))
     for r in (1, 2, 4, 6, 12):

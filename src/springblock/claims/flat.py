@@ -241,7 +241,8 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     """Tested: in the core (here the blocks 10 or more from the edge), position explains less than a
     fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
     of a standard deviation, a small effect. The verdict is the same for the two outermost rings;
-    with a bound above 0.38 the statement would hold.
+    with a bound above 0.38 the statement would hold. As a general statement it would be reproduced
+    in part.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"

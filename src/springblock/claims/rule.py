@@ -107,7 +107,8 @@ def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
     - One failing case refutes a universal claim; one that holds suffices for an existential one.
     - A general claim with cases that hold and cases that fail is "reproduced in part".
     - Without a failing case it is "not settled" while a case is open, and else "reproduced".
-    - It is "not reproduced" where cases fail and none holds, and "not tested" without findings.
+    - It is "not reproduced" where cases fail and none holds; an existential one only if all fail.
+    - It is "not tested" without findings.
     """
     if not findings:
         return "not tested", ""
