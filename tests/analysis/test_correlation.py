@@ -138,6 +138,9 @@ def test_distances_count_by_their_inverse_variance():
     for fit, function in ((fit_length, misfit), (fit_tail, left)):
         best = minimize_scalar(function, bounds=(0.5, 20.0)).x
         assert fit(curve[None], error)[0] == pytest.approx(best, rel=1e-3)
+    decay, weight = np.exp(-r / 2.0), error**-2
+    least_squares = (weight * curve) @ decay / (weight @ decay**2)
+    assert amplitude(curve[None], error, np.array([2.0])) == pytest.approx(least_squares)
 
 
 def test_sides_are_the_outer_rows_and_columns_of_the_pillars():

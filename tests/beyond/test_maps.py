@@ -23,6 +23,13 @@ def test_prominence_is_the_depth_between_two_hills():
         np.testing.assert_allclose(angles[angle], expected, atol=0.1)
 
 
+def test_of_equal_grooves_the_ensemble_with_the_most_realisations_counts():
+    many, few = grooves({"x": 0.95}, runs=6), grooves({"x": 0.92}, runs=3)
+    larger = {replace(scene, n_blocks=72): runs for scene, runs in few.items()}
+    for both in (many | larger, larger | many):
+        assert len(peaks.by_grooves(both)[Grooves(0, 2, 4)][0.0]) == 6
+
+
 def test_the_page_counts_surfaces_with_more_along_than_across():
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
     conclusion, hierarchy, table = peaks.answers(made)

@@ -314,6 +314,19 @@ def test_edges_are_half_of_narrow_pawls(pawls, expected):
     assert found.outcome(1) == expected
 
 
+def test_the_interval_of_a_size_over_l_c_includes_all_sizes_that_may_have_the_lowest_friction(
+    monkeypatch,
+):
+    monkeypatch.setattr("springblock.claims.pillars._COMPARED", (2, 6, 24))
+    evidence, found = paper.evidence(records()), []
+    for chosen in (slice(0, 1), slice(1, 2), slice(0, 2)):
+        monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, s, c=chosen: s[c])
+        found.append([each.estimate for each in BY_NAME["size_like_length"].test(evidence)])
+    for small, large, either in zip(*found, strict=True):
+        assert (either.ci_low, either.ci_high) == (small.ci_low, large.ci_high)
+    assert len(found[0]) == 2
+
+
 @pytest.mark.parametrize(("lowest", "expected"), [(1, "reproduced"), (2, PARTLY)])
 def test_where_friction_is_lowest_is_compared_with_l_c_for_every_scatter(
     lowest, expected, monkeypatch

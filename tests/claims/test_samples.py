@@ -149,7 +149,7 @@ def test_mixed_sides_keep_each_place_and_take_it_from_another_realisation():
 
 
 def test_of_several_load_peaks_the_two_most_prominent_count():
-    small = peaks((100.0, 0.64), (220.0, 0.62), (300.0, 0.65), (345.0, 0.63))
+    small = peaks((100.0, 0.64), (220.0, 0.62), (300.0, 0.65), (345.0, 0.645))
     run = paper.record(ALONG, 0)
     found = both_peaks(replace(run, **small(run)))
     assert (found.first, found.second) == (100, 300)

@@ -106,6 +106,10 @@ def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(
     assert "by seed" in springblock("compare", batch(0, 2), batch(0, 2, "--vary", spaced))
     two = batch(0, 2, *length), batch(0, 2, *length, "--vary", spaced)
     assert "of means" in springblock("compare", *two)
+    for rows in (10, 12):
+        np.save(tmp_path / f"{rows}.npy", np.ones((rows, 12), bool))
+    surfaces = (batch(0, 1, "--mask", tmp_path / f"{rows}.npy") for rows in (10, 12))
+    assert "of means" in springblock("compare", *surfaces)
     for i, file in enumerate((batch(0, 2), batch(0, 2, "--vary", "slider_velocity=1e-3"))):
         (tmp_path / f"{i}.parquet").write_bytes(file.read_bytes())
     said = springblock("compare", tmp_path, batch(0, 2))

@@ -1,5 +1,7 @@
 """Models of the onset of sliding: closed forms of few blocks, and the simulation as their limit."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -99,6 +101,19 @@ def test_a_block_that_overshoots_rests_at_half_of_its_stress():
     s = 1.0 + min(until_again, until_second)
     assert curve.slider[:2] * K_S == pytest.approx([1.0, s])
     assert curve.force[:2] == pytest.approx([2.0, left + loaded + 2.0 * (s - 1.0)])
+
+
+def test_of_two_overloaded_blocks_that_with_the_largest_ratio_to_its_threshold_slips_first():
+    """The first block loads the second and the third, and the fourth shows what is left."""
+    coupling = np.diag([3.0, 3.0, 3.0, 1.0])
+    coupling[:3, :3] -= np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 0.5], [1.0, 0.5, 0.0]])
+    pull = np.array([1.0, 1.0, 3.0, 1.0])
+    four = SimpleNamespace(stiffness=np.kron(np.eye(2), coupling), pull=np.r_[pull, 0.0 * pull])
+    curve = overshooting(four, np.array([1.0, 1.1, 3.05, 1.1]), np.array([0.7, 0.9, 2.8, 0.8]))
+    force = np.array([1.0, 1.0, 3.0])
+    for block, left in ((0, 0.4), (1, 0.7), (2, 2.55)):  # overloaded by 0.10 of 1.1, 0.15 of 3.05
+        force -= coupling[:3, block] * (force[block] - left) / 3.0
+    assert curve.force[1] == pytest.approx(force.sum() + 0.1 * pull[:3].sum() + 1.1)
 
 
 @pytest.mark.parametrize("model", MODELS)

@@ -145,6 +145,10 @@ def test_impossible_distributions_are_refused_without_drawing(constants, sentenc
             refused()
 
 
+def test_thresholds_may_be_correlated_over_the_longer_side_of_a_rectangle():
+    check_draws((8, 4), replace(PAPER, correlation_length=7.9e-5))
+
+
 @pytest.mark.parametrize("kind", ["normal", "lognormal", "weibull", "uniform"])
 def test_the_probability_of_a_threshold_is_the_share_of_draws(kind):
     """Within four standard errors; where nothing holds its logarithm is minus infinity."""
