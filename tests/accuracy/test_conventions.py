@@ -16,7 +16,7 @@ def test_the_ensemble_error_falls_with_the_root_of_the_number_of_seeds():
 
 
 def test_a_residual_ten_times_that_of_its_scene_is_suspect():
-    assert suspects(rows([1e-5, -3e-5, 2e-5]) + rows([1e-4, 3e-4], n_p=6), ["n_p"]) == []
+    assert suspects(rows([1e-6, -3e-5, 3e-5]) + rows([1e-4, 3e-4], n_p=6), ["n_p"]) == []
     (row,) = suspects(rows([1e-5, -1e-5, 1e-5, 2e-5, 1.2e-4]) + rows([1.2e-4] * 3, n_p=6), ["n_p"])
     assert (row["n_p"], row["seed"]) == (20, 4)
 
