@@ -99,7 +99,11 @@ def test_a_periodic_surface_has_no_edges(case, shift):
     def roll(field):
         return np.roll(field, shift, axis=(0, 1))
 
-    assert_moved(case.run(), case._replace(surface=moved(case.surface, roll)).run(), roll)
+    watched = {"snapshot_times": [25 * case.setup.sample_interval]}
+    run = case.run(**watched)
+    shifted = case._replace(surface=moved(case.surface, roll)).run(**watched)
+    assert_moved(run, shifted, roll)
+    np.testing.assert_array_equal(shifted.fields.stress, np.roll(run.fields.stress, shift, (2, 3)))
 
 
 @given(cases(), st.integers(-20, 20))
