@@ -186,7 +186,9 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: l_c of exp(-r/l_c) is larger on the largest pillars than at n_p = 20."""
+    """Tested: l_c of exp(-r/l_c) is larger on the largest pillars than at n_p = 20. With the length
+    of A exp(-r/l_c) the case would be open.
+    """
     found = pillars(evidence.correlation_length, _BROAD)
     lengths = {scene.n_p: _lengths(rows)["x"] for scene, rows in found.items()}
     if len(lengths) < 2:
