@@ -75,8 +75,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
             "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
             f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
             f"and less prominent in {less or 'none'}. In the {len(two)} cases in which its "
-            f"prominence exceeds {_TWO:g} % on both, it is more prominent on pillars in "
-            f"{more_of_two or 'none'} and less prominent in {less_of_two or 'none'}."
+            f"prominence exceeds {_TWO:g} % on both, the differences are significant in "
+            f"{more_of_two + less_of_two or 'none'}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
