@@ -89,7 +89,6 @@ def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
         (["--last-seed", 2], "--last-seed 2 is below --first-seed 3"),
         (["--step", 1e-6], "step = 1e-06 s is unstable: leapfrog needs less than 9.562e-08 s"),
         (["--last-seed", 10**7], "9999998 seeds in a batch; choose up to 1000000"),
-        (["--material", "pressure=1e300"], "too short for a loading time of 3.311e+291 s"),
         (["--duration", 1e300], "for a duration of 1e+300 s: 5e+307 steps of 36 blocks"),
         (["--duration", 2e3], "sample_interval = 2e-07 s is too short for a duration of 2000 s"),
         (["--fields", "a.nc"], "--fields a.nc needs times: give one or more with --snapshot"),
