@@ -67,17 +67,16 @@ def test_the_form_of_a_claim_says_what_its_cases_decide(intervals, universal, ge
 
 
 @pytest.mark.parametrize(
-    ("other", "expected"), [(HOLDS, "reproduced"), (FAILS, "not reproduced"), (OPEN, "not settled")]
+    ("intervals", "expected"),
+    [
+        ([HOLDS, HOLDS], "reproduced"),
+        ([HOLDS, FAILS], "not reproduced"),
+        ([HOLDS, OPEN], "not settled"),
+        ([FAILS, OPEN], "not reproduced"),
+    ],
 )
-def test_all_findings_of_a_case_must_hold(other, expected):
-    assert verdict("general", [finding(*HOLDS, n_p=6), finding(*other, n_p=6)])[0] == expected
-
-
-def test_one_failing_finding_decides_its_case():
-    """Whether others of the same case hold or are open."""
-    for other in (HOLDS, OPEN):
-        findings = [finding(*FAILS, n_p=6), finding(*other, n_p=6)]
-        assert verdict("universal", findings)[0] == "not reproduced"
+def test_all_findings_of_a_case_must_hold_and_one_that_fails_decides_it(intervals, expected):
+    assert verdict("general", [finding(*each, n_p=6) for each in intervals])[0] == expected
 
 
 def test_a_verdict_needs_findings_that_hold_jointly():

@@ -29,7 +29,6 @@ from springblock.claims.sides import (
     misfits,
     mixed,
     paired_difference,
-    unpaired_difference,
 )
 from springblock.claims.surfaces import edge, grooved_parts
 
@@ -90,12 +89,9 @@ def test_a_magnitude_may_be_as_large_as_the_further_end_of_its_interval():
         assert (found.ci_low, found.ci_high) == expected
 
 
-def test_differences_of_intervals_add_errors_or_their_squares():
+def test_differences_of_the_same_runs_add_errors():
     first, second = Estimate(5.0, 2.0, 6.0, 20), Estimate(1.0, 0.0, 5.0, 10)
     assert paired_difference(first, second) == Estimate(4.0, -3.0, 6.0, 10)
-    found = unpaired_difference(first, second)
-    limits = (found.value, found.ci_low, found.ci_high)
-    assert limits == pytest.approx((4.0, -1.0, 4.0 + 2.0**0.5))
 
 
 def test_the_first_patch_is_placed_from_the_edge_to_the_centre():

@@ -8,6 +8,8 @@ import pytest
 from scipy.stats import ttest_1samp, ttest_ind
 
 from springblock import read
+from springblock.analysis.statistics import mean_interval
+from springblock.beyond.question import number
 
 
 def written(file):
@@ -31,6 +33,8 @@ def test_a_row_holds_the_mean_of_an_ensemble_with_its_interval(springblock, batc
         assert float(row["t_max"]) == pytest.approx(values.mean(), rel=1e-14)
         limits = [float(row[f"t_max_{end}"]) for end in ("low", "high")]
         assert limits == pytest.approx(list(exact), rel=1e-10)
+        assert number(mean_interval([run.static_friction for run in read(file)])) in said
+        assert number(mean_interval(values), factor=1e6) in said
 
 
 def test_realisations_are_gathered_by_any_name_and_count_once(springblock, batch, tmp_path):
@@ -63,6 +67,7 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
     assert f"slider_velocity: 0.0005 in {slow}, 0.001 in {fast}" in said
     (row,) = written(output)
     assert row["difference"] == ("by seed" if paired else "of means")
+    assert row["runs"] == f"3, {seeds[1] - seeds[0] + 1}"
     one, other = (np.array([run.static_friction for run in read(file)]) for file in (slow, fast))
     test = ttest_1samp(other - one, 0.0) if paired else ttest_ind(other, one, equal_var=False)
     exact = [other.mean() - one.mean(), *test.confidence_interval()]
@@ -75,17 +80,17 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
 
 
 def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch, tmp_path):
-    """By velocity alone: the change of a seed is its mean over both dampings."""
+    """By velocity alone: from the lowest to the highest, the mean over both dampings."""
     files = [
         batch(0, 2, "--vary", f"slider_velocity={speed}", "--vary", f"gamma={gamma}")
-        for speed in ("5e-4", "1e-3")
+        for speed in ("7e-4", "1e-3", "5e-4")
         for gamma in ("0", "5e3")
     ]
     output, by = tmp_path / "by.csv", ("--by", "slider_velocity", "--of", "t_avg")
     springblock("table", *files, "--changes", *by, "--output", output)
     (row,) = written(output)
     times = np.array([[run.t_avg for run in read(file)] for file in files])
-    by_seed = times[2:].mean(axis=0) - times[:2].mean(axis=0)
+    by_seed = times[2:4].mean(axis=0) - times[4:].mean(axis=0)
     exact = ttest_1samp(by_seed, 0.0).confidence_interval()
     found = [float(row[f"t_avg_{end}"]) for end in ("low", "high")]
     assert found == pytest.approx(list(exact), rel=1e-9)

@@ -109,16 +109,3 @@ def test_contact_is_read_only():
 def test_a_level_that_does_not_fit_is_refused(build, message):
     with pytest.raises(ValueError, match=message):
         build()
-
-
-def test_lengths_count_whole_blocks():
-    with pytest.raises(TypeError, match="N must be a whole number"):
-        Pattern.flat(4.0)
-    with pytest.raises(TypeError, match="n_p must be a whole number"):
-        Pattern.pillars(12, 4.0, 2)
-    with pytest.raises(TypeError, match="n_s2 must be a whole number"):
-        Pattern.flat(12).grooved(4, 4.0)
-
-
-def test_whole_numbers_of_numpy_are_accepted():
-    assert Pattern.pillars(np.int64(12), np.int32(4), np.uint8(2)) == Pattern.pillars(12, 4, 2)

@@ -71,20 +71,6 @@ def test_a_weak_block_makes_a_run_start_from_an_earlier_state(prelude):
     assert answer(simulate(scene, prelude=prelude)) == answer(simulate(scene))
 
 
-@pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
-@pytest.mark.parametrize("times", [[4e-6, 1e-4], [1.3e-4, 1.5e-4]])
-def test_fields_are_those_of_the_run_from_zero(integrator, times):
-    """A run starts before its first snapshot."""
-    setup, scene = Setup(integrator=integrator), drawn(PILLARS, seed=1)
-    prelude = compute_prelude(PILLARS.contact, setup)
-    how = {"setup": setup, "duration": 1.6e-4, "snapshot_times": times}
-    assert skipped(prelude, scene) * 2e-7 > 6e-5
-    skipping, plain = simulate(scene, **how, prelude=prelude), simulate(scene, **how)
-    assert plain.fields.slip[1, PILLARS.contact].any() == (times[1] > 1e-4)
-    for name in ("displacement", "velocity", "stress"):
-        assert getattr(skipping.fields, name).tobytes() == getattr(plain.fields, name).tobytes()
-
-
 def test_a_snapshot_may_be_taken_where_the_prelude_ends(prelude):
     scene = drawn(PILLARS, seed=1)
     how = {"duration": 1.6e-4, "snapshot_times": [skipped(prelude, scene) * 2e-7]}

@@ -37,14 +37,8 @@ _LENGTHS = np.geomspace(0.1, 1000.0, 922)
 def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
     """First detachment times along the sides of pillars that run along `side`, "x" or "y".
 
-    Returns
-    -------
-    (k, pillars, 2, n_p) s: for k runs, the rows y_p = 0 and n_p - 1 (columns x_p for "y").
-
-    Raises
-    ------
-    ValueError
-        If any block of a side is not in contact, or never detached.
+    (k, pillars, 2, n_p) s: for k runs, the rows y_p = 0 and n_p - 1 (columns x_p for "y"). Blocks
+    of a side that are not in contact, or never detached, are a ValueError.
     """
     edges = np.array([0, pattern.levels[0].size - 1])
     along = np.arange(pattern.levels[0].size)
@@ -58,14 +52,8 @@ def side_times(runs: Sequence[Run], pattern: Pattern, side: str) -> Array:
 def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
     """First detachment times along the edges of the grooves along x within pillars.
 
-    Returns
-    -------
-    (k, pillars, edges, n_p) s: for k runs, the rows on both sides of every groove.
-
-    Raises
-    ------
-    ValueError
-        If there are no such grooves, or any block of an edge never detached.
+    (k, pillars, edges, n_p) s: for k runs, the rows on both sides of every groove. Pillars without
+    such grooves, and blocks of an edge that never detached, are a ValueError.
     """
     if len(pattern.levels) != 2 or pattern.levels[1].along != "x":
         raise ValueError("the pillars have no uncut grooves along x")
@@ -126,18 +114,10 @@ class Length(NamedTuple):
 class Correlation:
     """Correlation along the sides of pillars in k realisations.
 
-    Parameters
-    ----------
-    times
-        (k, pillars, 2, n_p) s, from `side_times`.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than three realisations, or they do not differ.
+    Fewer than three realisations, or realisations that do not differ, are a ValueError.
     """
 
-    times: Array
+    times: Array  #: (k, pillars, 2, n_p) s, from `side_times`
 
     def __post_init__(self) -> None:
         if len(self.times) < 3:

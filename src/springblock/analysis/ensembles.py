@@ -66,12 +66,7 @@ def _known(values: np.ndarray) -> np.ndarray:
 def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
     """Group rows of the table `realisations` by scene and constants, or by the names `by` only.
 
-    Repeated realisations count once.
-
-    Raises
-    ------
-    ValueError
-        If there is no such name.
+    Repeated realisations count once. An unknown name in `by` is a ValueError.
     """
     once = {(*_names(row).items(), row["seed"]): row for row in rows}
     found: dict[tuple[object, ...], Ensemble] = {}

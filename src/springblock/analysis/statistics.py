@@ -198,10 +198,7 @@ def repeatability(fields: Array) -> Interval:
 def cut(runs: Sequence[Run], curves: Sequence[Array]) -> tuple[Array, Array]:
     """Cut curves to the shortest one; return time in s, (n,), and curves, (runs, n).
 
-    Raises
-    ------
-    ValueError
-        If the runs differ in their sample interval.
+    Runs that differ in their sample interval are a ValueError.
     """
     n = min(len(curve) for curve in curves)
     time = runs[0].time[:n]
@@ -265,12 +262,8 @@ def mean_of_rest(values: Array) -> Interval:
 def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
     """Return t_det/t_max by position on a pillar, [y_p, x_p], averaged over pillars; (k, n_p, n_p).
 
-    NaN if a block of any pillar is not in contact or never detached. Section 3.2, figure 5.
-
-    Raises
-    ------
-    ValueError
-        If the surface is flat.
+    NaN if a block of any pillar is not in contact or never detached. A flat surface is a
+    ValueError. Section 3.2, figure 5.
     """
     if not pattern.levels:
         raise ValueError("the surface is flat; it has no pillars to average over")

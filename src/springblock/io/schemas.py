@@ -13,6 +13,11 @@ def numbers(unit: str, **meanings: str) -> list[pa.Field]:
     return [column(name, pa.float64(), unit, meaning) for name, meaning in meanings.items()]
 
 
+def lists(kind: pa.DataType, unit: str, **meanings: str) -> list[pa.Field]:
+    """Return columns of lists with the same type and unit."""
+    return [column(name, pa.list_(kind), unit, meaning) for name, meaning in meanings.items()]
+
+
 def texts(**meanings: str) -> list[pa.Field]:
     """Return columns of text."""
     return [column(name, pa.string(), "1", meaning) for name, meaning in meanings.items()]
@@ -96,15 +101,12 @@ SUMMARY = pa.schema(
         *SCENE,
         *SETUP,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
-        column(
-            "static_friction", pa.float64(), "1", "largest friction force over the normal force"
-        ),
-        column(
-            "dynamic_friction",
-            pa.float64(),
+        *numbers(
             "1",
-            "mean friction force over the normal force, from the first minimum after the peak to "
-            "the end of a run that lasts well beyond t_max; NaN without a minimum",
+            static_friction="largest friction force over the normal force",
+            dynamic_friction="mean friction force over the normal force, from the first minimum "
+            "after the peak to the end of a run that lasts well beyond t_max; NaN without a "
+            "minimum",
         ),
         column("t_max", pa.float64(), "s", "time of the force peak"),
         column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
@@ -141,12 +143,7 @@ CORRELATION = pa.schema(
 CORRELATION_LENGTH = pa.schema(
     [
         *_SIDE,
-        column(
-            "l_c",
-            pa.float64(),
-            "blocks",
-            "correlation length: weighted least-squares fit of exp(-r/l_c)",
-        ),
+        *numbers("blocks", l_c="correlation length: weighted least-squares fit of exp(-r/l_c)"),
         *_limits("ci", "blocks"),
         column(
             "r_last",
@@ -154,11 +151,9 @@ CORRELATION_LENGTH = pa.schema(
             "blocks",
             "last r of the fits, which begin at r = 1: 6, or n_p/3 on sides of less than 20 blocks",
         ),
-        column(
-            "tail",
-            pa.float64(),
+        *numbers(
             "blocks",
-            "decay length: the same fit with A exp(-r/tail) and A free; NaN if r_last < 3",
+            tail="decay length: the same fit with A exp(-r/tail) and A free; NaN if r_last < 3",
         ),
         *_limits("tail", "blocks"),
         column("amplitude", pa.float64(), "1", "A in A exp(-r/tail)"),
@@ -170,47 +165,32 @@ CORRELATION_LENGTH = pa.schema(
 BATCH = pa.schema(
     [
         *SUMMARY,
-        column(
-            "force", pa.list_(pa.float64()), "N", "friction force |ΣF_s|, one per sample from t = 0"
-        ),
-        column(
-            "detachments",
-            pa.list_(pa.int32()),
+        *lists(pa.float64(), "N", force="friction force |ΣF_s|, one per sample from t = 0"),
+        *lists(
+            pa.int32(),
             "blocks",
-            "blocks that detached for the first time since the previous sample",
+            detachments="blocks that detached for the first time since the previous sample",
+            switches="detachments since the previous sample, repeated ones included",
         ),
-        column(
-            "switches",
-            pa.list_(pa.int32()),
-            "blocks",
-            "detachments since the previous sample, repeated ones included",
-        ),
-        column(
-            "t_det",
-            pa.list_(pa.float64()),
+        *lists(
+            pa.float64(),
             "s",
-            "time of first detachment of each block, row by row from y = 0; NaN without one",
+            t_det="time of first detachment of each block, row by row from y = 0; NaN without one",
         ),
         column("normal_force", pa.float64(), "N", "normal force P l² N_x N_y"),
-        column(
-            "contact",
-            pa.list_(pa.bool_()),
-            "1",
-            "whether each block is in contact, row by row from y = 0",
-        ),
+        *lists(pa.bool_(), "1", contact="whether each block is in contact, row by row from y = 0"),
     ]
 )
 
 #: Further columns of a batch with snapshots.
 SNAPSHOTS = pa.schema(
     [
-        column("snapshot_times", pa.list_(pa.float64()), "s", "times of the snapshots"),
-        column(
-            "snapshots",
-            pa.list_(pa.float64()),
+        *lists(pa.float64(), "s", snapshot_times="times of the snapshots"),
+        *lists(
+            pa.float64(),
             "m",
-            "displacements at these times, in turn: the components along x, row by row from y = 0, "
-            "then those along y",
+            snapshots="displacements at these times, in turn: the components along x, row by row "
+            "from y = 0, then those along y",
         ),
     ]
 )

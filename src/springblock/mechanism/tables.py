@@ -13,7 +13,6 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 from scipy.ndimage import binary_erosion
-from scipy.sparse import csc_array
 from tqdm import tqdm
 
 from springblock.analysis.statistics import prominence
@@ -139,9 +138,9 @@ def budget_rows(surface: Scene) -> Iterator[Row]:
     layer, load = Layer(held, material), normal_force / np.count_nonzero(contact)
     edge_share = np.count_nonzero(edges) / np.count_nonzero(contact)
     for same, drawn, run in _runs(surface, SEEDS_OF_GROOVES, snapshot_times=list(_TIMES)):
-        forces = [
-            elastic_force(stiffness, each, material.k_s * slider, axis)
-            for each, slider in zip(run.snapshots, way, strict=True)
+        forces = [  # of all springs on each block, along `direction`: s K_s - K u, (N_y, N_x) N
+            material.k_s * slider - (stiffness @ moved.ravel()).reshape(moved.shape)[axis]
+            for moved, slider in zip(run.snapshots, way, strict=True)
         ]
         simulated = {
             name: [force[of].sum() / normal_force for force in forces]
@@ -162,16 +161,6 @@ def budget_rows(surface: Scene) -> Iterator[Row]:
 def edge_blocks(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return the blocks in contact beside one without, along x or y, (N_y, N_x)."""
     return contact & ~binary_erosion(contact, border_value=1)
-
-
-def elastic_force(stiffness: csc_array, displacement: Array, pull: float, axis: int) -> Array:
-    """Return the force of all springs along `axis`, 0 for x, on each block, (N_y, N_x) N.
-
-    Displacements are (2, N_y, N_x) m; `pull` is the force of the slider on a block at its initial
-    position, N.
-    """
-    force = -stiffness @ displacement.ravel()
-    return np.asarray(force.reshape(displacement.shape)[axis] + pull)
 
 
 def _runs(

@@ -62,8 +62,11 @@ def work_precision(table: DataFrame, production: DataFrame | None = None) -> Fig
     is_reference = table.comparison == "reference"
     single = table[is_reference & (table.quantity == "t_det before horizon")]
     ensembles = table[~is_reference & (table.quantity == "static_friction")]
-    for row in (times, biases):
-        style.share_axes(row)
+    for left, *others in (times, biases):  # the same axes, with numbers at the left only
+        for ax in others:
+            ax.sharex(left)
+            ax.sharey(left)
+            ax.tick_params(labelleft=False)
     for scene, upper, lower in zip(SCENES, times, biases, strict=True):
         runs, paired = single[single.scene == scene], ensembles[ensembles.scene == scene]
         _draw_costs(upper, runs)

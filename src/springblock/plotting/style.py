@@ -4,7 +4,7 @@ Figures are drawn without pyplot, independently of global state: the decorator `
 style whatever the user's own settings are. `plotting.drawing` applies it to figures of the study.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -122,14 +122,6 @@ def panels(
         if len(placed) > 1:
             ax.set_title(f"{letter})", loc="left", fontweight="bold")
     return picture, [placed[letter] for letter in sorted(placed)]
-
-
-def share_axes(row: Sequence[Axes]) -> None:
-    """Give panels side by side the same axes, with numbers at the left only."""
-    for ax in row[1:]:
-        ax.sharex(row[0])
-        ax.sharey(row[0])
-        ax.tick_params(labelleft=False)
 
 
 def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:

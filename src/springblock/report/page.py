@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pyarrow as pa
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -38,15 +38,6 @@ _FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
 Figures = dict[str, dict[str, Any]]  #: by name
-
-
-class Part(NamedTuple):
-    """A part of the page: a page of the study, and figures."""
-
-    name: str
-    title: str
-    body: Markup
-    figures: list[dict[str, Any]]
 
 
 def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -> str:
@@ -172,7 +163,9 @@ def rendered(template: str, **content: Any) -> str:
     )
 
 
-def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str]) -> list[Part]:
+def _parts(
+    figures: Figures, pages: Mapping[str, markup.Page], placed: set[str]
+) -> list[dict[str, Any]]:
     """Parts that have something to show, in order; those that findings show have their place."""
     left: dict[str, list[dict[str, Any]]] = {}
     for name, figure in figures.items():
@@ -183,7 +176,8 @@ def _parts(figures: Figures, pages: Mapping[str, markup.Page], placed: set[str])
     for name in dict.fromkeys([*ORDER, *pages, *left]):
         page = pages.get(name, markup.Page(TITLES.get(name, name.capitalize())))
         if name in pages or name in left:
-            parts.append(Part(name, page.title, page.body, left.get(name, [])))
+            shown = left.get(name, [])
+            parts.append({"name": name, "title": page.title, "body": page.body, "figures": shown})
     return parts
 
 

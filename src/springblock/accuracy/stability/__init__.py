@@ -76,10 +76,7 @@ def all_cases() -> Iterator[Case]:
 def stability_rows() -> list[Row]:
     """Run all cases; return a row for each.
 
-    Raises
-    ------
-    ValueError
-        If outcomes are not the expected ones; names these cases.
+    Outcomes that are not the expected ones are a ValueError that names their cases.
     """
     rows, wrong = [], []
     for case in tqdm(list(all_cases()), unit="case"):
