@@ -242,6 +242,16 @@ def test_another_stress_changes_the_verdict(name, change):
     assert judge(BY_NAME[name], replace(judged, stress=stress)) == "not reproduced"
 
 
+def test_the_edges_of_a_pillar_are_its_two_outermost_rings():
+    large = PILLARS[2]
+    y, x = large.pattern.origins[0]
+    inside = np.zeros((paper.N, paper.N), bool)
+    inside[y + 2 : y + 22, x + 2 : x + 22] = True
+    late_inside = moved(lambda run: np.where(inside, 1.1 * run.t_max, run.t_det))
+    other = paper.evidence(paper.changed(records(), [large], late_inside))
+    assert judge(BY_NAME["edges_before_peak"], other) == "reproduced"
+
+
 @pytest.mark.parametrize(("share", "expected"), [(0.05, "reproduced"), (0.2, REFUTED)])
 @pytest.mark.parametrize("name", ["negligible_edges", "front_after_peak"])
 def test_few_blocks_of_very_large_pillars_detach_early(name, share, expected):

@@ -222,6 +222,7 @@ def test_a_table_keeps_the_law_with_its_constants():
     assert kept.described == law.described
     assert LawFile.read(EXPONENTIAL).described.endswith(" (d_0 = 2e-08 m, floor = 0.3)")
     assert LawFile.read(AGEING) != law
+    assert law.vary({"b_1": 0.03}).constants == {**law.constants, "b_1": 0.03}
     with pytest.raises(ValueError, match="not available, only its name"):
         Setup(Material(law=law.described))
 
