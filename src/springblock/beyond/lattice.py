@@ -223,7 +223,7 @@ def _moves(compared: Comparisons) -> Changes:
                 f"{size} µm at {axis} = {getattr(at, each.axis):g} µm" for at, size in best.items()
             )
             among = listed([f"{size:g}" for size in common])
-            changed[kind] = verb, f"{verb} ({', '.join(places)}), among {among} µm"
+            changed[kind] = verb, f"{verb} ({', '.join(places)}; sizes compared: {among} µm)"
     return changed
 
 
