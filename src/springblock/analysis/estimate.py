@@ -50,4 +50,22 @@ class Proportion(Estimate):
         return float(found.low), float(found.high)
 
 
+@dataclass(frozen=True)
+class AnyOf(Estimate):
+    """One of several estimates, it is not known which: limits enclose those of each."""
+
+    each: tuple[Estimate, ...] = ()
+
+    @classmethod
+    def these(cls, *each: Estimate) -> "AnyOf":
+        """Return the first estimate with limits that enclose those of all."""
+        low, high = min(one.ci_low for one in each), max(one.ci_high for one in each)
+        return cls(each[0].value, low, high, min(one.n for one in each), each=each)
+
+    def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
+        """Limits as in `Estimate.limits`; the distances between estimates are not scaled."""
+        limits = [one.limits(together, n) for one in self.each]
+        return min(low for low, _ in limits), max(high for _, high in limits)
+
+
 UNKNOWN = Estimate(math.nan, math.nan, math.nan)

@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 
 from springblock.analysis.correlation import Correlation, side_times
-from springblock.analysis.estimate import Estimate
+from springblock.analysis.estimate import AnyOf, Estimate
 from springblock.analysis.lowest import BIAS
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims import ranges, samples, surfaces
@@ -66,9 +66,10 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the mean times over pillars and realisations are in this order, on the border and on
-    the second ring. The corners of the second ring detach after the edges of the border, by 0.008
-    t_max at n_p = 30 and by more on smaller pillars. At n_p = 60 the sign of this delay is open,
-    with -0.003 [-0.007, 0.0004] of t_max.
+    the second ring; the centre is the innermost block, or 2 x 2 blocks. The corners of the second
+    ring detach after the edges of the border along x, by 0.007 t_max at n_p = 30 and by more on
+    smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003 [-0.007, 0.0004] of
+    t_max.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -282,7 +283,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
-        lowest = _lowest_of(evidence, scenes if own else _of_all_sizes(evidence))
+        candidates = scenes if own else _of_all_sizes(evidence)
+        lowest = _lowest_of(evidence, candidates)
         runs, sizes = evidence.records[broad], [scene.n_p for scene in lowest]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
@@ -290,8 +292,9 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
             case: Case = {_SCATTER: scatter, "fit": curve}
-            ratio = Estimate(sizes[0] / value, sizes[0] / high, sizes[-1] / low, len(runs))
-            yield Finding(case, name, ratio, ranges.COMPARABLE, surfaces.in_files(*scenes))
+            ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
+            source = surfaces.in_files(*dict.fromkeys([*candidates, broad]))
+            yield Finding(case, name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
 
 
 def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
@@ -327,10 +330,10 @@ def _larger_there(
         sample = over_runs(quantity, evidence.records[other])
         there_too = [over_runs(quantity, evidence.records[s]) for s in lowest if s != other]
         found = [samples.difference(each, sample) for each in there_too]
-        low, high = min(each.ci_low for each in found), max(each.ci_high for each in found)
-        if other in lowest or (found[1:] and low <= 0.0 < high):
-            high = ranges.INF  # which candidate it is decides, not the number of realisations
-        joint = replace(found[0], ci_low=low, ci_high=high)
+        joint = AnyOf.these(*found)
+        if other in lowest or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
+            # which candidate it is decides, not the number of realisations
+            joint = AnyOf.these(*found, replace(found[0], ci_high=ranges.INF))
         source = surfaces.in_files(*lowest, other)
         statistic = f"{there} minus that at n_p = {other.n_p}"
         yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)

@@ -119,9 +119,9 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: position explains less than a fifth of the variance of t_det on a side without its
-    corners, along the sliding direction and across it. Without the three blocks at either end the
-    statement would hold.
+    """Tested: on one side of one pillar in each direction, without its corners, position explains
+    less than a fifth of the variance of t_det. Without the three blocks at either end the statement
+    would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -201,9 +201,9 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: sides of 10 blocks or less, without their corners, detach in one event more often
-    than sides whose blocks come from different realisations (chance). Neighbours that detach within
-    0.5 % of t_max of each other belong to one event.
+    """Tested: sides along the sliding direction, of 10 blocks or less and without their corners,
+    detach in one event more often than sides whose blocks come from different realisations
+    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):
@@ -223,8 +223,8 @@ def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 
 
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: c(r) differs by less than 0.1 from that without grooves, at r = 1 to 6, on external
-    sides and along the grooves.
+    """Tested: on the grooved pillars with the most realisations, c(r) differs by less than 0.1 from
+    that without grooves, at r = 1 to 6, on external sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
         ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
@@ -236,8 +236,8 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: l_c differs by less than one block from that without grooves, on external sides and
-    along the grooves.
+    """Tested: on the grooved pillars with the most realisations, l_c differs by less than one block
+    from that without grooves, on external sides and along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
         ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))

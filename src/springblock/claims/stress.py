@@ -91,8 +91,8 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the stress component along the sliding direction is larger on edges across this
-    direction than on edges along it. Neighbours load the former in tension and the latter in shear;
-    the slider loads all blocks equally.
+    direction than on edges along it. Neighbours load the former in tension or compression and the
+    latter in shear; the slider loads all blocks equally.
     """
     edges = "edges across the sliding direction minus that on edges along it"
     name = f"the stress on {edges}, {_OVER_MEAN}"

@@ -1,13 +1,14 @@
 """Leapfrog (kick-drift) with the exact Coulomb step: one force evaluation per step.
 
-Displacements are known at t_k = k h, velocities at t_k + h/2. With T for the velocity that friction
-removes in one step, a step is (7) of docs/model.md,
+Displacements are known at t_k = k h, velocities at t_k + h/2. With f for the velocity that F_mot
+adds in one step, and T for that which friction removes, in l per step, a step is (7) of
+docs/model.md,
 
     w = a v + f,    v⁺ = w - T (v + w)/|v + w|,    u⁺ = u + v⁺,    a = exp(-γh).
 
 Damping is exact; without friction and damping the scheme is symplectic. It is of second order in h,
 also across releases, which are placed within their steps (`release`), and across stops: the error
-of the displacement of a block that stops within a step is at most T h/8.
+of the displacement of a block that stops within a step is at most (T + |f|)/8.
 """
 
 import math
@@ -329,7 +330,8 @@ def _settle_rows(blocks, rows, band, s, pull, now):
 def move_band(blocks, law, peak, rows, released, count, band, s, constants, now):
     """Advance the blocks of a band by one step, under the forces in scratch `s`.
 
-    Returns the switches from rest to sliding, and the number of blocks released so far.
+    Returns the switches to sliding, from rest or by turning back, and the number of blocks released
+    so far.
     """
     a = math.exp(-constants.damping)
     pull = constants.springs.k_s * math.hypot(constants.slider_x, constants.slider_y)
