@@ -238,12 +238,12 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     # The size of the minimum is chosen by the same means, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
         lowest = _lowest(evidence, scenes[1:-1])
-        name = f"static friction at n_p = {end.n_p} minus its minimum at n_p = {lowest.n_p}"
+        name = f"static friction at n_p = {end.n_p} minus the lowest mean (n_p = {lowest.n_p})"
         yield samples.compared(evidence, name, samples.static_friction, end, lowest, case={})
 
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the force peak is narrower than where static friction is lowest."""
+    """Tested: the force peak is narrower than at the size with the lowest mean static friction."""
     scenes = _of_all_sizes(evidence)
     if scenes:
         lowest, largest = _lowest(evidence, scenes[:-1]), scenes[-1]
