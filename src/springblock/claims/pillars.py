@@ -69,7 +69,7 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     the second ring; the centre is the innermost block, or 2 x 2 blocks. The corners of the second
     ring detach after the edges of the border along x, by 0.007 t_max at n_p = 30 and by more on
     smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003 [-0.007, 0.0004] of
-    t_max.
+    t_max; as a case of its own it would leave the statement not settled.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
