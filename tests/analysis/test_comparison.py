@@ -28,7 +28,7 @@ def test_rows_that_describe_the_same_are_compared_in_their_order():
     assert not differences(one, one.take([2, 0, 1]))
     [_, apart] = differences(one, one.take([1, 0, 2]))
     assert "quantity: 2 rows differ" in apart
-    assert differences(one, one.slice(0, 1)) == ["1 rows in both, 2 only in the first"]
+    assert differences(one, one.slice(0, 1)) == ["1 row in both, 2 only in the first"]
 
 
 def test_cpu_times_make_no_difference():

@@ -25,7 +25,7 @@ def differences(first: pa.Table, second: pa.Table) -> list[str]:
     common = [key for key in places if key in others]
     ours = first.take(pa.array([places[key] for key in common], pa.int64()))
     theirs = second.take(pa.array([others[key] for key in common], pa.int64()))
-    rows = f"{len(common) or 'no'} rows in both"
+    rows = "1 row in both" if len(common) == 1 else f"{len(common) or 'no'} rows in both"
     for table, where in ((first, "first"), (second, "second")):
         if more := table.num_rows - len(common):
             rows += f", {more} only in the {where}"

@@ -24,6 +24,12 @@ class Estimate:
         mean, low, high = interval
         return cls(float(mean), float(low), float(high), n)
 
+    @property
+    def error(self) -> float:
+        """Standard error: half the 95 % interval over the quantile of Student's t."""
+        low, high = self.limits(1)
+        return (high - low) / 2.0 / float(students_t(self.n - 1))
+
     def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
         """Limits for `together` simultaneous intervals (Bonferroni), at a joint level of 95 %.
 
@@ -61,6 +67,11 @@ class AnyOf(Estimate):
         """Return the first estimate with limits that enclose those of all."""
         low, high = min(one.ci_low for one in each), max(one.ci_high for one in each)
         return cls(each[0].value, low, high, min(one.n for one in each), each=each)
+
+    @property
+    def error(self) -> float:
+        """Largest standard error of the estimates."""
+        return max(one.error for one in self.each)
 
     def limits(self, together: int, n: int | None = None) -> tuple[float, float]:
         """Limits as in `Estimate.limits`; the distances between estimates are not scaled."""

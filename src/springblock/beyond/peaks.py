@@ -70,13 +70,12 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         apart = {(on, off): _difference(found[on][0.0], found[off][0.0]) for on, off in pairs}
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
-        more_of_two, less_of_two = _significant(two)
         yield (
             "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
             f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
             f"and less prominent in {less or 'none'}. In the {len(two)} cases in which its "
             f"prominence exceeds {_TWO:g} % on both, the differences are significant in "
-            f"{more_of_two + less_of_two or 'none'}."
+            f"{sum(_significant(two)) or 'none'}."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

@@ -7,7 +7,6 @@ from itertools import groupby
 from typing import Any
 
 from springblock.analysis.estimate import Estimate
-from springblock.analysis.statistics import students_t
 from springblock.io.records import Record
 from springblock.io.rows import Row, listed
 from springblock.model.scene import Scene
@@ -71,12 +70,10 @@ class Finding:
         """
         if self.estimate.n < 2 or math.isnan(self.estimate.ci_low):
             return math.nan
-        alone = self.estimate.limits(1)
-        error = (alone[1] - alone[0]) / 2.0 / float(students_t(self.estimate.n - 1))
         n = 2
         while n < _MANY:
             low, high = self.estimate.limits(together, n)
-            spare = _POWER * error * math.sqrt(self.estimate.n / n)
+            spare = _POWER * self.estimate.error * math.sqrt(self.estimate.n / n)
             if self._outcome(low - spare, high + spare) != "open":
                 return n
             n = math.ceil(1.02 * n)

@@ -57,9 +57,9 @@ def _correlations(rows: Iterable[Row]) -> dict[tuple[str, int], Estimate]:
     return {(row["side"], row["r"]): interval(row, "correlation") for row in rows}
 
 
-def _lengths(rows: Iterable[Row]) -> dict[str, Estimate]:
-    """Return l_c by side, blocks."""
-    return {row["side"]: interval(row, "l_c") for row in rows}
+def _lengths(rows: Iterable[Row], name: str = "l_c", limits: str = "ci") -> dict[str, Estimate]:
+    """Return l_c, or the length of another column, by side, blocks."""
+    return {row["side"]: interval(row, name, limits) for row in rows}
 
 
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
@@ -191,12 +191,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     which differ between the sizes.
     """
     found = pillars(evidence.correlation_length, _BROAD)
-    lengths = {
-        scene.n_p: interval(row, "tail", "tail")
-        for scene, rows in found.items()
-        for row in rows
-        if row["side"] == "x"
-    }
+    lengths = {scene.n_p: _lengths(rows, "tail", "tail")["x"] for scene, rows in found.items()}
     if len(lengths) < 2:
         return
     first, *_, last = lengths
