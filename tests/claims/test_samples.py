@@ -10,7 +10,7 @@ from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
 from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
 from springblock.claims.flat import fronts, not_all_nucleate, weakest_first
-from springblock.claims.load_peaks import both_peaks
+from springblock.claims.load_peaks import both_peaks, mean_rate, quietest_rate, rate_between
 from springblock.claims.pillars import _over_t_avg, _rings
 from springblock.claims.rule import Evidence
 from springblock.claims.samples import (
@@ -151,6 +151,23 @@ def test_of_several_load_peaks_the_two_most_prominent_count():
     assert (found.first, found.second) == (100, 300)
     assert both_peaks(replace(run, **peaks((300.0, 0.65))(run))) is None
     assert 240.0 < 1e6 * run.time[both_peaks(run).valley] < 280.0
+
+
+@pytest.mark.parametrize(("tail", "rate"), [(0.0, 11.0 / 50.0), (0.1, 8.8 / 8.0)])
+def test_slow_tails_lower_the_mean_detachment_rate(tail, rate):
+    times = [0.0, *range(20, 29), 50.0, np.nan]  # ten and ninety percent at 20 and 28 s
+    assert mean_rate(replace(RUN, t_det=np.array(times)), tail) == pytest.approx(rate)
+
+
+def test_rates_between_load_peaks_are_per_second():
+    run = paper.record(ALONG, 0)
+    run = replace(run, **peaks((220.0, 0.60), (300.0, 0.65))(run))
+    interval = float(run.time[1] - run.time[0])
+    detachments = np.where(run.time < 2.5e-4, 1, 3)
+    found = both_peaks(replace(run, detachments=detachments))
+    assert quietest_rate(found, interval / run.t_avg) == pytest.approx(1.0 / interval)
+    total = detachments[found.first : found.second].sum()
+    assert rate_between(found) == pytest.approx(total / found.apart)
 
 
 def test_parts_of_a_grooved_pillar_hold_each_contact_block_once():
