@@ -106,20 +106,20 @@ def rate_between(peaks: Peaks) -> float:
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
-    peaks or on average from one peak to the other. The mean is from the first to the last of all
-    detachments, or from a tenth to nine tenths of them. In the quietest 0.01 t_avg the rate falls
-    below half the first mean on surfaces without two load peaks, too.
+    peaks or on average from one peak to the other. The full mean is from the first detachment to
+    the last; the trimmed mean leaves out a tenth of the blocks at either end. In the quietest
+    0.01 t_avg the rate falls below half the full mean on surfaces without two load peaks, too.
     """
     name = "the detachment rate between the load peaks over the mean rate"
     intervals: dict[str, Callable[[Peaks], float]] = {
         "the quietest 0.05 t_avg": partial(quietest_rate, share=0.05),
         "the whole phase": rate_between,
     }
-    means = {"of all detachments": 0.0, "between a tenth and nine tenths of all": 0.1}
-    for (part, quantity), (mean, tail) in product(intervals.items(), means.items()):
+    means = {"full mean": 0.0, "trimmed mean": 0.1}
+    for (mean, tail), (part, quantity) in product(means.items(), intervals.items()):
         for scene, found in _grooved(evidence.records).items():
             rates = [quantity(each) / mean_rate(each.run, tail) for each in found]
-            case = {"interval": part, "mean": mean, **surfaces.case_of(scene)}
+            case = {"mean": mean, "interval": part, **surfaces.case_of(scene)}
             rate = samples.mean(rates)
             yield samples.found_on(scene, name, rate, ranges.FEWER_THAN_HALF, case=case)
 

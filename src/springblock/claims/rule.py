@@ -137,7 +137,7 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "sliding {}",
     "interval": "in {}",
-    "mean": "relative to the mean {}",
+    "mean": "relative to the {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
