@@ -51,7 +51,7 @@ def slip_weakening(
     step: float,
     slip_distance: float,
 ) -> float:
-    """Linear weakening over d_c; complete at once if a step from rest slips beyond d_c."""
+    """Linear weakening over d_c; complete at once if V h >= 2 d_c in a step from rest."""
     if slip <= 1e-12 * speed * step and 0.5 * speed * step >= slip_distance:
         return mu_dynamic
     return mu_dynamic + max(mu_static - mu_dynamic, 0.0) * max(1.0 - slip / slip_distance, 0.0)

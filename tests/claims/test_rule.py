@@ -154,7 +154,9 @@ def cases_of(outcomes, *keys):
     ("cases", "expected"),
     [
         (
-            cases_of({"holds": [(4,), (20,)], "fails": [(6,), (10,)], "open": [(60,)]}, "n_p"),
+            cases_of(
+                {"holds": [(4,), (20,)], "fails": [(6,), (8,), (10,)], "open": [(60,)]}, "n_p"
+            ),
             "It holds at n_p = 4 and 20; it fails at n_p = 6 to 10; it is open at n_p = 60.",
         ),
         (
@@ -213,7 +215,7 @@ def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
         ([growing([HOLDS] * 5)], "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
         (
             [growing([HOLDS, FAILS, (-9.0, -8.0)])],  # the clearest failure
-            "It holds at n_p = 0; it fails at n_p = 1 to 2. At n_p = 2, a difference is -8.5 [",
+            "It holds at n_p = 0; it fails at n_p = 1 and 2. At n_p = 2, a difference is -8.5 [",
         ),
     ],
 )

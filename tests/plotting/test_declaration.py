@@ -122,7 +122,7 @@ def test_captions_say_what_a_study_draws(config, groups):
             if need.scene:
                 size = rf"N = [\d, ]*\b{need.scene.n_blocks}\b"
                 assert re.search(size, caption), (name, need.scene.n_blocks)
-                assert "Material of the paper." in caption
+                assert "Constants not named are the paper's." in caption
 
 
 def test_a_caption_follows_the_grid():
@@ -134,18 +134,20 @@ def test_a_caption_follows_the_grid():
     figure = FIGURES["figure_6"]
     assert figure.data_in_words(ensembles, {}, Material(pressure=1e5)) == (
         "N = 120, sliding direction x. Flat surface (seed 7). Pillars n_p/n_s = 2/2, 20/20 "
-        "(20 realisations, seeds 0 to 19). Material of the paper, but pressure = 100000."
+        "(20 realisations, seeds 0 to 19). pressure = 100000; constants not named are the paper's."
     )
     weak = Material(law="slip_weakening", slip_distance=2e-8)
     assert figure.data_in_words(ensembles, {}, weak).endswith(
-        "Material of the paper, but law = slip_weakening, slip_distance = 2e-08."
+        "law = slip_weakening, slip_distance = 2e-08; constants not named are the paper's."
     )
     one = FIGURES["figure_3"].data_in_words(ensembles, {}, Material())
-    assert one == "N = 120, sliding direction x. Flat surface (seed 7). Material of the paper."
+    ours = "Constants not named are the paper's."
+    assert one == f"N = 120, sliding direction x. Flat surface (seed 7). {ours}"
     ensembles["grooves"] = [study.Ensemble(s, range(4), None) for s in (ALONG, ASKEW, OTHER)]
     assert FIGURES["figure_9"].data_in_words(ensembles, {}, Material()) == (
-        "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, 10/2, sliding direction x, 45° "
-        "(4 realisations, seeds 0 to 3). Material of the paper."
+        "N = 120. Grooved pillars n_p/n_s = 58/62, n_p2/n_s2 = 8/2, sliding direction x "
+        "(4 realisations, seeds 0 to 3); n_p/n_s = 58/62, n_p2/n_s2 = 10/2, sliding direction 45°, "
+        f"x (4 realisations, seeds 0 to 3). {ours}"
     )
 
 

@@ -81,7 +81,7 @@ def test_its_caption_names_what_is_ones_own():
         "(3 realisations, seeds 0 to 2). "
         "Flat surface, distribution=weibull, n_rows = 2, N = 4 (3 realisations, seeds 0 to 2); "
         "mu_static from strong-00000000, N = 4 (3 realisations, seeds 0 to 2). "
-        "Material of the paper, but distribution = uniform."
+        "distribution = uniform; constants not named are the paper's."
     )
 
 

@@ -46,10 +46,10 @@ on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars on
 the far end of a 95 % interval plus the largest bias that the finest step may have. The standard
 error of a mean over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}.
-It exceeds the estimated bias in {larger} of {n} cases (a quantity on a surface). Quote means with
-their intervals over seeds, and include the bias in the error where hundreds of realisations are
-pooled. Compare ensembles, not single runs: on patterned surfaces of this size single runs differ
-even between the two finest steps.
+It exceeds the estimated bias for {larger} of the {n} combinations of quantity and surface. Quote
+means with their intervals over seeds, and include the bias in the error where hundreds of
+realisations are pooled. Compare ensembles, not single runs: on patterned surfaces of this size
+single runs differ even between the two finest steps.
 """
 
 #: Names of quantities that are not called by their symbol.

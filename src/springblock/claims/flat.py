@@ -140,8 +140,8 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
 @_on_flat("the share of precursors that detach before all eight neighbours", ranges.MOST)
 def isolated_precursors(run: Record) -> float:
     """Tested: most precursors, which “are those occurring before t_max”, detach before all of their
-    eight neighbours. Most of the precursors before 0.9 t_max, and most of those before 0.99 t_max,
-    do so.
+    eight neighbours. Of the blocks that detach before 0.9 t_max, and of those before 0.99 t_max,
+    most do so: with either limit the statement would be reproduced.
     """
     return samples.isolated(run)
 
@@ -167,7 +167,7 @@ def weakest_first(run: Record) -> float:
 def not_all_nucleate(run: Record) -> float:
     """Tested: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
     neighbour that detaches by t_max. The paper's precursors are all blocks that detach before
-    t_max, but the last of them have no time to trigger a front. Of all of them, 0.263 [0.256,
+    t_max, but the last of them have no time to trigger a front. Of all precursors, 0.263 [0.256,
     0.269] have no such neighbour: the verdict is the same.
     """
     alone = np.all(~(samples.neighbours(run.t_det, np.inf) < run.t_max), axis=0)
@@ -222,7 +222,7 @@ def localized_stick_slip(run: Record) -> float:
     """Tested: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
     detachments. The number is a mean over the rest of the run; the verdict is the same for the
-    first 1 to 50 such times after the minimum.
+    first such time after the minimum alone, and for the first 2 to 50.
     """
     minimum = first_minimum(run.force)
     if minimum is None:

@@ -81,7 +81,7 @@ def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
     estimate=samples.proportion,
 )
 def second_peak_decides(peaks: Peaks) -> float:
-    """Tested: the second peak is the higher one in most realisations."""
+    """Tested: the second peak is the higher one in most runs that have two."""
     return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
 
@@ -171,7 +171,7 @@ def slips_again(peaks: Peaks) -> float:
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Tested: between the load peaks the surface bears more than if all blocks slid. After the
-    second peak it bears less.
+    second peak the force falls below that of sliding blocks in every run.
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
@@ -213,8 +213,8 @@ def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """Tested: at equal pillar length the time between the peaks is shorter with wider pawls, on
-    surfaces where most runs have two peaks. A time that only grows with pillar length would not
-    require the difference.
+    surfaces where most runs have two peaks. A time that depends on pillar length alone would not
+    show that the difference matters.
     """
     found = twice_peaked(surfaces.grooved(evidence.records))
     n_p, n_p2 = (np.array([float(getattr(s, name)) for s in found]) for name in ("n_p", "n_p2"))

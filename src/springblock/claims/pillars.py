@@ -74,7 +74,9 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
         for ring, parts in _rings(scene.n_p):
-            times = {f"{n} ({ring})": maps[:, mask].mean(axis=1) for n, mask in parts.items()}
+            names = [f"{name} ({ring})" for name in _RING.values()] + ["centre"]
+            means = [maps[:, mask].mean(axis=1) for mask in parts.values()]
+            times = dict(zip(names, means, strict=True))
             yield from samples.in_order(scene, times)
 
 
@@ -82,7 +84,7 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 def always_in_order(run: Record) -> float:
     """Tested: corners, edges across and along the sliding direction and centre detach in this
     order, both on the border and on the second ring, on more than nine tenths of the individual
-    pillars.
+    pillars. Pillars of 4 blocks have only the border.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -113,8 +115,8 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: most precursors lie in the two outermost rings of blocks, and less than half are
-    isolated.
+    """Tested: most precursors lie in the two outermost rings of blocks, and less than half detach
+    before all of their eight neighbours (isolated).
     """
     for scene, runs in _broad(evidence.records).items():
         for what, quantity, claimed in (
@@ -139,9 +141,9 @@ def inside(run: Record) -> Array:
 )
 def nucleation_near_edge(run: Record) -> float:
     """Tested: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
-    to detach lies in the outer quarter of the area. The verdict is the same inside 1 to 4 rings and
-    for patches of 2 to 5 blocks a side; on the flat surface about half of all positions are nearer
-    to the edge than the first patch.
+    to detach lies, on average, in the outer quarter of the area. The verdict is the same inside 1
+    to 4 rings and for patches of 2 to 5 blocks a side; on the flat surface about half of all
+    positions are nearer to the edge than the first patch.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
@@ -275,11 +277,12 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
-    friction is within the numerical bias, 0.001, of the lowest are candidates. With another scatter
-    only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the distance
-    between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). With a
-    scatter of 0.02 or 0.05 it is nearly the side of these pillars. With l_c fitted at n_p = 20
-    these cases are open; with l_c fitted at n_p = 10 they hold.
+    friction may be within the numerical bias, 0.001, of the lowest are candidates. With another
+    scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the
+    distance between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A
+    exp(-r/l_c). With a scatter of 0.02 or 0.05 l_c is nearly as long as the side of these pillars.
+    With l_c fitted at n_p = 20 the cases with these scatters are open; with l_c fitted at n_p = 10
+    they hold.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -342,11 +345,12 @@ def _larger_there(
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: there are more precursors where static friction is lowest than at every other pillar
     size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
-    candidates; an interval encloses those of all candidates, without an upper limit where they
-    differ in sign. In 80 realisations of each, static friction at n_p = 6 is lower than at 7 by
-    0.0008 with the default step, and by 0.0003 with 5e-9 s. More realisations with the default step
-    cannot decide which is lower; about 1000 with 5e-9 s could. If friction is lowest at 6 the
-    statement fails, if at 7 it holds.
+    candidates. An interval encloses those of all candidates; it has no upper limit for a candidate
+    itself, or where the intervals of the candidates differ in sign. With the default step static
+    friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by
+    0.0002 at 6 and by 0.0006 at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that
+    0.0001 [-0.0004, 0.0006] remains. To decide which is lower would take more than ten thousand
+    realisations with 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

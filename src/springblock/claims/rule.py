@@ -32,12 +32,12 @@ class Evidence:
     correlation_length: RowsByScene = field(default_factory=dict)
     #: Tangential force on each block before the first detachment, over its mean; NaN off contact.
     stress: Mapping[Scene, Array] = field(default_factory=dict)
-    precision: Sequence[Row] = ()  #: rows of the table `work_precision`, whose scenes are others
+    precision: Sequence[Row] = ()  #: rows of the table `work_precision`: other, small surfaces
 
 
 @dataclass(frozen=True)
 class Finding:
-    """A statistic with its interval, and the open range in which the claim places it."""
+    """A statistic with its interval, and the range (without its ends) that is claimed for it."""
 
     case: Case
     statistic: str
@@ -45,10 +45,10 @@ class Finding:
     claimed: Range
     rests_on: str  #: separated by "; "
     unit: str = "1"
-    sample: str = "realisations"  #: of what the statistic has a sample
+    sample: str = "realisations"  #: what is sampled: realisations or surfaces
 
     def outcome(self, together: int) -> str:
-        """Return whether the claim "holds", "fails" or is "open", given several findings.
+        """Return whether the claim "holds", "fails" or is "open", one of `together` findings.
 
         It holds where the interval lies within the claimed range, fails where it lies wholly
         outside, and is open otherwise or without an interval.
@@ -89,7 +89,8 @@ class Claim:
 
     name: str
     section: str  #: of the paper
-    #: universal: always, only, all or a superlative; existential: can; general: all others.
+    #: universal: always, only, all, uniform, necessary, negligible, the most; existential: can;
+    #: general: all others.
     form: str
     statement: str  #: the paper's words in quotation marks and, after "Tested:", the criterion
     figure: int  #: of the paper, to which the statement refers
@@ -97,14 +98,15 @@ class Claim:
 
 
 def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
-    """Judge a claim by its findings; return the verdict and the cases where it holds and fails.
+    """Judge a claim by its findings; return the verdict and the cases that decide it.
 
     A case holds if all its findings hold, and fails if one fails.
 
     - One failing case refutes a universal claim; one that holds suffices for an existential one.
     - A general claim with cases that hold and cases that fail is "reproduced in part".
-    - Without a failing case it is "not settled" while a case is open, and else "reproduced".
-    - It is "not reproduced" where cases fail and none holds; an existential one only if all fail.
+    - Without a failing case it is "not settled" while a case is open, otherwise "reproduced".
+    - It is "not reproduced" where cases fail and none holds; an existential one only if all fail,
+      otherwise it is "not settled" while a case is open.
     - It is "not tested" without findings.
     """
     if not findings:
@@ -194,13 +196,15 @@ def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: st
 
 
 def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
-    """Return the chosen values in order; successive numbers among all values as "a to b"."""
+    """Return the chosen values in order; three or more successive numbers as "a to b"."""
     pairs = dict.fromkeys(zip(values, chosen, strict=True))
     if not all(isinstance(value, int | float) for value in values):
         return [str(value) for value, taken in pairs if taken]
-    runs = [list(run) for taken, run in groupby(sorted(pairs), key=lambda pair: pair[1]) if taken]
-    ends = [(run[0][0], run[-1][0]) for run in runs]
-    return [f"{a:g}" if a == b else f"{a:g} to {b:g}" for a, b in ends]
+    names = []
+    for taken, pairs_in_row in groupby(sorted(pairs), key=lambda pair: pair[1]):
+        run = [f"{value:g}" for value, _ in pairs_in_row] if taken else []
+        names += run if len(run) < 3 else [f"{run[0]} to {run[-1]}"]
+    return names
 
 
 def capitalised(text: str) -> str:

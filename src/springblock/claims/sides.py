@@ -202,7 +202,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: sides along the sliding direction, of 10 blocks or less and without their corners,
+    """Tested: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
     (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event.
     """
@@ -224,8 +224,9 @@ def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 
 
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on the grooved pillars with the most realisations, c(r) differs by less than 0.1 from
-    that without grooves, at r = 1 to 6, on external sides and along the grooves.
+    """Tested: on the grooved pillars with the most realisations (pawls of 8 blocks), c(r) differs
+    by less than 0.1 from that without grooves, at r = 1 to 6, on external sides parallel to the
+    grooves and on edges along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation):
         ours, theirs = (_correlations(evidence.correlation[s]) for s in (scene, like))
@@ -237,8 +238,9 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on the grooved pillars with the most realisations, l_c differs by less than one block
-    from that without grooves, on external sides and along the grooves.
+    """Tested: on the grooved pillars with the most realisations (pawls of 8 blocks), l_c of
+    exp(-r/l_c) differs by less than one block from that without grooves, on external sides parallel
+    to the grooves and on edges along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
         ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))
@@ -250,9 +252,9 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the correlation extends over less than a block: c(r = 1) on external sides and along
-    the grooves is below 1/e. The verdict is the same for any bound from 0.23 to 0.5, all of which
-    c(r = 1) exceeds when sliding along the grooves. Across the grooves it is small.
+    """Tested: the correlation extends over less than a block: c(r = 1) on external sides parallel
+    to the grooves and on edges along the grooves is below 1/e. The verdict is the same for any
+    bound from 0.23 to 0.5, all of which c(r = 1) exceeds when sliding along the grooves.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         found = _correlations(evidence.correlation[across(scene)])[side, 1]

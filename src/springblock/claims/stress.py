@@ -59,7 +59,9 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean stress on the edges of grooved pillars is larger across the grooves."""
+    """Tested: the mean stress on the edges of grooved pillars is larger when sliding across the
+    grooves.
+    """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
@@ -76,8 +78,8 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the stress on no pillar deviates from that on the mean pillar, in the root mean
-    square, by more than a fifth of the standard deviation on the mean pillar.
+    """Tested: on every pillar, the rms deviation of the stress from that on the mean pillar is at
+    most a fifth of the standard deviation of the stress over the blocks of the mean pillar.
     """
     largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
     name = f"{largest}, over the standard deviation"
@@ -124,7 +126,8 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
 
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
     """Tested: Spearman's correlation between stress and mean t_det over the blocks of a pillar,
-    divided by the largest value that blocks under equal stress allow, is below -0.5.
+    divided by the largest magnitude that it can have where several blocks bear equal stress, is
+    below -0.5.
     """
     name = "the rank correlation of initial stress and mean t_det on a pillar, over its bound"
     for scene, runs in pillars(evidence.records).items():
@@ -137,7 +140,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. The largest stress is in fact smaller on all grooved surfaces.
+    grooves. The largest stress, however, is smaller with grooves than without on all of them.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):

@@ -170,7 +170,7 @@ BATCH = pa.schema(
             pa.int32(),
             "blocks",
             detachments="blocks that detached for the first time since the previous sample",
-            switches="detachments since the previous sample, repeated ones included",
+            switches="switches to sliding since the previous sample, from rest or by turning back",
         ),
         *lists(
             pa.float64(),

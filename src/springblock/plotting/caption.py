@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from springblock.model.material import Material
 from springblock.model.scene import LENGTHS, Scene
@@ -22,20 +23,27 @@ def surface_in_words(*surfaces: Mapping[str, int]) -> str:
 
 
 def sample_in_words(sample: Mapping[Scene, range]) -> str:
-    """Describe scenes and their seeds, grouped by seeds.
+    """Describe scenes and their seeds; surfaces that differ in their lengths only are listed.
 
     N and the sliding direction come first if all scenes share them.
     """
     scenes = sorted(sample, key=lambda s: (s.level, *s.lengths.values(), s.n_blocks))
     shared = [name for name in _NAMES if len(_values(scenes, name)) == 1]
-    alike: dict[tuple[str, str, range], list[Scene]] = {}
+    others = [name for name in _NAMES if name not in shared]
+    one_surface: dict[tuple[Any, ...], list[Scene]] = {}
     for scene in scenes:
         varied = ", ".join(filter(None, [scene.row["varied"], *_own(scene)]))
-        alike.setdefault((_surface(scene), varied, sample[scene]), []).append(scene)
+        key = _surface(scene), varied, sample[scene], tuple(scene.lengths.items())
+        one_surface.setdefault(key, []).append(scene)
+    alike: dict[tuple[str, str, range, tuple[str, ...]], list[Scene]] = {}
+    for (surface, varied, seeds, _), some in one_surface.items():
+        pulled = tuple(_named(some, name) for name in others)
+        alike.setdefault((surface, varied, seeds, pulled), []).append(some[0])
+    any_varied = any(scene.row["varied"] for scene in scenes)
     kinds: dict[str, list[str]] = {}
-    for (surface, varied, seeds), some in alike.items():
-        parts = [surface_in_words(*(scene.lengths for scene in some)), varied]
-        parts += [_named(some, name) for name in _NAMES if name not in shared]
+    for (surface, varied, seeds, pulled), some in alike.items():
+        lengths = surface_in_words(*(scene.lengths for scene in some))
+        parts = [lengths, varied or ("no constant varied" if any_varied else ""), *pulled]
         several = f"{len(seeds)} realisations, seeds {seeds[0]} to {seeds[-1]}"
         seeded = several if len(seeds) > 1 else f"seed {seeds[0]}"
         text = f"{', '.join(filter(None, parts))} ({seeded})".strip()
@@ -80,7 +88,8 @@ def material_in_words(material: Material) -> str:
         for name, value in material.items()
         if value != paper[name]
     ]
-    return f"Material of the paper{', but ' if others else ''}{_listed(others)}."
+    named = f"{_listed(others)}; c" if others else "C"
+    return f"{named}onstants not named are the paper's."
 
 
 def _named(scenes: Iterable[Scene], name: str) -> str:

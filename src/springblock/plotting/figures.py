@@ -66,7 +66,7 @@ FIGURES: dict[str, Declaration] = {
         centre. Figure 5 of the paper; b) is an addition.""",
         groups=("pillars",),
         marks=f"""a) Blue: before the force maximum, red: after it, on separate scales. b) The
-        {INTERVALS} are too narrow to be drawn; the legend gives half the widest.""",
+        {INTERVALS} are too narrow to be drawn; the legend gives half the width of the widest.""",
     ),
     "figure_6": Declaration(
         title="Force and detachments, pillars",
@@ -172,8 +172,8 @@ FIGURES: dict[str, Declaration] = {
         module="mechanism",
         caption="""a-d) Stress on the blocks of a pillar before any slip, over its mean, in a layer
         pulled along x; e) its standard deviation over its mean, over all contact blocks; f) static
-        friction of independent blocks under this stress, with quasi-static load transfer between
-        them, with blocks that overshoot and stick again, and of the full model. e), f) Against
+        friction of independent blocks under this stress, of blocks with quasi-static load transfer,
+        of blocks that overshoot and stick again, and of the full model. e), f) Against
         pillar size, on surfaces of 40 to 60 blocks a side with n_s = n_p; the same 10 seeds for
         each.""",
         draws="tables",

@@ -12,7 +12,7 @@ from springblock.simulation.fields import Fields
 Array = NDArray[np.float64]
 Counts = NDArray[np.integer]
 
-#: Smallest rise of the force after a minimum that counts, over its drop from the peak.
+#: Smallest rise of the force after a minimum for it to count, as a share of its drop from the peak.
 _REBOUND = 0.1
 
 
@@ -22,8 +22,8 @@ class Run:
 
     time: Array  #: (n,) s, multiples of the sample interval, from zero
     force: Array  #: (n,) N, |ΣF_s|
-    detachments: Counts  #: (n,) blocks that detached for the first time in the interval
-    switches: Counts  #: (n,) switches from rest to sliding in the interval
+    detachments: Counts  #: (n,) first detachments in the interval that ends at `time`
+    switches: Counts  #: (n,) switches to sliding in it, from rest or by turning back
     t_det: Array  #: (N_y, N_x) s, first detachment; NaN without one, or outside the contact
     normal_force: float  #: P l² N_y N_x, N
     contact: NDArray[np.bool_]  #: (N_y, N_x) blocks in contact with the substrate
@@ -50,8 +50,8 @@ class Run:
     def dynamic_friction(self) -> float:
         """Mean of the force over P l² N_y N_x after the first minimum that follows the peak.
 
-        The force still oscillates in these samples. NaN if the run ends before the minimum, or the
-        force does not fall.
+        The force still oscillates in these samples. NaN if the run ends before the force
+        has risen by a tenth of its drop, or the force does not fall.
         """
         minimum = first_minimum(self.force)
         if minimum is None:
@@ -79,7 +79,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Realisation(Run):
-    """A computed run, with results that are not stored."""
+    """A run as it was computed, with results that are not stored."""
 
     energy: Energy  #: at the end, J
     steps: int  #: number of integration steps

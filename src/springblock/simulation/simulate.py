@@ -58,9 +58,9 @@ def simulate(
     direction : "x", "y" or an angle from x in degrees
         Sliding direction.
     duration : s, or None
-        None: until every contact block has detached and the force has passed its peak and the
-        first minimum after it; at the latest until 1.5 times the time of the last first
-        detachment.
+        None: until every contact block has detached and the force has risen from its first
+        minimum after the peak by a tenth of its drop; at the latest until 1.5 times the largest
+        t_det.
     snapshot_times : s
         Times at which `Realisation.fields` are stored, in ascending order; multiples of the
         sample interval. A run without duration lasts at least until the last of them.

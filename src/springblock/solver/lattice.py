@@ -96,7 +96,7 @@ class Samples(NamedTuple):
 
     force_x: Array  #: sum of F_s at the end of the interval
     force_y: Array
-    switches: NDArray[np.int64]  #: switches from rest to sliding within the interval
+    switches: NDArray[np.int64]  #: switches to sliding in the interval, from rest or by turning
 
     @classmethod
     def empty(cls, count: int) -> "Samples":
@@ -247,7 +247,7 @@ def update_peaks(peak, band, s):
 
 @kernel
 def tally(ledger, samples, constants, totals, switches, k, first, every):
-    """Add step k to the ledger, and to the samples if it completes an interval.
+    """Add step k, to the time (k + 1) h, to the ledger, and to the samples if it ends an interval.
 
     Returns the switches that belong to the interval still open.
     """

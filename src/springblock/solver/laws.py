@@ -105,7 +105,7 @@ def _dynamic(law, slip, speed, share, static, dynamic):
 
 
 def _after_slip(law, slip, speed, share, static, dynamic):
-    """Return T after a slip; it drops to mu_d at once if a step from rest slips beyond d_c."""
+    """Return T after a slip; it drops to mu_d at once if V h >= 2 d_c in a step from rest."""
     mean = speed + share * dynamic
     left = max(1.0 - slip * law.rate, 0.0)
     at_once = (slip <= _NO_SLIP * mean) & (0.5 * mean * law.rate >= 1.0)

@@ -1,13 +1,13 @@
 """Fourth-order Runge-Kutta, the paper's method, in a form that converges: (8) of docs/model.md.
 
-With friction opposite to the velocity of each *stage* the method does not converge: the stage
-velocities of a slow block alternate in sign, and it creeps instead of coming to rest. Here friction
-has one direction e through all four stages: opposite to the velocity of a sliding block in the
-middle of the step, or to F_mot for a block that has just detached. Under weakening laws its
-magnitude differs from stage to stage. A block whose velocity has reversed at the end of the step
-stops there; a block at rest stays at rest through all stages. The method is of fourth order without
-friction, and of second order across releases, which are placed within their steps (`release`).
-Stops fall on step boundaries.
+With friction opposite to the velocity of each *stage* the method converges slowly or not at all:
+the stage velocities of a slow block alternate in sign, and it creeps instead of coming to rest.
+Here friction opposes one direction e through all four stages: that of the velocity of a sliding
+block in the middle of the step, or of F_mot for a block that has just detached. Under weakening
+laws its magnitude differs from stage to stage. A block whose velocity has reversed at the end of
+the step stops there; a block at rest stays at rest through all stages. The method is of fourth
+order without friction, and of second order across releases, which are placed within their steps
+(`release`). Stops fall on step boundaries.
 """
 
 import math
