@@ -19,6 +19,7 @@ def test_rows_are_compared_by_what_they_describe_and_not_by_their_place():
         differences(one, other.select(["t_max"]))
     assert not differences(one, one.take([2, 0, 1]))
     assert differences(one, one.slice(1)) == ["2 rows in both, 1 only in the first"]
+    assert differences(one.slice(1), one) == ["2 rows in both, 1 only in the second"]
 
 
 def test_rows_that_describe_the_same_are_compared_in_their_order():

@@ -70,6 +70,15 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert not list(faults(study.results))
 
 
+def test_every_file_of_numbers_is_checked(study):
+    kinds = ("parquet", "npz", "nc", "npy")
+    files = {file for kind in kinds for file in study.results.rglob(f"*.{kind}")}
+    for file in files:
+        file.write_bytes(b"")
+    assert {fault.file for fault in faults(study.results)} == files
+    assert len({file.parent for file in files}) > 3
+
+
 def test_bad_fields_and_masks_are_found(tmp_path):
     """Fields of other code or cut short; a mask that is not that of its name."""
     fields = simulate(uniform(2, 1.0, 0.6), duration=1e-6, snapshot_times=[1e-6]).fields

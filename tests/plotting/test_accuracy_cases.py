@@ -18,7 +18,7 @@ ROWS = [
     ("strain", 1e-9, "agrees", "displacement, l", 1e-7, 2e-11, 1e-10),
     ("strain", 1e-1, "agrees", "displacement, l", 1e-7, 0.0, 1e-2),
     ("damping", 0.0, "agrees", "spring force, F_n", 1e-4, 2e-4, 1e-3),
-    ("damping", 100.0, "agrees", "spring force, F_n", 1e-4, 1e-5, 1e-3),
+    ("damping", 100.0, "agrees", "spring force, F_n", 1e-4, -1e-5, 1e-3),
     ("damping", 1e4, "refused", "none", NAN, NAN, NAN),
     ("speed", 1e-4, "agrees", "spring force, F_n", 1e-16, 3e-5, 1e-3),
     ("speed", 1e2, "agrees", "spring force, F_n", 1e-16, 2e-7, 4e-2),
@@ -77,4 +77,5 @@ def test_the_overview_counts_all_cases_and_marks_those_without_a_number():
     assert len(points(overview, "^")) == 2
     assert len(points(overview, "d")) == 2  # stable steps
     assert (heights(overview, "o") <= 1.0).all()
+    assert np.isclose(heights(overview, "o"), 1e-2).any()  # an error of either sign counts
     assert len(heights(overview, "o")) == sum(tolerance == tolerance for *_, tolerance in ROWS)
