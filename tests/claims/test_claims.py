@@ -14,6 +14,7 @@ from claims.paper import (
     ALONG,
     BARE_ACROSS,
     BARE_ALONG,
+    DEEP_ACROSS,
     DEEP_ALONG,
     FEW,
     FLAT,
@@ -250,6 +251,14 @@ def test_the_edges_of_a_pillar_are_its_two_outermost_rings():
     late_inside = moved(lambda run: np.where(inside, 1.1 * run.t_max, run.t_det))
     other = paper.evidence(paper.changed(records(), [large], late_inside))
     assert judge(BY_NAME["edges_before_peak"], other) == "reproduced"
+
+
+@pytest.mark.parametrize(("axis", "expected"), [("x", REFUTED), ("y", "reproduced")])
+def test_one_peak_is_expected_only_when_sliding_across_all_grooves(axis, expected):
+    """Two peaks across the second level refute unless the grooves of the third lie that way."""
+    runs = paper.evidence(paper.changed(records(), [DEEP_ACROSS], two_peaks)).records
+    scenes = {replace(s, n_p3=2, along_3=axis): runs[s] for s in (DEEP_ALONG, DEEP_ACROSS)}
+    assert judge(BY_NAME["further_levels"], Evidence(records=scenes)) == expected
 
 
 @pytest.mark.parametrize(("share", "expected"), [(0.05, "reproduced"), (0.2, REFUTED)])

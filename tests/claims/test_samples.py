@@ -9,7 +9,7 @@ from claims import paper
 from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
 from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
-from springblock.claims.flat import fronts, not_all_nucleate, weakest_first
+from springblock.claims.flat import fronts, not_all_nucleate, single_events, weakest_first
 from springblock.claims.load_peaks import both_peaks, mean_rate, quietest_rate, rate_between
 from springblock.claims.pillars import _over_t_avg, _rings
 from springblock.claims.rule import Evidence
@@ -41,6 +41,7 @@ def test_a_block_is_isolated_while_its_neighbours_rest():
     run = replace(RUN, t_det=t_det, time=4.0 * np.arange(3.0), force=np.array([0.0, 1.0, 0.0]))
     assert isolated(run) == pytest.approx(2 / 3)
     assert not_all_nucleate.__wrapped__(run) == pytest.approx(1 / 3)
+    assert single_events(run) == pytest.approx(1 / 2)
     assert np.isnan(isolated(replace(run, time=0.4 * np.arange(3.0))))
 
 

@@ -5,6 +5,7 @@ from functools import partial
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from springblock.accuracy.conventions import PAPER_STEP, PLAIN, ensemble_error
 from springblock.analysis.estimate import Estimate
@@ -13,7 +14,7 @@ from springblock.claims import ranges, samples, surfaces
 from springblock.claims.ranges import INF, within
 from springblock.claims.rule import Evidence, Finding
 from springblock.claims.samples import found_on, mean_over, over_runs, share_of
-from springblock.claims.surfaces import in_files
+from springblock.claims.surfaces import Mask, in_files
 from springblock.io.records import Record
 from springblock.io.rows import select
 from springblock.model.asperities import draw_friction
@@ -60,7 +61,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
     """Tested: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a block
     (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks moved with its
-    mid-plane.
+    mid-plane; with this reading the statement would be reproduced.
     """
     if not evidence.records:
         return
@@ -102,13 +103,17 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(scene, "(t_max - t_avg)/t_max", lag, ranges.NEGATIVE, case=case)
 
 
-def fronts(run: Run) -> float:
-    """Return the number of fronts, clusters of more than 20 detached blocks, at 1.01 t_max."""
+def cluster_sizes(blocks: Mask) -> NDArray[np.integer]:
+    """Return the number of blocks of each cluster, joined by sides and corners."""
     from scipy.ndimage import label  # slow to import
 
-    detached = run.t_det <= 1.01 * run.t_max  # NaN: never
-    clusters, _ = label(detached, structure=np.ones((3, 3)))  # by sides and corners
-    return float(np.count_nonzero(np.bincount(clusters.ravel())[1:] > 20))
+    clusters, _ = label(blocks, structure=np.ones((3, 3)))
+    return np.bincount(clusters.ravel())[1:]
+
+
+def fronts(run: Run) -> float:
+    """Return the number of fronts, clusters of more than 20 detached blocks, at 1.01 t_max."""
+    return float(np.sum(cluster_sizes(run.t_det <= 1.01 * run.t_max) > 20))  # NaN: never
 
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
@@ -129,7 +134,10 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: less than a tenth of the blocks detach before t_max."""
+    """Tested: less than a tenth of the blocks detach before t_max. Blocks also detach without a
+    front, where their own threshold is below the mean load: at t_max this holds for 0.05 of all
+    blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3.
+    """
     for name in _DECISIVE:
         for scene in varied(evidence, name):
             case = {"constant": f"{name} = {dict(scene.varied)[name]:g}"}
@@ -137,13 +145,24 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
             yield found_on(scene, _BEFORE, early, ranges.NEGLIGIBLE, case=case)
 
 
-@_on_flat("the share of precursors that detach before all eight neighbours", ranges.MOST)
-def isolated_precursors(run: Record) -> float:
+def single_events(run: Run) -> float:
+    """Return the share of the clusters of precursors that are a single block."""
+    sizes = cluster_sizes(run.t_det < run.t_max)
+    return float(np.mean(sizes == 1)) if len(sizes) else float("nan")
+
+
+def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: most precursors, which “are those occurring before t_max”, detach before all of their
-    eight neighbours. Of the blocks that detach before 0.9 t_max, and of those before 0.99 t_max,
-    most do so: with either limit the statement would be reproduced.
+    eight neighbours; or, if events are counted, most clusters of precursors are a single block. Of
+    the blocks that detach before 0.9 t_max, and of those before 0.99 t_max, most detach before
+    their neighbours.
     """
-    return samples.isolated(run)
+    blocks = ("the share of precursors that detach before all eight neighbours", samples.isolated)
+    events = ("the share of clusters of precursors that are a single block", single_events)
+    for scene, runs in surfaces.flat(evidence.records).items():
+        for unit, (statistic, quantity) in (("blocks", blocks), ("events", events)):
+            share = samples.share(over_runs(quantity, runs))
+            yield found_on(scene, statistic, share, ranges.MOST, case={"unit": unit})
 
 
 @_on_flat(
@@ -242,7 +261,8 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
     of a standard deviation, a small effect. The verdict is the same for the two outermost rings;
     with a bound above 0.38 the statement would hold. As a general statement it would be reproduced
-    in part.
+    in part. Over the whole surface, position explains 0.010 of the variance; with this measure
+    alone the statement would hold.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"

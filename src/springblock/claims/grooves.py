@@ -112,18 +112,22 @@ def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
 
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
-    along the grooves of the second level, and is below 1 % across them. The case that was open
-    after 40 realisations has 200: there, sliding across the second level is sliding along the
-    third. Without this finding the statement would be reproduced.
+    along the grooves of the second level, and is below 1 % when sliding across all grooves. Across
+    those of the second level but along those of the third it is 0.0117 [0.0111, 0.0123] (200
+    realisations), but the paper expects one peak only where no grooves are aligned with the sliding
+    direction.
     """
     for along, case in _third_levels(evidence):
         yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
-        yield prominent(evidence, across(along), _ONE_PEAK, case, f"{_LESSER}, across the grooves")
+        if along.along_3 == "x":  # else sliding across the second level is sliding along the third
+            statistic = f"{_LESSER}, across the grooves"
+            yield prominent(evidence, across(along), _ONE_PEAK, case, statistic)
 
 
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
     """Tested: with three levels, the mean prominence of the third most prominent peak exceeds 1 %
-    of the largest force.
+    of the largest force. That of the second does, with 0.0163 and 0.0219: if “multiple” meant two,
+    the statement would be reproduced.
     """
     name = "the prominence of the third peak over the largest force"
     for scene, case in _third_levels(evidence):
@@ -132,7 +136,8 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
 
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     """Tested: compared with the same pillars without grooves, the force stays above 95 % of its
-    maximum for longer (smooth), and blocks detach in less time (rapid).
+    maximum for longer (smooth), and blocks detach in less time (rapid). Over t_avg in place of
+    t_max, all outcomes are the same.
     """
     smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)

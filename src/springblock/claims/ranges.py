@@ -8,7 +8,6 @@ from springblock.claims.rule import Range
 INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
 NEARLY_ALL = (0.9, INF)  #: without exception
-NOT_NONE = (0.1, INF)  #: a share
 MOST, FEWER_THAN_HALF = (0.5, INF), (-INF, 0.5)
 NEGLIGIBLE = (-INF, 0.1)
 COMPARABLE = (0.5, 2.0)  #: a ratio
