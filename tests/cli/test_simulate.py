@@ -63,6 +63,14 @@ def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_
     assert (configuration["integrator"], configuration["duration"]) == ("rk4", 4e-6)
 
 
+def test_means_of_a_batch_are_printed_with_their_standard_errors(springblock, tmp_path):
+    said = springblock("simulate", *FLAT, "--last-seed", 2, "--output", tmp_path / "a")
+    table = pq.read_table(tmp_path / "a").to_pandas()
+    for name, unit, factor in (("static_friction", "", 1.0), ("t_avg", " µs", 1e6)):
+        values = factor * table[name]
+        assert f"{name} {values.mean():.5g} ± {values.sem():.2g}{unit}" in said
+
+
 def test_pillars_under_a_law_of_their_own_say_so(springblock, tmp_path):
     """From the prelude to the table, and weaker friction is another one."""
     scene = ("--n-blocks", 8, "--n-p", 2, "--n-s", 2)
