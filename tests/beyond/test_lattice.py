@@ -61,6 +61,8 @@ def test_a_decay_length_is_found_again_in_blocks():
     assert found.low < 3.0 < found.high
     assert found.high - found.low < 3.0
     assert side_length(sizes[20.0]) is None  # two blocks
+    assert side_length(sizes[240.0][:10]) is not None
+    assert side_length(sizes[240.0][:9]) is None  # too few realisations
 
 
 def test_stress_on_the_outermost_blocks_goes_with_one_over_the_spacing():
@@ -87,6 +89,8 @@ def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
         in changed
     )
     assert len(table.splitlines()) == 2 + len(PLACES)
+    realisations = {row.split(" | ")[-1].rstrip(" |") for row in table.splitlines()[2:]}
+    assert realisations == {"9", "1"}  # one where nothing is random
 
 
 def test_changes_are_those_from_the_first_lattice_finer_than_the_layer_to_the_last():

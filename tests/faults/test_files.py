@@ -1,5 +1,7 @@
 """Files that are damaged, foreign or outdated: noticed before a number of them is used."""
 
+import copy
+import json
 from functools import partial
 
 import numpy as np
@@ -67,6 +69,16 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert said.splitlines()[0] == found.reason
     assert not file.exists()
     assert (study.results / "set-aside" / place).read_bytes() == content
+    assert not list(faults(study.results))
+
+
+def test_files_are_compared_with_the_last_configuration_of_a_study(study):
+    """A study that grew had another one before."""
+    record = study.results / "study.json"
+    made = json.loads(record.read_text())
+    before = copy.deepcopy(made["made"][-1])
+    before["configuration"]["material"]["gamma"] = 4e3
+    record.write_text(json.dumps(made | {"made": [before, *made["made"]]}))
     assert not list(faults(study.results))
 
 

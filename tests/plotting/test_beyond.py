@@ -77,6 +77,12 @@ def test_friction_is_lowest_where_it_is_said_to_be():
     np.testing.assert_allclose(crosses, 80.0)
 
 
+def test_correlations_are_drawn_over_distances_in_micrometres():
+    curves = drawn("beyond_lattice").axes[0].lines[:3]
+    for spacing, curve in zip((5.0, 10.0, 20.0), curves, strict=True):
+        np.testing.assert_allclose(np.diff(curve.get_xdata()), spacing)
+
+
 def test_cells_hold_the_prominence_of_their_surface():
     for ax in drawn("beyond_peaks").axes[:2]:
         assert [text.get_text() for text in ax.texts][-3:] == ["97.0", "95.0", "92.0"]
