@@ -173,7 +173,7 @@ def _draw_overview(ax: Axes, cases: DataFrame) -> None:
         share = (known.relative_error.abs() / known.tolerance).clip(lower=_LEAST)
         aside = np.linspace(-0.13, 0.13, len(share)) if len(share) > 1 else 0.0
         ax.plot(np.full(len(share), middle) + aside, share, **look)
-        for outcome in set(runs.outcome) & set(_ENDS):
+        for outcome in (end for end in _ENDS if end in set(runs.outcome)):
             _mark(ax, [middle], outcome, **look)
     ax.axhline(1.0, color=GREY, linewidth=0.8)
     ax.text(len(families) - 0.5, 1.4, "accepted", color=GREY, ha="right", va="bottom")
