@@ -1,8 +1,11 @@
 """springblock correlation and collect."""
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from springblock.analysis.correlation import Correlation
+from springblock.cli.realisations import _curve
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 
 
@@ -25,6 +28,11 @@ def test_sides_along_both_axes_are_correlated_and_collected(
         assert set(table["realisations"].to_pylist()) == {3}
         made = pq.read_metadata(part).metadata
         assert table.schema.metadata[b"code_version"] == made[b"code_version"]
+
+
+def test_samples_are_all_sides_of_all_pillars_and_realisations():
+    found = Correlation(np.random.default_rng(0).normal(size=(5, 4, 2, 8)))
+    assert {row["samples"] for row in _curve(found)} == {40}
 
 
 @pytest.mark.parametrize(

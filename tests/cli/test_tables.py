@@ -126,3 +126,10 @@ def test_a_table_is_csv_or_parquet(springblock, batch, tmp_path):
     said = springblock("table", batch(0, 2), "--output", tmp_path / "a.txt", refused=True)
     assert "a.txt: unknown type of file; choose .csv or .parquet" in said
     assert not (tmp_path / "a.txt").exists()
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_file_is_not_compared_with_the_folder_that_holds_it(springblock, batch, turned):
+    file = batch(0, 2)
+    both = (file, file.parent)[:: -1 if turned else 1]
+    assert "share their realisations" in springblock("compare", *both, refused=True)

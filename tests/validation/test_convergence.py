@@ -40,6 +40,11 @@ def test_in_the_reference_every_block_detaches_and_energy_is_conserved(reference
     assert abs(reference.relative_residual) < 1e-9  # of steps accurate to 1e-10
 
 
+def test_the_reference_has_a_sample_at_the_end():
+    """2.4e-6/2e-8 is 119.99999999999999 in floating point."""
+    assert len(solve(SURFACE, FAST, 2.4e-6, INTERVAL).force) == 121
+
+
 def of_second_order(errors):
     """Whether an eighth of the step leaves a twentieth of the error: a 64th, with scatter.
 
