@@ -19,7 +19,7 @@ import pytest
 from matplotlib.figure import Figure
 from nbformat.v4 import new_output
 
-from springblock import Material, read
+from springblock import Material, Setup, Surface, read, simulate
 from springblock.cli import main
 from springblock.io.fields import read_fields
 from springblock.model.scene import Scene
@@ -133,7 +133,11 @@ def test_the_lesson_can_be_followed_and_its_answers_are_right(study):
     assert force[one.time > one.t_det[0, 0]].min() == pytest.approx(0.2, abs=0.002)
     assert force.max() == pytest.approx(1.0, abs=0.002)
     assert names["along"] == pytest.approx([120e-6, 120.15e-6], abs=0.15e-6)
-    assert names["later"] == pytest.approx([120e-6, 133.33e-6], abs=0.3e-6)
+    assert names["later"] == pytest.approx([120e-6, 146.67e-6], abs=0.3e-6)
+    for strong, is_precursor in ((1.3, False), (1.4, True)):
+        both = Surface([[1, 1]], [[0.9, strong]], 0.6)
+        until = simulate(both, Setup(Material(gamma=0.0)), duration=1.5e-4)
+        assert (until.t_max > 1.01 * until.t_det.min()) == is_precursor
     pair, thick = names["pair"], Material(gamma=0.0, thickness=2e-5)
     assert np.ptp(pair(1.37, thick)) < 0.5e-6 < np.ptp(pair(1.40, thick))
     assert names["friction"] == pytest.approx([0.79, 0.93], abs=0.01)

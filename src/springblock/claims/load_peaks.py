@@ -7,7 +7,6 @@ divided by t_avg: where the peaks are about equally high, t_max belongs to eithe
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
 
 import numpy as np
 
@@ -85,11 +84,10 @@ def second_peak_decides(peaks: Peaks) -> float:
     return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
 
-def mean_rate(run: Run, tail: float) -> float:
-    """Return the mean detachment rate, without a share `tail` of the first and last blocks, 1/s."""
-    begin, end = np.nanquantile(run.t_det, [tail, 1.0 - tail])
-    blocks = (1.0 - 2.0 * tail) * np.count_nonzero(np.isfinite(run.t_det))
-    return float(blocks / (end - begin))
+def mean_rate(run: Run) -> float:
+    """Return the mean detachment rate from the first detachment to the last, 1/s."""
+    lasting = np.nanmax(run.t_det) - np.nanmin(run.t_det)
+    return float(np.count_nonzero(np.isfinite(run.t_det)) / lasting)
 
 
 def quietest_rate(peaks: Peaks, share: float) -> float:
@@ -105,22 +103,22 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
-    peaks or on average from one peak to the other. The full mean is from the first detachment to
-    the last; the trimmed mean leaves out a tenth of the blocks at either end. In the quietest
-    0.01 t_avg the rate falls below half the full mean on surfaces without two load peaks, too.
+    """Tested: the detachment rate falls below half its mean (from the first detachment to the
+    last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other. In
+    the quietest 0.01 t_avg it does so on surfaces without two load peaks, too. So does the rate
+    over the mean without the first and the last tenth of the blocks: it is 0.34 and 0.29 in the
+    quietest 0.05 t_avg with pawls of 8 and 10, but lower still, while the force exceeds 95 % of its
+    maximum, on surfaces without two peaks (0.08 and 0.21 on pillars of 58 and 30 blocks without
+    grooves).
     """
     name = "the detachment rate between the load peaks over the mean rate"
-    intervals: dict[str, Callable[[Peaks], float]] = {
-        "the quietest 0.05 t_avg": partial(quietest_rate, share=0.05),
-        "the whole phase": rate_between,
-    }
-    means = {"full mean": 0.0, "trimmed mean": 0.1}
-    for (mean, tail), (part, quantity) in product(means.items(), intervals.items()):
+    for part, quantity in (
+        ("the quietest 0.05 t_avg", partial(quietest_rate, share=0.05)),
+        ("the whole phase", rate_between),
+    ):
         for scene, found in _grooved(evidence.records).items():
-            rates = [quantity(each) / mean_rate(each.run, tail) for each in found]
-            case = {"mean": mean, "interval": part, **surfaces.case_of(scene)}
-            rate = samples.mean(rates)
+            rate = samples.mean([quantity(peaks) / mean_rate(peaks.run) for peaks in found])
+            case = {"interval": part, **surfaces.case_of(scene)}
             yield samples.found_on(scene, name, rate, ranges.FEWER_THAN_HALF, case=case)
 
 

@@ -139,7 +139,6 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "sliding {}",
     "interval": "in {}",
-    "mean": "relative to the {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
