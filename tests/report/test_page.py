@@ -69,9 +69,10 @@ def judged(claim, case, value, verdict="reproduced", outcome="holds"):
 
 
 def test_findings_take_their_numbers_from_the_statements():
-    length, peaks = (
+    length, peaks, alone = (
         "Correlation length of about three blocks or more",
         "Two load peaks along grooves",
+        "Without hierarchy one load peak",
     )
     claims = [
         judged("Lowest static friction at an intermediate n_p", "", 0.17),
@@ -82,7 +83,8 @@ def test_findings_take_their_numbers_from_the_statements():
         judged("Correlation length grows with n_p", "", -0.005, "not settled", "open"),
         judged(peaks, "n_p2 = 4", 0.004, outcome="fails"),
         judged(peaks, "n_p2 = 8", 0.028),
-        judged("Without hierarchy one load peak", "surface = grooves", 0.027, outcome="fails"),
+        judged(alone, "surface = pillars of 6 blocks", 0.012, outcome="fails"),
+        judged(alone, "surface = pawls of 8 (no pillars)", 0.027, outcome="fails"),
     ]
     told = found(realisations(0.80), realisations(0.63, n_p=6, n_s=6), claims=claims)
     assert told["friction"]["below"] == ["0.17 [0.16, 0.18]"]
@@ -91,7 +93,7 @@ def test_findings_take_their_numbers_from_the_statements():
     assert [name for (_, name), _ in told["correlation"]["fits"]] == ["l_d", "l_c"]
     assert told["correlation"]["growth"] == [("", "-0.005 [-0.015, 0.005]")]
     assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
-    assert told["peaks"]["others"] == [("grooves", "0.027 [0.017, 0.037]")]
+    assert told["peaks"]["others"] == [("pawls of 8 (no pillars)", "0.027 [0.017, 0.037]")]
 
 
 @pytest.mark.parametrize(

@@ -200,8 +200,8 @@ def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:
     if not all(isinstance(value, int | float) for value in values):
         return [str(value) for value, taken in pairs if taken]
     names = []
-    for taken, pairs_in_row in groupby(sorted(pairs), key=lambda pair: pair[1]):
-        run = [f"{value:g}" for value, _ in pairs_in_row] if taken else []
+    for taken, successive in groupby(sorted(pairs), key=lambda pair: pair[1]):
+        run = [f"{value:g}" for value, _ in successive] if taken else []
         names += run if len(run) < 3 else [f"{run[0]} to {run[-1]}"]
     return names
 

@@ -88,8 +88,8 @@ def material_in_words(material: Material) -> str:
         for name, value in material.items()
         if value != paper[name]
     ]
-    named = f"{_listed(others)}; c" if others else "C"
-    return f"{named}onstants not named are the paper's."
+    rest = "constants not named are the paper's."
+    return f"{_listed(others)}; {rest}" if others else rest.capitalize()
 
 
 def _named(scenes: Iterable[Scene], name: str) -> str:
