@@ -1,10 +1,9 @@
 """What holds for all figures: each stays on its page, names its panels and is always the same.
 
 Tests of figures hold their drawings in `DRAWINGS`; more words may follow the name of the figure.
-`PYTHONPATH=tests python -m plotting.test_every_figure` records the data that all figures show.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -12,18 +11,14 @@ from string import ascii_lowercase
 
 import matplotlib
 import numpy as np
-import pandas as pd
 import pytest
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 
 from plotting.test_still import PICTURES
 from springblock.plotting import drawing, style
 from springblock.plotting.figures import FIGURES
 
-RECORDED = Path(__file__).with_name("figures.csv")
 TESTS = [file.stem for file in Path(__file__).parent.glob("test_*.py") if file != Path(__file__)]
 DRAWINGS: dict[str, Callable[[], Figure]] = {}
 for test in sorted(TESTS):
@@ -106,45 +101,3 @@ def test_sizes_of_pillars_have_colours_that_can_be_told_apart():
     colors = np.array([look["color"][:3] for look in looks.values()])
     assert np.linalg.norm(np.diff(colors, axis=0), axis=1).min() > 0.2
     assert len({look["marker"] for look in looks.values()}) == 3
-
-
-def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield the points, (n, 2), of lines, symbols, bands and bars, and the values of images."""
-    for line in ax.lines:
-        yield "lines", np.array(line.get_xydata(), dtype=float)
-    for patch in ax.patches:
-        if isinstance(patch, FancyArrowPatch):
-            continue  # its path is in pixels
-        yield "patches", patch.get_patch_transform().transform(patch.get_path().vertices)
-    for collection in ax.collections:
-        yield "collections", np.asarray(collection.get_offsets(), dtype=float)
-        for path in collection.get_paths():
-            yield "collections", path.vertices
-    for image in ax.images:
-        values = np.ma.filled(image.get_array().astype(float), np.nan).ravel()
-        yield "images", np.stack([values, np.arange(values.size)], axis=1)
-
-
-def sums() -> pd.DataFrame:
-    """Sums over the points of each kind in each panel, weighted by their order."""
-    rows = []
-    for name in DRAWINGS:
-        for panel, ax in enumerate(drawn(name).axes):
-            kinds: dict[str, list[np.ndarray]] = {}
-            for kind, points in shown(ax):
-                kinds.setdefault(kind, []).append(points)
-            for kind, several in kinds.items():
-                points = np.concatenate(several)
-                places = np.linspace(0.5, 1.0, len(points))[:, None]
-                x, y = np.nansum(places * points, axis=0)
-                row = {"figure": name, "panel": panel, "kind": kind, "points": len(points)}
-                rows.append(row | {"x": x, "y": y})
-    return pd.DataFrame(rows)
-
-
-def test_figures_show_the_data_recorded():
-    pd.testing.assert_frame_equal(sums(), pd.read_csv(RECORDED), rtol=1e-6, check_dtype=False)
-
-
-if __name__ == "__main__":
-    sums().to_csv(RECORDED, index=False, float_format="%.9g")

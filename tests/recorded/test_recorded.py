@@ -1,0 +1,385 @@
+"""Nothing that the study writes from given data changes unnoticed.
+
+The data are those made up for other tests; no simulation is involved, so that the numbers do not
+depend on the processor. `PYTHONPATH=src:tests python tests/recorded/test_recorded.py` records all
+texts again, after an intended change.
+"""
+
+import re
+import tempfile
+from collections.abc import Callable, Iterator
+from functools import cache
+from html import unescape
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from click.testing import CliRunner
+from matplotlib.axes import Axes
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.text import Text
+
+import precision
+from beyond.made_up import grooves, lattices, sizes_and_distances
+from beyond.test_scatter import scattered
+from claims import paper
+from mechanism import chapter
+from plotting.test_every_figure import DRAWINGS, drawn
+from springblock import Pattern, Setup, Surface
+from springblock.accuracy import production, work_precision
+from springblock.accuracy.conventions import SCENES
+from springblock.accuracy.page import page as errors
+from springblock.beyond.page import QUESTIONS
+from springblock.claims import CLAIMS
+from springblock.claims.page import page as statements
+from springblock.claims.table import SCHEMA
+from springblock.claims.table import rows as judged
+from springblock.cli import main
+from springblock.cli.simulate import batch_table
+from springblock.io.parquet import rows_to_table, write
+from springblock.io.records import Record
+from springblock.io.rows import Row
+from springblock.io.schemas import SUMMARY
+from springblock.mechanism.page import page as mechanism
+from springblock.mechanism.surfaces import TABLES
+from springblock.model.scene import Scene
+from springblock.report.page import page as report
+from springblock.study import configuration as study
+from studies import ROOT, Study
+
+RECORDED = Path(__file__).parent
+NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+ORIGIN = {"code_version": "1.0", "configuration": "{}", "configuration_digest": "0"}
+
+
+@cache
+def evidence() -> tuple[list[Record], list[Row]]:
+    """Realisations of all surfaces that the statements need, and the table `claims`."""
+    records = paper.realisations(paper.CURVES)
+    return records, judged(CLAIMS, paper.evidence(records))
+
+
+def findings() -> str:
+    """All columns of the table `claims` but the words of the statements."""
+    return written(pd.DataFrame(evidence()[1]).drop(columns=["statement", "section", "form"]))
+
+
+def written(table: pd.DataFrame) -> str:
+    return table.to_csv(index=False, float_format="%.9g")
+
+
+def claims() -> str:
+    """What the page says of each statement, without the paper's words, and its summary."""
+    page = statements(evidence()[1])
+    kept = [line for line in page.splitlines() if re.match(r"#|\*\*|\||<|Data", line)]
+    return "\n".join(kept) + "\n"
+
+
+def beyond() -> str:
+    """Answers to the questions, on ensembles of 10 to 25 realisations each."""
+    made = {
+        "lattice": lattices(lambda *_: 30.0, lambda x, l_z, s: 8.0 * l_z if s else 8.0 * x, 10),
+        "peaks": grooves({"x": 0.95, "30": 0.97, "y": 0.92}, runs=10, scatter=0.01)
+        | grooves({"x": 0.93, "y": 0.95}, 22, runs=10, scatter=0.01),
+        "friction": sizes_and_distances(lambda n, r: 0.6 + 0.05 * np.log(n / 6.0) ** 2 - 0.1 * r),
+        "scatter": scattered(lambda std: 0.2 / std),
+    }
+    texts = ("\n\n".join(QUESTIONS[name].answers(some)) for name, some in made.items())
+    return "\n\n".join(texts) + "\n"
+
+
+def uneven(rows: list[Row], *columns: str) -> list[Row]:
+    """Rows whose numbers in these columns differ, each by up to a fifth."""
+    factors = 1.0 + 0.2 * np.sin(np.arange(1.0, 1.0 + len(rows)))
+    return [
+        row | {name: row[name] * factor for name in columns}
+        for row, factor in zip(rows, factors, strict=True)
+    ]
+
+
+def accuracy() -> str:
+    """The page on errors, with and without those at full size."""
+    single = uneven(precision.precision_rows(), "error", "ci_low", "ci_high")
+    cases = [("size", "agrees"), ("size", "unstable"), ("step", "agrees"), ("damping", "refused")]
+    stability = [{"family": name, "expected": word, "outcome": word} for name, word in cases]
+    realisations = [{"energy_error": 1e-6 * each} for each in (-3.0, 1.0, 2.0, 700.0)]
+    columns = ("value", "scale", "deviation", "bias", "bias_error", "ci_low", "ci_high")
+    whole = uneven(precision.production_rows(), *columns)
+    return "\n".join(errors(single, stability, realisations, more) for more in (whole, []))
+
+
+def made_up(surface: Surface, step: float, sample_interval: float, order: float) -> Any:
+    """A run whose times and force have an error of this order, and a part that falls slowly."""
+    late = 1.0 + 0.2 * (step / 8e-8) ** order * np.sin(np.arange(surface.mu_static.size))
+    t_det = 1e-4 * surface.mu_static * late.reshape(surface.mu_static.shape)
+    time = np.arange(0.0, 2e-4, sample_interval)
+    force = np.exp(-(((time - np.nanmean(t_det)) / 1e-5) ** 2)) * (1.0 + 1e5 * step)
+    run = Record(
+        scene=Scene(12),
+        seed=0,
+        time=time,
+        force=force,
+        t_det=t_det,
+        contact=surface.contact,
+        normal_force=1.2,
+        detachments=time,
+        switches=time,
+    )
+    object.__setattr__(run, "steps", round(2e-4 / (step or 1.0)))  # of a computed run
+    return run
+
+
+def errors_measured() -> str:
+    """The tables of errors on three small surfaces, of made-up runs, without CPU times."""
+
+    def simulated(surface: Surface, setup: Setup, **_: Any) -> Any:
+        order = {"leapfrog": 2.0, "rk4": 1.0}[setup.integrator]
+        return made_up(surface, setup.step, setup.sample_interval, order)
+
+    def exact(surface: Surface, duration: float, sample_interval: float) -> Any:
+        return made_up(surface, 0.0, sample_interval, 1.0)
+
+    def plain(surface: Surface, duration: float, step: float, sample_interval: float) -> Any:
+        return made_up(surface, step, sample_interval, 0.1)
+
+    pattern = Pattern.pillars(12, 9, 3)
+    with pytest.MonkeyPatch.context() as changed:
+        for module in (production, work_precision):
+            changed.setattr(module, "simulate", simulated)
+        changed.setattr(work_precision.reference, "solve", exact)
+        changed.setattr(work_precision.plain_rk4, "solve", plain)
+        few = work_precision._Surfaces(pattern, 2e-4, 3, pattern, 5)
+        for scene in SCENES:
+            changed.setitem(production.PATTERNS, scene, pattern)
+            changed.setitem(production.SEEDS, scene, 4)
+            changed.setitem(work_precision._SURFACES, scene, few)
+        full_size = pd.DataFrame(production.production_rows("pillared"))
+        small = pd.DataFrame(
+            chain.from_iterable(f("pillared") for f in work_precision.ROWS.values())
+        )
+    timed = {"cpu_seconds", "prelude_seconds"}
+    return "\n".join(written(table.drop(columns=timed & {*table})) for table in (full_size, small))
+
+
+def reasons() -> str:
+    parts = (chapter.rows(), chapter.variants(), chapter.peaks(), chapter.budget())
+    return mechanism(*map(pd.DataFrame, parts))
+
+
+def plans() -> str:
+    """Every ensemble of the quick and the full study, and every surface of the mechanism."""
+    lines = []
+    for name in ("quick", "full"):
+        config = {}
+        for file in dict.fromkeys(("config", name)):
+            config = merged(config, yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()))
+        whole = study.completed(config)
+        groups = study.ensembles(whole)
+        for kind, some in (("runs", groups), ("drawn", study.for_figures(whole, groups))):
+            for group, members in some.items():
+                lines.append(f"# {name}, {group}, {kind}: {len(members)} ensembles")
+                lines += [described(each) for each in members if kind == "runs"]
+    for table, parts in TABLES.items():
+        for part, scenes in parts.items():
+            lines.append(f"# {table}, {part}: {len(scenes)} surfaces")
+            lines += [f"{scene.folder}: {scene}" for scene in scenes]
+    return "\n".join(lines) + "\n"
+
+
+def merged(first: Any, second: Any) -> Any:
+    """Merge configurations as Snakemake does with several files."""
+    if not (isinstance(first, dict) and isinstance(second, dict)):
+        return second
+    return first | {key: merged(first.get(key), value) for key, value in second.items()}
+
+
+def described(ensemble: study.Ensemble) -> str:
+    seeds = f"seeds {ensemble.seeds[0]} to {ensemble.seeds[-1]}"
+    duration = f", {ensemble.duration:g} s" if ensemble.duration else ""
+    times = f", fields at {ensemble.snapshot_times}" if ensemble.snapshot_times else ""
+    return f"{ensemble.scene.folder}: {ensemble.scene}; {seeds}{duration}{times}"
+
+
+def summary(run: Record) -> Row:
+    """Columns of a realisation, which Young's modulus varies and energy does not quite close."""
+    constants = run.constants | dict(run.scene.varied)
+    constants |= {"integrator": "leapfrog", "step": 2e-8, "sample_interval": 1e-6} | constants
+    computed = {name: getattr(run, name, 0.0) for name in SUMMARY.names}
+    own = {"seed": run.seed, "energy_error": 1e-6 * (run.seed - 2), "steps": 15_000 + run.seed}
+    return {name: (computed | run.scene.row | constants | own)[name] for name in SUMMARY.names}
+
+
+def batch(file: Path, runs: list[Record]) -> Path:
+    """Write a file of realisations with their curves and maps."""
+    rows = [
+        summary(run)
+        | {name: getattr(run, name) for name in ("force", "detachments", "switches")}
+        | {"normal_force": run.normal_force}
+        | {name: getattr(run, name).ravel() for name in ("t_det", "contact")}
+        for run in runs
+    ]
+    write(batch_table(rows), file, ORIGIN)
+    return file
+
+
+def commands() -> str:
+    """What commands print and write that read realisations."""
+    few = {scene: [paper.record(scene, seed) for seed in range(5)] for scene in paper.CURVES}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        flat = batch(folder / "flat.parquet", few[paper.FLAT])
+        small = batch(folder / "pillars-6.parquet", few[paper.PILLARS[1]])
+        large = batch(folder / "pillars-24.parquet", few[paper.PILLARS[2]][:4])
+        varied = [scene for scene in (*paper.FEW, *paper.MANY) if scene.varied]
+        others = [batch(folder / f"{i}.parquet", few[scene]) for i, scene in enumerate(varied)]
+        grooved = batch(folder / "grooves.parquet", few[paper.ALONG])
+        said = [
+            ("table", flat, small, large),
+            ("table", flat, small, "--by", "n_p", "--of", "dynamic_friction", "--of", "t_first"),
+            ("table", flat, *others, "--changes", "--output", folder / "changes.csv"),
+            ("compare", flat, others[0]),
+            ("compare", small, large, "--of", "t_avg", "--output", folder / "compared.csv"),
+            ("compare", folder, flat),
+            ("info", small),
+            ("verify", small, small),
+            ("verify", small, large),
+            ("aggregate", small, flat, *correlated(folder / "all.parquet")[:3]),
+            ("correlation", small, *correlated(folder / "small")),
+            ("correlation", grooved, *correlated(folder / "grooved")),
+            ("plot", flat, *others, "--over", "slider_velocity", "--output", folder / "plot.png"),
+            ("plot", small, "--seed", 9, "--output", folder / "plot.png"),
+        ]
+        lines = [each for words in said for each in printed([str(word) for word in words])]
+        for file in sorted(folder.glob("*.csv")):
+            lines += [f"# {file.name}", file.read_text()]
+        for file in ("all.parquet", "small-c", "small-l", "grooved-c", "grooved-l"):
+            lines += [f"# {file}", written(pd.read_parquet(folder / file).T.reset_index())]
+        return "\n".join(lines).replace(str(folder), "FOLDER") + "\n"
+
+
+def correlated(file: Path) -> list[Any]:
+    if file.suffix:
+        return ["--configuration", "0", f"--output={file}"]
+    return [f"--output-correlation={file}-c", f"--output-length={file}-l"]
+
+
+def printed(words: list[str]) -> Iterator[str]:
+    """Yield a command and what it prints."""
+    yield f"$ springblock {' '.join(words)}"
+    yield CliRunner().invoke(main, words).output
+
+
+def reported() -> str:
+    """Words and addresses of the report on all made-up data, and of one on own scenes."""
+    records, claims = evidence()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        pages = {"mechanism": reasons(), "claims": statements(claims), "accuracy": accuracy()}
+        for page, text in pages.items():
+            (folder / f"{page}.md").write_text(text, encoding="utf-8")
+        write(rows_to_table(claims, SCHEMA), folder / "claims.parquet", ORIGIN)
+        runs = rows_to_table([summary(run) for run in records if run.seed < 3], SUMMARY)
+        write(runs, folder / "realisations.parquet", ORIGIN)
+        files = sorted(folder.iterdir())
+        whole = report(files, {})
+        own = report([folder / "realisations.parquet"], {}, own=True)
+    return readable(whole) + "\n\n" + readable(own) + "\n"
+
+
+def readable(html: str) -> str:
+    """Text and the targets of links, without what other recordings hold."""
+    body = re.sub(r"<(style|script)\b.*?</\1>", "", html, flags=re.DOTALL)
+    body = re.sub(r'"data:[^"]*"', '"data"', body)
+    body = re.sub(r'<section id="(claims|mechanism|accuracy)".*?</section>', "", body, flags=re.S)
+    body = re.sub(r'<a [^>]*?href="([^"]*)"[^>]*>', r"[\1] ", body)
+    text = unescape(re.sub(r"<[^>]*>", " ", body))
+    lines = (" ".join(line.split()) for line in text.splitlines())
+    return "\n".join(filter(None, lines))
+
+
+def jobs() -> str:
+    """The commands of all jobs of a tiny study."""
+    with tempfile.TemporaryDirectory() as name:
+        everything = {"accuracy": True, "production": True, "mechanism": True}
+        tiny = Study.begun(Path(name) / "study", **everything)
+        said = tiny.run("--dry-run", "--printshellcmds", "--quiet", "host")
+    found = re.findall(r"^Shell command: (.*(?:\n {4,}.*)*)", said, re.MULTILINE)
+    return "\n".join(sorted(set(found))) + "\n"
+
+
+def figures() -> str:
+    """Texts, and sums over the points of each kind in each panel, weighted by their order."""
+    return written(pd.DataFrame(chain.from_iterable(map(sums, DRAWINGS))))
+
+
+def sums(name: str) -> Iterator[Row]:
+    for panel, ax in enumerate(drawn(name).axes):
+        kinds: dict[str, list[np.ndarray]] = {}
+        for kind, points in shown(ax):
+            kinds.setdefault(kind, []).append(points)
+        for kind, several in kinds.items():
+            points = np.concatenate(several)
+            places = np.linspace(0.5, 1.0, len(points))[:, None]
+            x, y = np.nansum(places * points, axis=0)
+            row = {"figure": name, "panel": panel, "kind": kind, "points": len(points)}
+            yield row | {"x": x, "y": y}
+        texts = [*ax.texts, ax.title, ax.xaxis.label, ax.yaxis.label]
+        texts += (ax.get_legend() or ax).findobj(Text) if ax.get_legend() else []
+        said = dict.fromkeys(text.get_text().replace("\n", " ") for text in texts)
+        yield {"figure": name, "panel": panel, "kind": " | ".join(filter(None, said))}
+
+
+def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
+    """Yield the points, (n, 2), of lines, symbols, bands and bars, and the values of images."""
+    for line in ax.lines:
+        yield "lines", np.array(line.get_xydata(), dtype=float)
+    for patch in ax.patches:
+        if isinstance(patch, FancyArrowPatch):
+            continue  # its path is in pixels
+        yield "patches", patch.get_patch_transform().transform(patch.get_path().vertices)
+    for collection in ax.collections:
+        yield "collections", np.asarray(collection.get_offsets(), dtype=float)
+        for path in collection.get_paths():
+            yield "collections", path.vertices
+    for image in ax.images:
+        values = np.ma.filled(image.get_array().astype(float), np.nan).ravel()
+        yield "images", np.stack([values, np.arange(values.size)], axis=1)
+
+
+TEXTS: dict[str, Callable[[], str]] = {
+    "accuracy.csv": errors_measured,
+    "accuracy.md": accuracy,
+    "beyond.md": beyond,
+    "claims.csv": findings,
+    "claims.md": claims,
+    "commands.txt": commands,
+    "figures.csv": figures,
+    "jobs.txt": jobs,
+    "mechanism.md": reasons,
+    "plans.txt": plans,
+    "report.txt": reported,
+}
+
+
+def anywhere(text: str) -> str:
+    """Return the text without digests of code and files, and numbers of processors."""
+    return re.sub(r"(?<=--jobs )\d+|\b[0-9a-f]{16,}\b", "...", text)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_texts_are_those_recorded(name, monkeypatch):
+    """Words to the letter, numbers to a millionth."""
+    monkeypatch.undo()  # as many resamples as usual
+    now, before = anywhere(TEXTS[name]()), (RECORDED / name).read_text(encoding="utf-8")
+    assert NUMBER.sub("#", now).splitlines() == NUMBER.sub("#", before).splitlines()
+    values = [np.array(NUMBER.findall(text), float) for text in (now, before)]
+    np.testing.assert_allclose(*values, rtol=1e-6, atol=1e-12)
+
+
+if __name__ == "__main__":
+    for name, text in TEXTS.items():
+        (RECORDED / name).write_text(anywhere(text()), encoding="utf-8")
