@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from springblock.model.direction import heading
 from springblock.model.law import LawFile
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.setup import DEFAULT, Setup
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 #: State variables of sliding blocks by name, (N_y, N_x) each.
 Memory = dict[str, Array]

@@ -308,7 +308,7 @@ def jobs() -> str:
         tiny = Study.begun(Path(name) / "study", **everything)
         said = tiny.run("--dry-run", "--printshellcmds", "--quiet", "host")
     found = re.findall(r"^Shell command: (.*(?:\n {4,}.*)*)", said, re.MULTILINE)
-    return "\n".join(sorted(set(found))) + "\n"
+    return "\n".join(sorted({anywhere(command) for command in found})) + "\n"
 
 
 def figures() -> str:

@@ -1,7 +1,5 @@
 """Laws of friction, one block and one step at a time."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from numba import njit
@@ -138,14 +136,6 @@ def test_in_the_limit_of_its_constant_a_run_is_that_of_coulombs_law_to_the_bit(l
     )
     assert np.array_equal(weakening.t_det, coulomb.t_det)
     assert np.array_equal(weakening.force, coulomb.force)
-
-
-def test_a_law_without_functions_is_an_error():
-    material = SimpleNamespace(law="viscous")
-    with pytest.raises(ValueError, match="'viscous' has no type"):
-        laws.law_of(material, 1.0, 1.0, np.ones(1, bool), None)
-    with pytest.raises(TypeError):
-        laws.resistance(material, 0.0, 1.0, -0.5, STATIC, DYNAMIC)
 
 
 def test_slip_accumulates_until_the_block_stops_and_heals():

@@ -7,7 +7,7 @@ import pytest
 
 from springblock import Material, Pattern, Surface, draw_friction
 from springblock.solver import leapfrog
-from springblock.solver.lattice import Samples, prepare
+from springblock.solver.lattice import Samples, band_from, prepare
 from springblock.solver.springs import scratch
 
 STEP, EVERY = 2e-8, 10
@@ -95,10 +95,11 @@ def test_a_row_at_rest_is_skipped_until_a_block_may_detach():
     rows, blocks = leapfrog.make_rows(state.in_contact, False), state.blocks
     assert not any(field.any() for field in (blocks.ux, blocks.uy, blocks.vx, blocks.vy))
     pull = constants.springs.k_s * np.hypot(constants.slider_x, constants.slider_y)
-    own, i = np.uint64(0), np.uint64(0)
-    sure = leapfrog._steps_at_rest(blocks.static, scratch(), own, i, constants.grid.n_x, pull)
-    assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.sliding[:] = False
+    band = band_from(np.uint64(0), constants)
+    leapfrog._settle_rows(blocks, rows, band, scratch(), pull, 0)
+    sure = rows.due[0]
+    assert sure == pytest.approx(blocks.static[1:13].min() / pull, rel=1e-3)
     rows.due[:] = sure
     leapfrog.wake(rows, sure - 1, False)
     assert not rows.awake.any()

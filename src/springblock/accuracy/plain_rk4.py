@@ -8,13 +8,11 @@ to rest. SI units, one force evaluation per stage; not optimised.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.solver.compilation import cached_njit
-
-Array = NDArray[np.float64]
 
 
 @dataclass

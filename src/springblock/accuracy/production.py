@@ -19,10 +19,11 @@ from springblock.analysis.statistics import mean_interval, standard_error
 from springblock.io.rows import Row
 from springblock.io.schemas import N_BLOCKS, column, numbers, texts
 from springblock.model.defaults import STEP
+from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude
-from springblock.simulation.run import Array, Realisation
+from springblock.simulation.run import Realisation
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 

@@ -42,9 +42,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FREE, STUCK, CREEPING, SLIDING = range(4)

@@ -23,8 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.analysis.statistics import Interval, bootstrap_interval, bootstrap_weights
+from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 #: Last r of the fits, blocks, which begin at r = 1: a third of the shortest side on which enough
 #: distances can be fitted, 20. Lengths from different ranges cannot be compared.

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from springblock.analysis.statistics import difference_interval
-from springblock.simulation.run import Array
+from springblock.model.numbers import Array
 
 #: Bound of the numerical bias of static friction at the default step (`docs/accuracy.md`).
 BIAS = 1e-3

@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
-from springblock.simulation.run import Array, Run, friction, percent
+from springblock.simulation.run import Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000

@@ -12,7 +12,8 @@ from springblock.analysis.statistics import Interval, mean_interval
 from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
 from springblock.beyond.resampling import interval
 from springblock.io.rows import markdown_table
-from springblock.simulation.run import Array, Run
+from springblock.model.numbers import Array
+from springblock.simulation.run import Run
 
 NEEDS = "group friction"
 Pillars = tuple[int, int]  #: n_p and n_s, blocks

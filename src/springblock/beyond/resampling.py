@@ -18,7 +18,7 @@ from springblock.analysis.statistics import (
     samples_interval,
 )
 from springblock.io.records import Record
-from springblock.simulation.run import Array
+from springblock.model.numbers import Array
 
 _RESAMPLES = 1000
 #: Least number of realisations for a correlation: no resample consists of a single one.

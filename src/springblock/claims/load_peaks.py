@@ -17,8 +17,9 @@ from springblock.claims.rule import Evidence, Finding, Records
 from springblock.claims.samples import mean_over
 from springblock.claims.surfaces import Mask, core, edge, slid_both_ways
 from springblock.io.records import Record
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 _AT_VALLEY = "at the lowest force between the load peaks"
 _FEWEST = 4  #: surfaces needed for a trend with two lengths

@@ -20,8 +20,9 @@ from springblock.claims.samples import Quantity, found_on, mean_over, over_runs,
 from springblock.claims.surfaces import Mask, pillars, pillars_of
 from springblock.io.records import Record
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 _BORDER = 2  #: width of the border, blocks: the outermost ones and those adjacent to them
 _BROAD = 20  #: n_p from which on most blocks of a pillar lie inside the border

@@ -9,8 +9,8 @@ from typing import Any
 from springblock.analysis.estimate import Estimate
 from springblock.io.records import Record
 from springblock.io.rows import Row, listed
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array
 
 Records = Mapping[Scene, Sequence[Record]]  #: realisations
 RowsByScene = Mapping[Scene, Sequence[Row]]  #: of a table

@@ -22,8 +22,9 @@ from springblock.claims.rule import Case, Evidence, Finding, Range, Records, Tes
 from springblock.claims.surfaces import Mask
 from springblock.io.records import Record
 from springblock.io.rows import Row
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 T = TypeVar("T")
 Quantity = Callable[[Record], float]  #: of a realisation

@@ -25,8 +25,8 @@ from springblock.claims.rule import Evidence, Finding, RowsByScene
 from springblock.claims.samples import found_on, interval
 from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
 from springblock.io.rows import Row, select
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array
 
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances

@@ -17,8 +17,8 @@ from springblock.claims.samples import found_on
 from springblock.claims.surfaces import across, case_of, pillars, pillars_of, slid_both_ways
 from springblock.mechanism.elasticity import Layer
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
-from springblock.simulation.run import Array
 
 _OVER_MEAN = "over the mean stress"
 _DIGITS = 9  #: to which equal stresses agree

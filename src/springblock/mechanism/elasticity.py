@@ -17,8 +17,7 @@ from scipy.sparse import coo_array, csc_array, eye_array
 from scipy.sparse.linalg import SuperLU, splu
 
 from springblock.model.material import Material
-
-Array = NDArray[np.float64]
+from springblock.model.numbers import Array
 
 #: Half of the neighbours of a block, (y, x), and the stiffness of their springs over K_int.
 SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}

@@ -20,7 +20,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from springblock.mechanism.elasticity import Array, Layer
+from springblock.mechanism.elasticity import Layer
+from springblock.model.numbers import Array
 
 #: Least stress drop of an overshooting block over its strength; without a drop it would detach
 #: again at once.

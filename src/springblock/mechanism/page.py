@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from springblock.analysis.lowest import Lowest, lowest
 from springblock.analysis.statistics import PROMINENT, mean_interval, prominence
 from springblock.io.rows import listed, markdown_table
-from springblock.mechanism.elasticity import Array
 from springblock.mechanism.pawls import TWO_PEAKS, pawl
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 
 #: Names of the models on the page, each with one effect more than the one before.
 NAMES = {

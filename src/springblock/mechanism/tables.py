@@ -19,9 +19,10 @@ from springblock.analysis.statistics import prominence
 from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, SETUP, column, numbers, texts
 from springblock.mechanism import models, pawls
-from springblock.mechanism.elasticity import Array, Layer, lattice_stiffness
+from springblock.mechanism.elasticity import Layer, lattice_stiffness
 from springblock.mechanism.surfaces import TABLES, TRAINING
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
 from springblock.simulation.prelude import compute_prelude

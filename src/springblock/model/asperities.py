@@ -4,15 +4,12 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.model.material import Material
-from springblock.model.numbers import check_whole
+from springblock.model.numbers import Array, check_whole
 
 if TYPE_CHECKING:
     from scipy.stats.distributions import rv_frozen
-
-Array = NDArray[np.float64]
 
 #: Margin, in correlation lengths, that is added to the surface before correlated normals are drawn
 #: on it with periodic edges. There exp(-r²/ℓ²) is 1e-7, so that opposite edges are uncorrelated.

@@ -1,9 +1,12 @@
-"""Checks of numbers given by users."""
+"""Arrays of numbers, and checks of numbers given by users."""
 
 import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 REAL = int | float | np.integer | np.floating
 

@@ -7,9 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.asperities import draw_friction
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.pattern import MAX_BLOCKS
-
-Array = NDArray[np.float64]
 
 #: Least number of blocks per side with periodic edges: with fewer, a block would be its own
 #: neighbour, or a neighbour of another one twice.

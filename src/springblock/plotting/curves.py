@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
+from springblock.model.numbers import Array
 from springblock.plotting import style
 from springblock.plotting.figures import SINGLE
 from springblock.plotting.style import BLACK, FORCE, GREY, MICRO, Look
-from springblock.simulation.run import Array, Run, friction, percent
+from springblock.simulation.run import Run, friction, percent
 
 Span = tuple[float, float]  #: of times in µs
 

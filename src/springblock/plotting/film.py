@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from springblock.files import whole_file
+from springblock.model.numbers import Array
 from springblock.plotting import maps, style
 from springblock.plotting.style import MICRO, MM
-from springblock.simulation.run import Array, Run, friction
+from springblock.simulation.run import Run, friction
 
 FRAMES, PER_SECOND = 150, 20  #: 7.5 s
 _HOLD = 15  #: of these frames show the end

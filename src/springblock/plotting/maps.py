@@ -14,8 +14,9 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from springblock.model.direction import heading, normalised
+from springblock.model.numbers import Array
 from springblock.plotting.style import BEFORE_AFTER, BLACK, CONTACT, NO_CONTACT, Look, color_bar
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 Axis = Literal["x", "y"]
 Point = tuple[float, float]

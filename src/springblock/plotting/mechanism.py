@@ -13,11 +13,11 @@ from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.page import NAMES
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.plotting import style
 from springblock.plotting.curves import FRICTION, draw_band, draw_means, name_places
 from springblock.plotting.maps import draw_map
 from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, VERMILION, Look, color_bar
-from springblock.simulation.run import Array
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
 _COLORS = "cividis"

@@ -12,9 +12,10 @@ from matplotlib.ticker import MaxNLocator
 from springblock.analysis import statistics
 from springblock.analysis.statistics import Curve, Interval
 from springblock.io.records import Record
+from springblock.model.numbers import Array
 from springblock.plotting import curves, maps, style
 from springblock.plotting.style import BLACK, BLUE, FORCE, GREY, MICRO, VERMILION, Look
-from springblock.simulation.run import Array, Run, friction
+from springblock.simulation.run import Run, friction
 
 if TYPE_CHECKING:  # read by the command, and only then
     import pandas as pd

@@ -10,11 +10,11 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import ConnectionPatch, Polygon, Rectangle
 
+from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.plotting import maps, style
 from springblock.plotting.maps import Axis, Point
 from springblock.plotting.style import BLACK, CONTACT, GREY, NO_CONTACT, Look
-from springblock.simulation.run import Array
 
 #: Stiffness over K_int of the bonds that leave a block by (dx, dy), units of l: every spring once.
 BONDS = {(1, 0): 1.0, (0, 1): 1.0, (1, 1): 0.5, (-1, 1): 0.5}

@@ -9,11 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from springblock.model.numbers import Array
 from springblock.plotting import maps, style
 from springblock.plotting.curves import draw_force, draw_run
 from springblock.plotting.style import COLUMN, DOUBLE, MICRO, MM, color_bar, journal
 from springblock.simulation.fields import Fields
-from springblock.simulation.run import Array, Run
+from springblock.simulation.run import Run
 
 RUN_CAPTION = """Friction force over the normal force and share of blocks that detach in each sample
 interval, against time; first detachment time t_det over t_max of each block; displacements, if the

@@ -12,12 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from springblock.files import read_arrays, whole_file
-from springblock.model.numbers import check_real
+from springblock.model.numbers import Array, check_real
 from springblock.provenance import digest
 from springblock.simulation.motion import Motion
 from springblock.solver.lattice import Samples, State
-
-Array = NDArray[np.float64]
 
 
 def belonging(surface: str, friction: Sequence[Array], **asked: object) -> dict[str, str]:

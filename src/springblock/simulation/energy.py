@@ -4,11 +4,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.model.material import Material
-
-Array = NDArray[np.float64]
+from springblock.model.numbers import Array
 
 
 @dataclass(frozen=True)

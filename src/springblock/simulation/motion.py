@@ -1,16 +1,14 @@
 """Motion of a surface: the state of a run between two calls of the compiled time loop."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.model.direction import heading
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.setup import Setup
 from springblock.solver.integrators import INTEGRATORS, on_cores
 from springblock.solver.lattice import Samples, prepare, unpadded
 from springblock.solver.law_file import FromFile
-
-Array = NDArray[np.float64]
 
 
 class SimulationError(RuntimeError):

@@ -20,14 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 from springblock.files import MENDING, read_arrays, whole_file
 from springblock.model.asperities import log_share_above
 from springblock.model.direction import heading
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface, as_mask
 from springblock.simulation.motion import Motion, SimulationError
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import Samples, close_edges, unpadded
 from springblock.solver.law_file import FromFile
 from springblock.solver.laws import threshold_of
-
-Array = NDArray[np.float64]
 
 #: Sample intervals between two candidates for a stored state.
 _BETWEEN = 10

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from springblock.model.numbers import Array
 from springblock.simulation.energy import Energy
 from springblock.simulation.fields import Fields
 
-Array = NDArray[np.float64]
 Counts = NDArray[np.integer]
 
 #: Smallest rise of the force after a minimum for it to count, as a share of its drop from the peak.

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from tqdm import tqdm
 
 from springblock.model.direction import heading
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.simulation.checkpoint import Checkpoint, belonging
 from springblock.simulation.energy import Energy, elastic_energy
@@ -19,8 +19,6 @@ from springblock.simulation.run import Realisation, first_minimum
 from springblock.simulation.setup import DEFAULT, Setup, check_type
 from springblock.solver.lattice import SQUARES, WORK, unpadded
 from springblock.solver.shear import shear_forces
-
-Array = NDArray[np.float64]
 
 #: Sample intervals between two tests of whether a run is complete.
 _SAMPLES_PER_CALL = 10

@@ -15,6 +15,7 @@ from functools import partial
 from types import ModuleType
 from typing import Any
 
+from springblock.model.numbers import check_whole
 from springblock.solver import leapfrog, parallel, rk4
 from springblock.solver.lattice import Advance
 
@@ -23,11 +24,7 @@ INTEGRATORS: dict[str, ModuleType] = {"leapfrog": leapfrog, "rk4": rk4}
 
 def on_cores(integrator: str, cores: Any) -> Advance:
     """Return `advance` for this number of cores; refuse numbers that it cannot use."""
-    if isinstance(cores, bool) or not isinstance(cores, int):
-        raise TypeError(f"cores must be a whole number, not {cores!r}")
-    if cores < 1:
-        raise ValueError(f"cores must be at least 1, not {cores}")
-    if cores == 1:
+    if check_whole("cores", cores) == 1:
         return INTEGRATORS[integrator].advance
     if integrator != "leapfrog":
         raise ValueError(f"cores must be 1 with {integrator}, not {cores}")

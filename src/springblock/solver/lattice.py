@@ -17,6 +17,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
 from springblock.solver.compilation import kernel
 from springblock.solver.laws import Law, law_of
@@ -32,9 +33,6 @@ from springblock.solver.springs import (
     aligned,
     scratch,
 )
-
-Array = NDArray[np.float64]
-
 
 #: Entries of the ledger: slider work, frictional heat, and squared velocities, for viscous heat.
 WORK, HEAT, SQUARES = range(3)

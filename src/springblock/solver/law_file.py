@@ -15,9 +15,8 @@ from numba import NumbaError, cfunc, float64, int64, njit, void
 from numpy.typing import NDArray
 
 from springblock.model.law import LawFile
+from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
-
-Array = NDArray[np.float64]
 
 #: Largest number of iterations for V, and the error at which they end, relative to `speed`.
 _ITERATIONS, _TOLERANCE = 100, 1e-15

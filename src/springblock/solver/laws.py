@@ -28,10 +28,9 @@ from numpy.typing import NDArray
 
 from springblock.model.law import LawFile
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.solver import law_file
 from springblock.solver.law_file import FromFile, from_file
-
-Array = NDArray[np.float64]
 
 
 class SlipWeakening(NamedTuple):
@@ -70,24 +69,20 @@ def law_of(
     if isinstance(law, LawFile):
         return from_file(law, contact, load, material.spacing / step, step)
     if law == "slip_weakening":
-        return SlipWeakening(field(), 1.0 / _bounded(material.slip_distance / material.spacing))
+        distance = np.clip(material.slip_distance / material.spacing, _LEAST, _MOST)
+        return SlipWeakening(field(), 1.0 / float(distance))
     if law == "velocity_weakening":
-        return VelocityWeakening(_bounded(material.speed_scale * step / material.spacing))
-    if law != "coulomb":
-        raise ValueError(f"law: {law!r} has no type in solver/laws.py")
+        scale = np.clip(material.speed_scale * step / material.spacing, _LEAST, _MOST)
+        return VelocityWeakening(float(scale))
     return None
 
 
-def _bounded(scale: float) -> float:
-    return min(max(scale, _LEAST), _MOST)
-
-
-def _of_each_law(functions: Mapping[type, Callable[..., Any]], usual: Any = None) -> Any:
+def _of_each_law(functions: Mapping[type, Callable[..., Any]], usual: Callable[..., Any]) -> Any:
     """Return the function that calls one of `functions`, by the type of its first argument.
 
-    A law that is not among them has the function `usual`; without one, it is a TypeError. Compiled
-    callers choose when they are compiled, and LLVM inlines the function; if numba inlined it
-    instead, the assignment in `_store_slip` would be lost.
+    A law that is not among them has the function `usual`. Compiled callers choose when they are
+    compiled, and LLVM inlines the function; if numba inlined it instead, the assignment in
+    `_store_slip` would be lost.
     """
 
     def chosen(law, *arguments):
@@ -98,10 +93,6 @@ def _of_each_law(functions: Mapping[type, Callable[..., Any]], usual: Any = None
         return functions.get(getattr(law, "instance_class", type(None)), usual)
 
     return chosen
-
-
-def _dynamic(law, slip, speed, share, static, dynamic):
-    return dynamic
 
 
 def _after_slip(law, slip, speed, share, static, dynamic):
@@ -120,30 +111,6 @@ def _at_speed(law, slip, speed, share, static, dynamic):
     return dynamic + drop * c / (c + max(mean, 0.0)) if under_root >= 0.0 else np.inf
 
 
-def _half(law, row, speed, static, dynamic):
-    return 0.5
-
-
-def _stronger(law, static, dynamic):
-    return max(static, dynamic)
-
-
-def _zero(law, *arguments):
-    return 0.0
-
-
-def _slip_so_far(law, b):
-    return law.slip[b]
-
-
-def _slip_before(law, state, moved):
-    return max(state - moved, 0.0)
-
-
-def _store_nothing(law, b, state, moved, slides):
-    pass
-
-
 def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
@@ -153,24 +120,37 @@ def _store_slip(law, b, state, moved, slides):
 #: share is 0. T is infinite if no V solves the equation: the block stops.
 resistance = _of_each_law(
     {
-        type(None): _dynamic,
         SlipWeakening: _after_slip,
         VelocityWeakening: _at_speed,
         FromFile: law_file.resistance,
-    }
+    },
+    lambda law, state, speed, share, static, dynamic: dynamic,
 )
 #: (law, state, speed, static, dynamic) -> weight β of the velocity after a step in the one at which
 #: friction is evaluated: 1/2, but more where friction rises steeply with speed.
-end_weight = _of_each_law({FromFile: law_file.end_weight}, _half)
+end_weight = _of_each_law(
+    {FromFile: law_file.end_weight}, lambda law, state, speed, static, dynamic: 0.5
+)
 #: (law, static, dynamic) -> threshold of the force on a block at rest, F_c.
-threshold_of = _of_each_law({FromFile: law_file.threshold_of}, _stronger)
+threshold_of = _of_each_law(
+    {FromFile: law_file.threshold_of}, lambda law, static, dynamic: max(static, dynamic)
+)
 #: (law) -> state of a block that detaches: its slip, or the row of its state.
-state_at_release = _of_each_law({FromFile: law_file.state_at_release}, _zero)
+state_at_release = _of_each_law({FromFile: law_file.state_at_release}, lambda law: 0.0)
 #: (law, b) -> state of block b.
-state_of = _of_each_law({SlipWeakening: _slip_so_far, FromFile: law_file.state_of}, _zero)
+state_of = _of_each_law(
+    {SlipWeakening: lambda law, b: law.slip[b], FromFile: law_file.state_of}, lambda law, b: 0.0
+)
 #: (law, state, moved) -> state before the last step, in which the block slipped by `moved`.
-state_before = _of_each_law({SlipWeakening: _slip_before, FromFile: law_file.state_before}, _zero)
+state_before = _of_each_law(
+    {
+        SlipWeakening: lambda law, state, moved: max(state - moved, 0.0),
+        FromFile: law_file.state_before,
+    },
+    lambda law, state, moved: 0.0,
+)
 #: (law, b, state, moved, slides): store the state of block b after a step from `state`.
 store_state = _of_each_law(
-    {SlipWeakening: _store_slip, FromFile: law_file.store_state}, _store_nothing
+    {SlipWeakening: _store_slip, FromFile: law_file.store_state},
+    lambda law, b, state, moved, slides: None,
 )

@@ -10,18 +10,10 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
-from springblock.solver.lattice import (
-    Array,
-    Constants,
-    Samples,
-    State,
-    band_from,
-    close_rows,
-    tally,
-)
+from springblock.solver.lattice import Constants, Samples, State, band_from, close_rows, tally
 from springblock.solver.leapfrog import make_rows, move_band, place_releases, totals, wake
 from springblock.solver.release import Releases, make_releases
 from springblock.solver.springs import ONE, Band, U, forces_on_band, scratch
@@ -32,6 +24,7 @@ class Part(NamedTuple):
 
     start: np.uint64
     stop: np.uint64
+    last: np.uint64  #: first row of the last band
     lower: Array  #: scratch of all bands but the last
     upper: Array  #: scratch of the last band
     released: Releases
@@ -45,7 +38,8 @@ def parts_of(constants: Constants, cores: int) -> list[Part]:
     parts = []
     for start, stop in zip(cuts[:-1].tolist(), np.minimum(cuts[1:], n_y).tolist(), strict=True):
         released = make_releases((stop - start) * n_x)
-        parts.append(Part(U(start), U(stop), scratch(), scratch(), released))
+        last = (stop - 1) // size * size
+        parts.append(Part(U(start), U(stop), U(last), scratch(), scratch(), released))
     return parts
 
 
@@ -70,15 +64,8 @@ def _forces_at_ends(blocks, rows, constants, slider, part):
     row, column = _forces_on_end(blocks, rows, first, part.lower, constants.springs, slider)
     if column > 0 or first.stop == part.stop:
         return row, column
-    last = band_from(_last_band(part, constants), constants)
+    last = band_from(part.last, constants)
     return _forces_on_end(blocks, rows, last, part.upper, constants.springs, slider)
-
-
-@njit(inline="always")
-def _last_band(part, constants):
-    """First row of the last band."""
-    size = constants.band_rows
-    return (part.stop - ONE) // size * size
 
 
 @kernel
@@ -87,12 +74,11 @@ def _move_part(blocks, law, peak, rows, constants, slider, now, part):
 
     Returns switches and releases, and row and column of a broken spring; column 0 if none is.
     """
-    springs, last = constants.springs, _last_band(part, constants)
-    switches, count = np.int64(0), np.int64(0)
+    springs, switches, count = constants.springs, np.int64(0), np.int64(0)
     for start in range(part.start, part.stop, constants.band_rows):
         band = band_from(start, constants)
-        s = part.upper if start == last and start > part.start else part.lower
-        if part.start < start < last:
+        s = part.upper if start == part.last and start > part.start else part.lower
+        if part.start < start < part.last:
             row, column = forces_on_band(blocks.ux, blocks.uy, band, rows.awake, s, springs, slider)
             if column > 0:
                 return switches, count, row, column

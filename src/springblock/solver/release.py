@@ -23,8 +23,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
-from springblock.solver.springs import Array, g
+from springblock.solver.springs import g
 
 
 class Releases(NamedTuple):

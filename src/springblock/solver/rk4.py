@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from springblock.model.numbers import Array
 from springblock.solver.compilation import add, kernel
 from springblock.solver.lattice import (
     HEAT,
-    Array,
     Constants,
     Samples,
     State,
@@ -206,16 +206,14 @@ def _friction_in_stage(blocks, law, stage, b):
 @kernel
 def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
     """Compute one stage in a band; return its share of the heat and of the squared velocities."""
-    ux, uy, vx, vy = blocks.ux, blocks.uy, blocks.vx, blocks.vy
-    su, sv, pu, pv, ex, ey = stage.ux, stage.uy, stage.vx, stage.vy, stage.ex, stage.ey
-    du, dv, qu, qv = stage.dx, stage.dy, stage.ax, stage.ay
+    ux, uy, vx, vy, ex, ey = blocks.ux, blocks.uy, blocks.vx, blocks.vy, stage.ex, stage.ey
     total_heat, total = 0.0, 0.0
     for row in range(band.start, band.stop):
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         heat, squares = 0.0, 0.0
         for x in range(ONE, band.grid.n_x + ONE):
             b = i + x
-            stage_x, stage_y = pu[b], pv[b]
+            stage_x, stage_y = stage.vx[b], stage.vy[b]
             friction = (
                 blocks.dynamic[b] if law is None else _friction_in_stage(blocks, law, stage, b)
             )
@@ -223,19 +221,19 @@ def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
             ay = s[FORCE_Y + own + x] - damping * stage_y - friction * ey[b]
             rests = (ex[b] == 0.0) & (ey[b] == 0.0)
             ax, ay = 0.0 if rests else ax, 0.0 if rests else ay
-            du[b] += weight * stage_x
-            dv[b] += weight * stage_y
-            qu[b] += weight * ax
-            qv[b] += weight * ay
+            stage.dx[b] += weight * stage_x
+            stage.dy[b] += weight * stage_y
+            stage.ax[b] += weight * ax
+            stage.ay[b] += weight * ay
             if law is not None:  # Coulomb's heat is known at the end of the step
                 heat = add(heat, friction * (stage_x * ex[b] + stage_y * ey[b]))
             squares = add(squares, stage_x * stage_x + stage_y * stage_y)
-            su[b] = ux[b] + reach * stage_x
-            sv[b] = uy[b] + reach * stage_y
-            pu[b] = vx[b] + reach * ax
-            pv[b] = vy[b] + reach * ay
+            stage.ux[b] = ux[b] + reach * stage_x
+            stage.uy[b] = uy[b] + reach * stage_y
+            stage.vx[b] = vx[b] + reach * ax
+            stage.vy[b] = vy[b] + reach * ay
         total_heat, total = total_heat + heat, total + squares
-        close_edge(su, sv, row, band.grid)
+        close_edge(stage.ux, stage.uy, row, band.grid)
     return weight * total_heat, weight * total
 
 

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
+from springblock.model.numbers import Array
 from springblock.solver.compilation import kernel
-from springblock.solver.lattice import Array, Constants, State, band_from, close_rows
+from springblock.solver.lattice import Constants, State, band_from, close_rows
 from springblock.solver.laws import resistance, state_of
 from springblock.solver.springs import FORCE_X, FORCE_Y, ONE, U, forces_on_band, scratch
 

@@ -27,12 +27,10 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from springblock.model.numbers import Array
 from springblock.model.pattern import MAX_BLOCKS
 from springblock.solver.compilation import kernel
-
-Array = NDArray[np.float64]
 
 #: Largest |q| for which g is computed by the polynomial, whose relative error, 4e-13, is that of
 #: rounding in a strain of 5e-4 between blocks displaced by l.
@@ -243,7 +241,7 @@ def _is_intact(q):
     return (q > Q_MIN) & (q < Q_MAX)  # False for NaN
 
 
-@njit(inline="always")
+@kernel
 def _pulls_by_closed_form(ux, uy, row, band, columns, s, kappa):
     """Store the spring forces of a row at any strain; return the x of a broken spring, or 0."""
     n = band.grid.n_x
@@ -300,29 +298,20 @@ def _sum_forces(ux, uy, row, band, columns, s, force, k_s, slider):
 
 
 @kernel
-def _forces_by_series(ux, uy, first, band, columns, needed, s, force, springs, slider):
-    """Store F_mot of columns of a band from row `first` on.
+def _forces_on_columns(ux, uy, band, columns, needed, s, force, springs, slider):
+    """Store F_mot of columns of a band; return row and column of a broken spring, column 0 without.
 
-    A row is skipped if neither it nor the next one is `needed`. Returns the first row with a spring
-    out of range, which is not stored, or the end of the band.
+    A row is skipped if neither it nor the next one is `needed`.
     """
-    for row in range(first, band.stop):
+    for row in range(band.start, band.stop):
         if needed[row] or needed[row + ONE]:
             if not _pulls_by_series(ux, uy, row, band, columns, s, springs.series):
-                return row
+                broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
+                if broken > 0:
+                    return row, broken
             _close_springs(s, band.grid)
             _sum_forces(ux, uy, row, band, columns, s, force, springs.k_s, slider)
-    return band.stop
-
-
-@kernel
-def _forces_by_closed_form(ux, uy, row, band, columns, s, force, springs, slider):
-    """Store F_mot of one row at any strain; return the first x of a broken spring, or 0."""
-    broken = _pulls_by_closed_form(ux, uy, row, band, columns, s, springs.kappa)
-    if broken == 0:
-        _close_springs(s, band.grid)
-        _sum_forces(ux, uy, row, band, columns, s, force, springs.k_s, slider)
-    return broken
+    return band.stop, U(0)
 
 
 @kernel
@@ -334,16 +323,9 @@ def _forces_on_rows(ux, uy, band, needed, pulls, s, springs, slider):
     for first in range(ONE, end, tile):
         start = U(first)
         columns = Columns(start - U(LANES) if start > 1 else start, start, min(start + tile, end))
-        row, broken = band.start, U(0)
-        while row < band.stop and broken == 0:
-            row = _forces_by_series(ux, uy, row, band, columns, needed, pulls, s, springs, slider)
-            if row < band.stop:
-                broken = _forces_by_closed_form(
-                    ux, uy, row, band, columns, pulls, s, springs, slider
-                )
-                row += ONE
+        row, broken = _forces_on_columns(ux, uy, band, columns, needed, pulls, s, springs, slider)
         if broken > 0:
-            return row - ONE, broken
+            return row, broken
     return band.stop, U(0)
 
 

@@ -4,11 +4,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.model.material import Material
-
-Array = NDArray[np.float64]
+from springblock.model.numbers import Array
 
 
 def leapfrog_is_stable(step: float, omega: Array, gamma: float) -> bool:

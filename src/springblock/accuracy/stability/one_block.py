@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 from springblock.accuracy.stability.cases import PAPER, UNDAMPED, Case, Outcome, Pull, pulled_at
 from springblock.accuracy.stability.surfaces import beyond_the_limit
 from springblock.model.material import LAWS, Material
+from springblock.model.numbers import Array
 from springblock.model.surface import Surface
-from springblock.simulation.run import Array
 from springblock.solver.stability import limit
 
 SPEED = 0.01
