@@ -22,6 +22,7 @@ from springblock.analysis.statistics import (
     prominence,
     proportion_interval,
     repeatability,
+    samples_interval,
     standard_error,
     whole_curve,
 )
@@ -66,6 +67,27 @@ def test_bca_covers_other_statistics_of_ten_better_than_percentiles_do(rng):
         plain.append(np.percentile(deviation(bootstrap_weights(10)), (2.5, 97.5)))
     covered = [np.mean([low < 1.0 < high for low, high in limits]) for limits in (plain, bca)]
     assert covered[0] + 0.02 < covered[1] < 0.96
+
+
+def test_intervals_of_two_samples_cover_as_often_as_they_say():
+    """95 of 100, within three standard errors of a count, and fewer with so few realisations."""
+    rng = np.random.default_rng(1)
+    hits, trials, true = 0, 200, 0.5
+    for _ in range(trials):
+        samples = rng.normal(1.5, 1.0, 20), rng.normal(1.0, 0.5, 30)
+        found = samples_interval(
+            samples, lambda one, other, axis: one.mean(axis) - other.mean(axis)
+        )
+        hits += bool(found.low <= true <= found.high)
+    assert 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / trials) - 0.02 < hits / trials < 0.995
+
+
+def test_every_sample_is_resampled_by_itself():
+    """The interval of a sum is that of its only varying part."""
+    samples = np.zeros(5), np.random.default_rng(0).standard_normal(20)
+    both = samples_interval(samples, lambda one, other, axis: one.mean(axis) + other.mean(axis))
+    alone = samples_interval(samples[1:], np.mean)
+    assert both.high - both.low == pytest.approx(alone.high - alone.low, rel=0.15)
 
 
 def test_surfaces_are_compared_as_independent_samples(rng):

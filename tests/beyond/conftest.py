@@ -5,4 +5,4 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def fewer_resamples(monkeypatch):
-    monkeypatch.setattr("springblock.beyond.resampling._RESAMPLES", 200)
+    monkeypatch.setattr("springblock.analysis.statistics._RESAMPLES", 200)

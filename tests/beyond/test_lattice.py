@@ -15,8 +15,7 @@ from springblock.beyond.lattice import (
     minimum,
     stress_ratio,
 )
-from springblock.beyond.question import UNCHANGED
-from springblock.beyond.resampling import side_length
+from springblock.beyond.question import UNCHANGED, side_length
 from springblock.model.scene import Scene
 
 

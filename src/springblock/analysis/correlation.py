@@ -164,9 +164,13 @@ class Correlation:
         """Last r of the fits: `LAST`, or n_p/3 on sides of less than 20 blocks."""
         return min(LAST, self.times.shape[-1] // 3, len(self.mean) - 1)
 
-    def length(self) -> Length:
-        """Correlation length; all resamples have the same weights in the fit."""
-        span = slice(1, self.last + 1)
+    def length(self, last: int | None = None) -> Length:
+        """Correlation length, by default from fits to `self.last`.
+
+        All resamples have the same weights in the fit.
+        """
+        last = last or self.last
+        span = slice(1, last + 1)
         error = self.resampled[:, span].std(axis=0)
 
         def estimates(weights: Array) -> Array:
@@ -176,7 +180,7 @@ class Correlation:
 
         found = bootstrap_interval(estimates, len(self.times))
         fitted, tail, gain = (Interval(*each) for each in np.transpose(found))
-        return Length(fitted, tail, gain, self.last)
+        return Length(fitted, tail, gain, last)
 
 
 def _decays(last: int) -> Array:

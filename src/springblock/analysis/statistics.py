@@ -83,20 +83,15 @@ def independent_difference(first: Interval, second: Interval) -> Interval:
     return Interval(difference, difference - below, difference + above)
 
 
-def samples_interval(
-    samples: Sequence[ArrayLike],
-    statistic: Callable[..., Array],
-    resamples: int = _RESAMPLES,
-    batch: int | None = None,
-) -> Interval:
+def samples_interval(samples: Sequence[ArrayLike], statistic: Callable[..., Array]) -> Interval:
     """A statistic of independent samples, (k,) each, with its 95 % BCa interval.
 
     `statistic` takes samples, (..., k), and their `axis`, and returns values, (...). Each sample,
-    of at least two realisations, is resampled separately; the resamples depend on `batch`. Limits
-    are percentiles if the statistic does not change when any one realisation is omitted.
+    of at least two realisations, is resampled separately. Limits are percentiles if the statistic
+    does not change when any one realisation is omitted.
     """
     samples = tuple(np.asarray(part) for part in samples)
-    options = {"random_state": np.random.default_rng(0), "n_resamples": resamples, "batch": batch}
+    options = {"random_state": np.random.default_rng(0), "n_resamples": _RESAMPLES}
     return _bca(np.asarray(statistic(*samples, axis=-1)), samples, statistic, **options)
 
 
@@ -146,20 +141,15 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
         return Interval(value, *np.full((2, *value.shape), np.nan))
     resampled = statistic(bootstrap_weights(k))
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
-    options = {"n_resamples": 0, "bootstrap_result": given}
-    return _bca(value, (np.arange(k),), of_indices(statistic, k), **options)
 
-
-def of_indices(statistic: Callable[[Array], Array], k: int) -> Callable[..., Array]:
-    """Return a statistic of resamples given by index, (..., n), from one of weights, (b, k)."""
-
-    def of_drawn(drawn: NDArray[np.intp], axis: int) -> Array:
+    def of_indices(drawn: NDArray[np.intp], axis: int) -> Array:
         flat = drawn.reshape(-1, drawn.shape[axis])
         weights = np.stack([np.bincount(numbers, minlength=k) for numbers in flat]) / flat.shape[1]
         values = np.moveaxis(statistic(weights), 0, -1)
         return values.reshape((*values.shape[:-1], *drawn.shape[:-1]))
 
-    return of_drawn
+    options = {"n_resamples": 0, "bootstrap_result": given}
+    return _bca(value, (np.arange(k),), of_indices, **options)
 
 
 def standard_error(values: Array) -> Array:

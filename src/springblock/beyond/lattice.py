@@ -22,8 +22,8 @@ from springblock.beyond.question import (
     is_even,
     number,
     on_one_side,
+    side_length,
 )
-from springblock.beyond.resampling import side_length
 from springblock.io.records import Record
 from springblock.io.rows import listed, markdown_table
 from springblock.mechanism.elasticity import Layer

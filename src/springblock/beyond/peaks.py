@@ -3,12 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-import numpy as np
 import pandas as pd
 
 from springblock.analysis.statistics import PROMINENT, Interval, mean_interval, prominence
 from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
-from springblock.beyond.resampling import interval
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.direction import degrees
@@ -87,7 +85,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
 
 def _difference(first: pd.Series, second: pd.Series) -> Interval:
     """Return the mean difference over seeds that both have, with the same friction coefficients."""
-    return interval([(first - second).dropna().to_numpy()], np.mean)
+    return mean_interval((first - second).dropna())
 
 
 def _significant(differences: Sequence[Interval]) -> tuple[int, int]:

@@ -6,10 +6,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.statistics import Interval, independent_difference
 from springblock.io.records import Record
 from springblock.model.scene import Scene
 
+#: Least number of realisations for a correlation: no resample consists of a single one.
+FEWEST = 10
+_DISTANCES = 3  #: least number for a fit of two unknowns
 _DIGITS = 5  #: largest number of decimals
 UNCHANGED = "does not change significantly"
 
@@ -55,6 +59,18 @@ def is_even(scene: Scene, varied: Collection[str] = ()) -> bool:
     """Whether a scene has only pillars with n_s = n_p, and no constants but `varied`."""
     own = {name for name, _ in scene.varied}
     return has_pillars_alone(scene) and scene.n_p == scene.n_s and own <= {*varied}
+
+
+def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | None:
+    """Decay length along the sides of pillars, blocks: of A exp(-r/l) from r = 1 to n_p/3.
+
+    On larger pillars up to `most` blocks; None with too few realisations or on too short sides.
+    """
+    scene = runs[0].scene
+    last = min(scene.n_p // 3, most or scene.n_p)
+    if len(runs) < FEWEST or last < _DISTANCES:
+        return None
+    return Correlation(side_times(runs, scene.pattern, "x")).length(last).tail
 
 
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:

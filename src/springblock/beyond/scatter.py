@@ -7,6 +7,7 @@ from springblock.analysis.lowest import Lowest, are_apart, lowest
 from springblock.analysis.statistics import Interval, independent_difference
 from springblock.beyond.friction import lowest_in_words, samples
 from springblock.beyond.question import (
+    FEWEST,
     UNCHANGED,
     Ensembles,
     direction,
@@ -14,8 +15,8 @@ from springblock.beyond.question import (
     is_even,
     number,
     on_one_side,
+    side_length,
 )
-from springblock.beyond.resampling import FEWEST, side_length
 from springblock.io.records import Record
 from springblock.io.rows import listed, markdown_table
 

@@ -15,8 +15,7 @@ from seaborn import heatmap
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.lowest import lowest
 from springblock.beyond import friction, lattice, peaks, scatter
-from springblock.beyond.question import Ensembles
-from springblock.beyond.resampling import FEWEST, side_length
+from springblock.beyond.question import FEWEST, Ensembles, side_length
 from springblock.io.records import Record
 from springblock.plotting import curves, style
 from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
