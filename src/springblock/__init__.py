@@ -17,17 +17,11 @@ if TYPE_CHECKING:
     from springblock.plotting.film import animate as animate
     from springblock.plotting.still import plot as plot
     from springblock.simulation.motion import SimulationError as SimulationError
-    from springblock.simulation.prelude import (
-        Prelude as Prelude,
-    )
-    from springblock.simulation.prelude import (
-        compute_prelude as compute_prelude,
-    )
+    from springblock.simulation.prelude import Prelude as Prelude
+    from springblock.simulation.prelude import compute_prelude as compute_prelude
     from springblock.simulation.run import Realisation as Realisation
     from springblock.simulation.setup import Setup as Setup
-    from springblock.simulation.simulate import (
-        simulate as simulate,
-    )
+    from springblock.simulation.simulate import simulate as simulate
 else:  # mypy would accept any name if it saw `__getattr__`
     _MODULES = {
         "Material": "model.material",

@@ -27,6 +27,7 @@ from claims.paper import (
     Change,
     peaks,
 )
+from springblock.analysis.lowest import Lowest
 from springblock.analysis.statistics import bootstrap_interval
 from springblock.claims import CLAIMS
 from springblock.claims.load_peaks import partial_slope
@@ -294,7 +295,9 @@ def test_where_two_sizes_may_have_the_lowest_friction_neither_speaks_against_the
     evidence = paper.evidence(records())
     known = {f.case["n_p"]: f.outcome(1) for f in BY_NAME["most_precursors"].test(evidence)}
     assert set(known.values()) == {"holds"}
-    monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, scenes: scenes[:2])
+    monkeypatch.setattr(
+        "springblock.claims.pillars._lowest", lambda _, scenes: Lowest(scenes[0], scenes[:2])
+    )
     found = {f.case["n_p"]: f for f in BY_NAME["most_precursors"].test(evidence)}
     assert len(found) == len(known) + 1  # the lowest itself as well
     may_be_lowest = list(found.values())[:2]
@@ -339,7 +342,9 @@ def test_the_interval_of_a_size_over_l_c_includes_all_sizes_that_may_have_the_lo
     monkeypatch.setattr("springblock.claims.pillars._COMPARED", (2, 6, 24))
     evidence, found = paper.evidence(records()), []
     for chosen in (slice(0, 1), slice(1, 2), slice(0, 2)):
-        monkeypatch.setattr("springblock.claims.pillars._lowest_of", lambda _, s, c=chosen: s[c])
+        monkeypatch.setattr(
+            "springblock.claims.pillars._lowest", lambda _, s, c=chosen: Lowest(s[c][0], s[c])
+        )
         found.append([each.estimate for each in BY_NAME["size_like_length"].test(evidence)])
     for small, large, either in zip(*found, strict=True):
         for together in (1, 12):  # intervals; the distance between sizes is not a statistical error

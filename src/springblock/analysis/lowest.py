@@ -13,8 +13,8 @@ BIAS = 1e-3
 class Lowest(NamedTuple):
     """Position of the lowest mean static friction, and all positions where it may be the lowest."""
 
-    place: float
-    alike: list[float]
+    place: Any
+    alike: list[Any]
 
     def __str__(self) -> str:
         """Return the position, with the others in brackets."""

@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
@@ -34,8 +34,7 @@ _PAGE = Path(__file__).with_name("page.md")
 def page(table: Sequence[Row]) -> str:
     """Write the page from the rows of the table `claims`."""
     numbered = numbered_parts(table)
-    counts = Counter(part[0]["verdict"] for _, part in numbered)
-    first, *others = [f"{counts[verdict]} {verdict}" for verdict in _VERDICTS if counts[verdict]]
+    first, *others = [f"{n} {verdict}" for verdict, n in counted(numbered).items()]
     return _PAGE.read_text(encoding="utf-8").format(
         total=len(numbered),
         tally=listed([first.replace(" ", " are ", 1), *others]),
@@ -43,6 +42,12 @@ def page(table: Sequence[Row]) -> str:
         changes=register.changes(table),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
+
+
+def counted(numbered: Iterable[Part]) -> dict[str, int]:
+    """Count the verdicts that occur, from reproduced to not tested."""
+    found = Counter(part[0]["verdict"] for _, part in numbered)
+    return {verdict: found[verdict] for verdict in _VERDICTS if found[verdict]}
 
 
 def numbered_parts(table: Sequence[Row]) -> list[Part]:

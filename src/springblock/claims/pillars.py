@@ -12,7 +12,7 @@ import numpy as np
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.estimate import AnyOf, Estimate
-from springblock.analysis.lowest import BIAS
+from springblock.analysis.lowest import Lowest, lowest
 from springblock.analysis.statistics import pillar_map, pillar_ring, repeatability
 from springblock.claims import ranges, samples, surfaces
 from springblock.claims.rule import Case, Evidence, Finding
@@ -236,9 +236,9 @@ def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     return _above_flat(evidence, {_WIDTH: samples.width})
 
 
-def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Scene:
-    """Return the scene with the lowest mean static friction."""
-    return min(scenes, key=lambda scene: float(samples.friction(evidence, scene).mean()))
+def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Lowest:
+    """Return the scene with the lowest mean static friction, and those that may have the lowest."""
+    return lowest({scene: samples.friction(evidence, scene) for scene in scenes})
 
 
 def _of_all_sizes(evidence: Evidence) -> list[Scene]:
@@ -251,19 +251,19 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     scenes = _of_all_sizes(evidence)
     # The size of the minimum is chosen by the same means, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
-        lowest = _lowest(evidence, scenes[1:-1])
-        name = f"static friction at n_p = {end.n_p} minus the lowest mean (n_p = {lowest.n_p})"
-        yield samples.compared(evidence, name, samples.static_friction, end, lowest, case={})
+        best = _lowest(evidence, scenes[1:-1]).place
+        name = f"static friction at n_p = {end.n_p} minus the lowest mean (n_p = {best.n_p})"
+        yield samples.compared(evidence, name, samples.static_friction, end, best, case={})
 
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the force peak is narrower than at the size with the lowest mean static friction."""
     scenes = _of_all_sizes(evidence)
     if scenes:
-        lowest, largest = _lowest(evidence, scenes[:-1]), scenes[-1]
-        name = f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {lowest.n_p}"
+        best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
+        name = f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
         yield samples.compared(
-            evidence, name, samples.width, largest, lowest, ranges.NEGATIVE, case={}
+            evidence, name, samples.width, largest, best, ranges.NEGATIVE, case={}
         )
 
 
@@ -299,8 +299,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
         candidates = scenes if own else _of_all_sizes(evidence)
-        lowest = _lowest_of(evidence, candidates)
-        runs, sizes = evidence.records[broad], [scene.n_p for scene in lowest]
+        runs = evidence.records[broad]
+        sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
         name = f"the size of lowest static friction, {minimum}, over l_c at n_p = {broad.n_p}"
@@ -310,13 +310,6 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
             ratios = [Estimate(n_p / value, n_p / high, n_p / low, len(runs)) for n_p in sizes]
             source = surfaces.in_files(*dict.fromkeys([*candidates, broad]))
             yield Finding(case, name, AnyOf.these(*ratios), ranges.COMPARABLE, source)
-
-
-def _lowest_of(evidence: Evidence, scenes: list[Scene]) -> list[Scene]:
-    """Return the scenes whose static friction may be the lowest: within `BIAS` of it (95 %)."""
-    least = samples.friction(evidence, _lowest(evidence, scenes))
-    more = {s: samples.difference(samples.friction(evidence, s), least) for s in scenes}
-    return [scene for scene in scenes if not more[scene].ci_low > BIAS]
 
 
 def _over_t_avg(quantity: Quantity) -> Quantity:
@@ -337,19 +330,19 @@ def _larger_there(
     sizes themselves, and where the intervals differ in sign.
     """
     scenes = _of_all_sizes(evidence)
-    lowest = _lowest_of(evidence, scenes) if scenes else []
-    sizes = " or ".join(str(scene.n_p) for scene in lowest)
+    candidates = _lowest(evidence, scenes).alike if scenes else []
+    sizes = " or ".join(str(scene.n_p) for scene in candidates)
     there = f"{name} at n_p = {sizes} (lowest friction)"
     others = scenes if every else scenes[:1] + scenes[-1:]
-    for other in (scene for scene in others if lowest != [scene]):
+    for other in (scene for scene in others if candidates != [scene]):
         sample = over_runs(quantity, evidence.records[other])
-        there_too = [over_runs(quantity, evidence.records[s]) for s in lowest if s != other]
+        there_too = [over_runs(quantity, evidence.records[s]) for s in candidates if s != other]
         found = [samples.difference(each, sample) for each in there_too]
         joint = AnyOf.these(*found)
-        if other in lowest or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
+        if other in candidates or (found[1:] and joint.ci_low <= 0.0 < joint.ci_high):
             # which candidate it is decides, not the number of realisations
             joint = AnyOf.these(*found, replace(found[0], ci_high=ranges.INF))
-        source = surfaces.in_files(*lowest, other)
+        source = surfaces.in_files(*candidates, other)
         statistic = f"{there} minus that at n_p = {other.n_p}"
         yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)
 

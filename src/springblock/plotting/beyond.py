@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import product
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,6 +18,7 @@ from springblock.analysis.lowest import lowest
 from springblock.beyond import friction, lattice, peaks, scatter
 from springblock.beyond.question import FEWEST, Ensembles, side_length
 from springblock.io.records import Record
+from springblock.model.numbers import Array
 from springblock.plotting import curves, style
 from springblock.plotting.style import BLACK, BLUE, GREY, VERMILION, Look
 
@@ -95,13 +97,24 @@ def _draw_lengths(
     ax.legend(loc="upper left")
 
 
+def _draw_friction(
+    ax: Axes, lines: Mapping[float, Mapping[Any, Array]], label: str, **legend: Any
+) -> None:
+    """Draw static friction against the size of pillars, a line for each value in the legend."""
+    colors = style.shades(lines)
+    for value, samples in lines.items():
+        curves.draw_means(ax, samples, colors[value], marker="o", label=label.format(value))
+    curves.name_places(ax, sorted({size for samples in lines.values() for size in samples}))
+    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
+    ax.legend(**{"loc": "best", **legend})
+
+
 def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
     """Draw static friction against pillar size, and mark where it is lowest."""
     lines = {getattr(at, varied): friction.samples(sizes) for at, sizes in part.items()}
+    _draw_friction(ax, lines, _LABELS[varied], loc="upper center", ncols=2)
+    ax.set_xlabel("size of pillars (µm)")
     colors = style.shades(lines)
-    for value, samples in lines.items():
-        label = _LABELS[varied].format(value)
-        curves.draw_means(ax, samples, colors[value], marker="o", label=label)
     low, high = ax.get_ylim()
     line = 0.06 * (high - low)
     for i, (value, samples) in enumerate(lines.items(), 1):
@@ -110,9 +123,6 @@ def _draw_sizes(ax: Axes, part: lattice.Surfaces, varied: str) -> None:
         look: Look = {"color": colors[value], "marker": "x", "linewidth": 0.8}
         ax.errorbar([found.place], [low - i * line], xerr=bars, **look)
     ax.set_ylim(low - (len(part) + 1) * line, high + 4.0 * line)
-    curves.name_places(ax, [size for sizes in part.values() for size in sizes])
-    ax.set(xlabel="size of pillars (µm)", ylabel=curves.FRICTION)
-    ax.legend(loc="upper center", ncols=2)
 
 
 def beyond_disorder(ensembles: Folders) -> Figure:
@@ -120,12 +130,8 @@ def beyond_disorder(ensembles: Folders) -> Figure:
     scatters = scatter.by_scatter(_by_scene(ensembles))
     picture, panels = style.panels(style.DOUBLE, 64.0, "ab")
     _draw_lengths_of_scatters(panels[0], scatters)
-    for std, color in style.shades(scatters).items():
-        samples = friction.samples(scatters[std])
-        curves.draw_means(panels[1], samples, color, marker="o", label=f"{std:g}")
-    curves.name_places(panels[1], [n_p for sizes in scatters.values() for n_p in sizes])
-    panels[1].set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
-    panels[1].legend(loc="best", title="scatter")
+    lines = {std: friction.samples(sizes) for std, sizes in scatters.items()}
+    _draw_friction(panels[1], lines, "{:g}", title="scatter")
     return picture
 
 
@@ -148,7 +154,9 @@ def beyond_friction(ensembles: Folders) -> Figure:
     found = friction.friction_map(_by_scene(ensembles))
     picture, (over_both, lines) = style.panels(style.DOUBLE, 80.0, "ab")
     _draw_friction_map(over_both, found)
-    _draw_contact_fractions(lines, found)
+    families = friction.families(found).items()
+    by_contact = {1.0 / (1.0 + float(kind)) ** 2: sizes for kind, sizes in families}
+    _draw_friction(lines, by_contact, "{:.0%} in contact")
     return picture
 
 
@@ -166,17 +174,6 @@ def _draw_friction_map(ax: Axes, found: friction.Map) -> None:
         axis.minorticks_off()
     ax.set(xlim=ends, ylim=(0.8 * gaps.min(), 1.25 * gaps.max()))
     style.color_bar(ax, points, curves.FRICTION)
-
-
-def _draw_contact_fractions(ax: Axes, found: friction.Map) -> None:
-    alike = friction.families(found)
-    colors = style.shades(float(kind) for kind in alike)
-    for kind, sizes in alike.items():
-        color, label = colors[float(kind)], f"{1.0 / (1.0 + float(kind)) ** 2:.0%} in contact"
-        curves.draw_means(ax, sizes, color, marker="o", label=label)
-    curves.name_places(ax, sorted({n_p for n_p, _ in found}))
-    ax.set(xlabel="size $n_p$ (blocks)", ylabel=curves.FRICTION)
-    ax.legend(loc="best")
 
 
 def beyond_peaks(ensembles: Folders) -> Figure:

@@ -1,7 +1,6 @@
 """The page itself, from a template."""
 
 from base64 import b64encode
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 from importlib.metadata import version
@@ -14,7 +13,7 @@ from markupsafe import Markup
 
 from springblock.analysis.ensembles import constants, ensembles
 from springblock.claims import CLAIMS
-from springblock.claims.page import anchor, decided, numbered_parts
+from springblock.claims.page import anchor, counted, decided, numbered_parts
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
 from springblock.model.material import Material
@@ -32,8 +31,6 @@ SHOWN = {
     "correlation": ("figure_7",),
     "peaks": ("figure_9",),
 }
-#: Verdicts in the order in which they are listed.
-VERDICTS = ("reproduced", "reproduced in part", "not reproduced", "not settled", "not tested")
 _FIGURES = {claim.name: f"figure_{claim.figure}" for claim in CLAIMS}
 _HERE = Path(__file__).parent
 
@@ -106,7 +103,7 @@ def _of_study(
     """Return findings, statements and the parts of the page of a study."""
     found = findings.findings(rows)
     placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
-    judged = statements(rows.get("claims", []))
+    claims = rows.get("claims", [])
     mechanism = pages.get("mechanism", markup.Page(""))
     peaks = [text for heading, text in mechanism.answers.items() if "two load peaks" in heading]
     return {
@@ -114,8 +111,8 @@ def _of_study(
         "SHOWN": SHOWN,
         "reasons": {"friction": mechanism.opening, "peaks": peaks},
         "model": figures.get(MODEL),
-        "statements": judged,
-        "counted": counted(judged),
+        "statements": statements(claims),
+        "counted": counted(numbered_parts(claims)),
         "parts": _parts(figures, pages, placed),
         "version": version("springblock"),
     }
@@ -138,12 +135,6 @@ def statements(table: Sequence[Row]) -> list[Row]:
         }
         for number, part in numbered_parts(table)
     ]
-
-
-def counted(made: Sequence[Row]) -> dict[str, int]:
-    """Count verdicts, those that occur, in their order."""
-    found = Counter(statement["verdict"] for statement in made)
-    return {verdict: found[verdict] for verdict in VERDICTS if found[verdict]}
 
 
 def rendered(template: str, **content: Any) -> str:
