@@ -51,7 +51,7 @@ use rule accuracy as beyond with:
     benchmark:
         f"{RESULTS}/benchmarks/beyond.tsv"
     resources:
-        mem_mb=2500,
+        mem_mb=3000,
         runtime=10,
     params:
         code=code("beyond"),
