@@ -1,9 +1,11 @@
 """Orders of convergence, of errors whose order is known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from springblock.accuracy.work_precision import SETTLED_STEPS, orders_of
+from springblock.accuracy.work_precision import SETTLED_STEPS, cost_of, orders_of
 from springblock.model.defaults import STEP
 
 
@@ -16,3 +18,12 @@ def test_the_order_of_each_seed_is_told_whatever_the_sign_of_its_errors():
 def test_errors_of_nothing_have_the_order_of_rounding():
     found = {h: {"t_max": np.zeros(2)} for h in (STEP, STEP / 2.0)}
     assert orders_of((STEP, STEP / 2.0), found, "t_max") == pytest.approx([0.0, 0.0])
+
+
+def test_one_slow_run_does_not_change_the_cost_of_a_realisation():
+    """Steps are averaged, and the CPU time is the median."""
+    runs = [
+        (SimpleNamespace(steps=steps), time) for steps, time in ((10, 90.0), (20, 1.0), (60, 2))
+    ]
+    assert cost_of("leapfrog", runs) == (2.0, 30.0)
+    assert cost_of("rk4", runs) == (2.0, 120.0)

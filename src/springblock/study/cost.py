@@ -11,7 +11,7 @@ _RATE = {"leapfrog": 4.5e-9, "rk4": 33e-9}
 #: CPU seconds of jobs of config/full.yaml: until a simulation begins, its work as a share of
 #: `cpu_seconds`, and those of other jobs by their rule.
 _BEGIN, _SHARE, _OTHER = 2.0, 0.65, 4.0
-_MEASURED = {"compile": 14.0, "report": 15.0, "claims": 42.0, "beyond": 100.0}
+_MEASURED = {"compile": 14.0, "report": 15.0, "claims": 42.0, "beyond": 50.0}
 _MEASURED |= {"compare_scene": 60.0, "stability_table": 55.0, "mechanism_part": 25.0}
 _START = 10.0  #: s to start a job on a busy machine
 _MARGIN = 3.0  #: for slower processors, and for strong disorder, with which runs last 1.4 times
