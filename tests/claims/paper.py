@@ -80,8 +80,15 @@ def times(scene: Scene, seed: int, rng: np.random.Generator) -> np.ndarray:
 
 
 def flat_times(seed: int, rng: np.random.Generator, fronts: int) -> np.ndarray:
-    """Lonely precursors where thresholds are low, a few that share a neighbour; late fronts."""
-    field = 1.05 + 0.015 * rng.standard_normal((N, N))
+    """Lonely precursors where thresholds are low, a few that share a neighbour; late fronts.
+
+    The first half of the late blocks are in so many stripes of columns.
+    """
+    late = np.sort(1.05 + 0.015 * rng.standard_normal(N * N))
+    stripes = np.roll(np.arange(N) * 2 * fronts // N % 2 == 0, rng.integers(N))
+    field = np.empty((N, N))
+    for columns, half in ((stripes, late[: N * N // 2]), (~stripes, late[N * N // 2 :])):
+        field[:, columns] = rng.permutation(half).reshape(N, -1)
     for column in rng.permutation(N // 8)[:fronts]:
         y, x = rng.integers(N - 5), 8 * column
         field[y : y + 5, x : x + 5] = 1.005

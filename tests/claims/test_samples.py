@@ -109,11 +109,10 @@ def test_rates_count_what_detaches_around_a_sample():
 
 
 def test_a_front_has_more_than_twenty_blocks():
-    """Two of 25 blocks that touch the edge, and a cluster of 20."""
+    """When half of the blocks have detached: two of 54 and 54 blocks, and a cluster of 20."""
     t_det = np.full((16, 16), 9.0)
-    t_det[:5, :5] = t_det[10:15, :5] = t_det[:4, 10:15] = 4.04
-    curve = {"time": 4.0 * np.arange(3.0), "force": np.array([0.0, 1.0, 0.0])}
-    assert fronts(replace(RUN, t_det=t_det, **curve)) == 2
+    t_det[:6, :9] = t_det[9:15, :9] = t_det[:4, 11:] = 4.0
+    assert fronts(replace(RUN, t_det=t_det)) == 2
 
 
 def test_times_may_be_divided_by_t_avg():

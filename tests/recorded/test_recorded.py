@@ -8,6 +8,7 @@ texts again, after an intended change.
 import re
 import tempfile
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from html import unescape
 from itertools import chain
@@ -22,6 +23,8 @@ from click.testing import CliRunner
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 import precision
 from beyond.made_up import grooves, lattices, sizes_and_distances
@@ -34,6 +37,7 @@ from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import SCENES
 from springblock.accuracy.page import page as errors
 from springblock.beyond.page import QUESTIONS
+from springblock.beyond.page import page as questions
 from springblock.claims import CLAIMS
 from springblock.claims.page import page as statements
 from springblock.claims.table import SCHEMA
@@ -47,6 +51,8 @@ from springblock.io.schemas import SUMMARY
 from springblock.mechanism.page import page as mechanism
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
+from springblock.plotting.figures import FIGURES
+from springblock.report.findings import findings as findings_of
 from springblock.report.page import page as report
 from springblock.study import configuration as study
 from studies import ROOT, Study
@@ -80,7 +86,7 @@ def claims() -> str:
 
 
 def beyond() -> str:
-    """Answers to the questions, on ensembles of 10 to 25 realisations each."""
+    """Answers to each question, and the page, on ensembles of 10 to 25 realisations each."""
     made = {
         "lattice": lattices(lambda *_: 30.0, lambda x, l_z, s: 8.0 * l_z if s else 8.0 * x, 10),
         "peaks": grooves({"x": 0.95, "30": 0.97, "y": 0.92}, runs=10, scatter=0.01)
@@ -88,8 +94,9 @@ def beyond() -> str:
         "friction": sizes_and_distances(lambda n, r: 0.6 + 0.05 * np.log(n / 6.0) ** 2 - 0.1 * r),
         "scatter": scattered(lambda std: 0.2 / std),
     }
-    texts = ("\n\n".join(QUESTIONS[name].answers(some)) for name, some in made.items())
-    return "\n\n".join(texts) + "\n"
+    alone = ("\n\n".join(QUESTIONS[name].answers(some)) for name, some in made.items())
+    together = {scene: runs for some in made.values() for scene, runs in some.items()}
+    return "\n\n".join([*alone, questions(together)]) + "\n"
 
 
 def uneven(rows: list[Row], *columns: str) -> list[Row]:
@@ -276,18 +283,49 @@ def printed(words: list[str]) -> Iterator[str]:
 def reported() -> str:
     """Words and addresses of the report on all made-up data, and of one on own scenes."""
     records, claims = evidence()
+    few = [run for run in records if run.seed < 3]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         pages = {"mechanism": reasons(), "claims": statements(claims), "accuracy": accuracy()}
         for page, text in pages.items():
             (folder / f"{page}.md").write_text(text, encoding="utf-8")
+        for figure, declared in FIGURES.items():
+            info = PngInfo()
+            info.add_text("Description", f"{declared.caption} Its sample.")
+            Image.new("RGB", (40, 20)).save(folder / f"{figure}.png", pnginfo=info)
+        table = folder / "realisations.parquet"
         write(rows_to_table(claims, SCHEMA), folder / "claims.parquet", ORIGIN)
-        runs = rows_to_table([summary(run) for run in records if run.seed < 3], SUMMARY)
-        write(runs, folder / "realisations.parquet", ORIGIN)
+        write(rows_to_table(list(map(summary, few)), SUMMARY), table, ORIGIN)
         files = sorted(folder.iterdir())
-        whole = report(files, {})
-        own = report([folder / "realisations.parquet"], {}, own=True)
-    return readable(whole) + "\n\n" + readable(own) + "\n"
+        whole, own = report(files, {}), report([table], {}, own=True)
+    return "\n\n".join([readable(whole), found_otherwise(few), readable(own)]) + "\n"
+
+
+def found_otherwise(few: list[Record]) -> str:
+    """Findings where small pillars slide as easily, lengths fall and no order is significant."""
+    weak = paper.changed(few, paper.PILLARS[:1], lambda run: {"force": 0.772 * run.force})
+    data = paper.evidence(weak)
+    lengths = {
+        scene: [
+            row | {name: row[name] - 0.05 * row["n_p"] for name in ("l_c", "ci_low", "ci_high")}
+            for row in rows
+        ]
+        for scene, rows in data.correlation_length.items()
+    }
+    rows = judged(CLAIMS, replace(data, correlation_length=lengths))
+    tables = {"realisations": list(map(summary, weak)), "claims": rows}
+    return yaml.safe_dump(
+        plain(findings_of(tables)), sort_keys=False, width=200, allow_unicode=True
+    )
+
+
+def plain(value: Any) -> Any:
+    """Return a value as YAML writes it: tuples as lists, numbers of NumPy as those of Python."""
+    if isinstance(value, dict):
+        return {plain(key): plain(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(inner) for inner in value]
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def readable(html: str) -> str:
@@ -317,6 +355,13 @@ def figures() -> str:
 
 
 def sums(name: str) -> Iterator[Row]:
+    picture = drawn(name)
+    beside = [
+        text.get_text()
+        for part in (*picture.legends, *picture.texts)
+        for text in part.findobj(Text)
+    ]
+    yield {"figure": name, "kind": " | ".join(filter(None, dict.fromkeys(beside)))}
     for panel, ax in enumerate(drawn(name).axes):
         kinds: dict[str, list[np.ndarray]] = {}
         for kind, points in shown(ax):

@@ -82,7 +82,9 @@ def test_findings_take_their_numbers_from_the_statements():
         judged("The order of detachment never changes", "n_p = 6", 0.33, "not reproduced", "fails"),
         judged(length, f"fit = {PLAIN}, n_p = 20", 2.7),
         judged(length, f"fit = {SCALED}, n_p = 20", 3.6),
-        judged("Correlation length grows with n_p", "", -0.005, "not settled", "open"),
+        judged(
+            "Correlation length grows with n_p", f"fit = {SCALED}", -0.005, "not settled", "open"
+        ),
         judged(peaks, "n_p2 = 4", 0.004, outcome="fails"),
         judged(peaks, "n_p2 = 8", 0.028),
         judged(alone, "surface = pillars of 6 blocks", 0.012, outcome="fails"),
@@ -93,7 +95,7 @@ def test_findings_take_their_numbers_from_the_statements():
     assert told["order"]["inward"]
     assert told["order"]["shares"] == [(6, "0.33 [0.32, 0.34]")]
     assert [name for (_, name), _ in told["correlation"]["fits"]] == ["l_d", "l_c"]
-    assert told["correlation"]["growth"] == [("", "-0.005 [-0.015, 0.005]")]
+    assert told["correlation"]["growth"] == [("l_d", "", "-0.005 [-0.015, 0.005]")]
     assert [size for size, _ in told["peaks"]["along"]] == [8, 4]
     assert told["peaks"]["others"] == [("pawls of 8 (no pillars)", "0.027 [0.017, 0.037]")]
 

@@ -112,14 +112,16 @@ def cluster_sizes(blocks: Mask) -> NDArray[np.integer]:
 
 
 def fronts(run: Run) -> float:
-    """Return the number of fronts, clusters of more than 20 detached blocks, at 1.01 t_max."""
-    return float(np.sum(cluster_sizes(run.t_det <= 1.01 * run.t_max) > 20))  # NaN: never
+    """Return the number of clusters of more than 20 blocks when half of them have detached."""
+    return float(np.sum(cluster_sizes(run.t_det <= np.nanmedian(run.t_det)) > 20))  # NaN: never
 
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: fronts are clusters of more than 20 detached blocks at 1.01 t_max. Between the
-    smallest and the largest value of a parameter their number changes by more than a tenth of that
-    with the paper's constants.
+    """Tested: fronts are clusters of more than 20 detached blocks when half of all blocks have
+    detached; chance forms about two. Between the smallest and the largest value of a parameter
+    their number changes by more than a tenth of that with the paper's constants. When a tenth of
+    the blocks have detached, chance forms none, and the number changes by 0.53 (velocity), 0.98
+    (pressure) and 0.38 (scatter).
     """
     for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):
         scenes = varied(evidence, name)

@@ -145,14 +145,14 @@ def _says(statistic: str, key: str, value: str) -> bool:
 
 
 def _needed(row: Row) -> str:
-    """Write how many realisations, or surfaces, would settle an open finding."""
+    """Write how many realisations would settle an open finding."""
     wanted = row["needed"]
     if math.isnan(wanted):
         return "no interval"
     if math.isinf(wanted):
-        return f"more {row['sample']} would not settle it"
+        return "more realisations would not settle it"
     digits = 10 ** max(0, len(str(int(wanted))) - 2)
-    return f"about {math.ceil(wanted / digits) * digits} {row['sample']} would settle it"
+    return f"about {math.ceil(wanted / digits) * digits} realisations would settle it"
 
 
 def _section(number: int, part: Sequence[Row]) -> str:

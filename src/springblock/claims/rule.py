@@ -45,7 +45,6 @@ class Finding:
     claimed: Range
     rests_on: str  #: separated by "; "
     unit: str = "1"
-    sample: str = "realisations"  #: what is sampled: realisations or surfaces
 
     def outcome(self, together: int) -> str:
         """Return whether the claim "holds", "fails" or is "open", one of `together` findings.

@@ -24,7 +24,7 @@ from springblock.claims.ranges import INF, PLAIN, SCALED, within
 from springblock.claims.rule import Evidence, Finding, RowsByScene
 from springblock.claims.samples import found_on, interval
 from springblock.claims.surfaces import ALONG, across, case_of, in_rows, pillars, slid_both_ways
-from springblock.io.rows import Row, select
+from springblock.io.rows import Row
 from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 
@@ -34,6 +34,8 @@ _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
 #: in this time, so that a block is released by its neighbour.
 _EVENT = 0.005
 _SHORT = 10  #: n_p up to which sides are no longer than a few l_c
+#: Columns of the length and of its limits, by fit.
+_FITS = {PLAIN: ("l_c", "ci"), SCALED: ("tail", "tail")}
 _SIDES = {"x": "external sides", "grooves": "edges along the grooves"}
 
 
@@ -151,15 +153,17 @@ def misfits(correlation: Array) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: at r = 1 to 6, the rms distance of c_x from A exp(-r/l_c) is below 0.05, and below
-    its distances from a power law of 1 + r and from a straight line, each with an amplitude of its
-    own.
+    """Tested: at r = 1 up to the half of a side (8, 12 and 24 blocks), the rms distance of c_x from
+    A exp(-r/l_c) is below 0.05, and below its distances from a power law of 1 + r and from a
+    straight line, each with an amplitude of its own. At r = 1 to 6 alone, the range of the fits of
+    l_c, the exponential is no better than the power law at n_p = 30 and 60. With amplitudes of 1 it
+    is worse.
     """
     for scene, runs in pillars(evidence.records, _BROAD).items():
         found = Correlation(side_times(runs, scene.pattern, ALONG))
 
         def distances(weights: Array, found: Correlation = found) -> Array:
-            exponential, *others = misfits(found.weighted(weights)[:, 1 : LAST + 1])
+            exponential, *others = misfits(found.weighted(weights)[:, 1:])
             return np.column_stack([exponential, *(exponential - other for other in others)])
 
         intervals = np.transpose(bootstrap_interval(distances, len(runs)))
@@ -178,28 +182,25 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
     """
     for scene, rows in pillars(evidence.correlation_length, _BROAD).items():
         source = in_rows("correlation_length", scene, side="x")
-        for fit in select(rows, side="x"):
-            lengths = {PLAIN: interval(fit, "l_c"), SCALED: interval(fit, "tail", "tail")}
-            for curve, length in lengths.items():
-                case = {"fit": curve, **case_of(scene)}
-                yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
+        for curve, columns in _FITS.items():
+            case, length = {"fit": curve, **case_of(scene)}, _lengths(rows, *columns)["x"]
+            yield Finding(case, "l_c of c_x", length, (3.0, INF), source, "blocks")
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the length of A exp(-r/l_c) is larger on the largest pillars than at n_p = 20. It
-    increases from n_p = 20 to 30, from 3.56 [3.46, 3.66] to 3.89 [3.71, 4.08] blocks (95 % each),
-    but not from 30 to 60. That of exp(-r/l_c) decreases by 0.191 [0.031, 0.351] blocks, but depends
-    on the weights of the fit, which differ between the sizes.
+    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at
+    n_p = 20.
     """
     found = pillars(evidence.correlation_length, _BROAD)
-    lengths = {scene.n_p: _lengths(rows, "tail", "tail")["x"] for scene, rows in found.items()}
-    if len(lengths) < 2:
+    if len(found) < 2:
         return
-    first, *_, last = lengths
-    name = f"the decay length at n_p = {last} minus that at n_p = {first} (from both intervals)"
-    growth = unpaired_difference(lengths[last], lengths[first])
-    source = f"tables/correlation_length: n_p = {first} and {last}, side = x"
-    yield Finding({}, name, growth, ranges.POSITIVE, source, "blocks")
+    (small, few), *_, (large, many) = found.items()
+    name = f"l_c at n_p = {large.n_p} minus that at n_p = {small.n_p} (from both intervals)"
+    source = f"tables/correlation_length: n_p = {small.n_p} and {large.n_p}, side = x"
+    for curve, columns in _FITS.items():
+        first, last = (_lengths(rows, *columns)["x"] for rows in (few, many))
+        growth = unpaired_difference(last, first)
+        yield Finding({"fit": curve}, name, growth, ranges.POSITIVE, source, "blocks")
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
@@ -240,16 +241,19 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on the grooved pillars with the most realisations (pawls of 8 blocks), l_c of
-    exp(-r/l_c) differs by less than one block from that without grooves, on external sides parallel
-    to the grooves and on edges along the grooves.
+    exp(-r/l_c) and of A exp(-r/l_c) differs by less than one block from that without grooves, on
+    external sides parallel to the grooves and on edges along the grooves.
     """
     for scene, like in _with_largest(evidence.correlation_length):
-        ours, theirs = (_lengths(evidence.correlation_length[s]) for s in (scene, like))
         than = f"l_c minus that at n_p = {like.n_p} without grooves (from both intervals)"
-        for side, name in _SIDES.items():
+        for (curve, columns), (side, name) in product(_FITS.items(), _SIDES.items()):
+            ours, theirs = (
+                _lengths(evidence.correlation_length[each], *columns) for each in (scene, like)
+            )
             apart = unpaired_difference(ours[side], theirs["x"])
             source = in_rows("correlation_length", scene, side=side)
-            yield Finding({"side": name}, than, apart, within(1.0), source, "blocks")
+            case = {"fit": curve, "side": name}
+            yield Finding(case, than, apart, within(1.0), source, "blocks")
 
 
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:

@@ -32,15 +32,14 @@ SCHEMA = pa.schema(
             claimed_low="lower limit of the claimed range",
             claimed_high="upper limit",
         ),
-        column("realisations", pa.int32(), "1", "number of realisations or surfaces; 0: exact"),
+        column("realisations", pa.int32(), "1", "number of realisations; 0: exact"),
         *texts(
-            sample="what is sampled: realisations or surfaces",
             outcome="of this row: holds, fails or open",
         ),
         *numbers(
             "1",
-            needed="realisations, or surfaces (column sample), that decide with a power of 90 % if "
-            "value and standard deviation are the true ones",
+            needed="realisations that decide with a power of 90 % if value and standard deviation "
+            "are the true ones",
         ),
         *texts(
             verdict="verdict on the statement, from all its rows",
@@ -83,7 +82,6 @@ def _measured(finding: Finding, together: int) -> Row:
         "claimed_low": finding.claimed[0],
         "claimed_high": finding.claimed[1],
         "realisations": estimate.n,
-        "sample": finding.sample,
         "outcome": finding.outcome(together),
         "needed": finding.needed(together),
         "rests_on": finding.rests_on,

@@ -15,6 +15,9 @@ from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.plotting.style import MICRO
 
+#: Fits of c(r) as the report writes them, and the names of their lengths.
+_FITS = {SCALED: ("A exp(-r/l_d)", "l_d"), PLAIN: (PLAIN, "l_c")}
+
 Tables = Mapping[str, Sequence[Row]]  #: rows by name of the table
 Runs = Mapping[Scene, Sequence[Row]]  #: rows of the table `realisations`, by scene
 
@@ -113,11 +116,13 @@ def _correlation(tables: Tables) -> dict[str, Any]:
         "title": f"On large pillars, detachments are correlated over {span} blocks",
         "fits": [
             (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
-            for curve, letters in ((SCALED, ("A exp(-r/l_d)", "l_d")), (PLAIN, (PLAIN, "l_c")))
+            for curve, letters in _FITS.items()
             if (own := [row for row in rows if row["case"].startswith(f"fit = {curve}")])
         ],
         "growth": [
-            (_sign(_interval(row), "decreases", "increases", ""), _quoted(row)) for row in growth
+            (length, _sign(_interval(row), "decreases", "increases", ""), _quoted(row))
+            for curve, (_, length) in _FITS.items()
+            for row in select(growth, case=f"fit = {curve}")
         ],
     }
 
