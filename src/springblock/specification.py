@@ -139,7 +139,7 @@ class State:
     v: Array  #: velocity, (2, N_y, N_x) m/s
     memory: Memory  #: state variables of the law, of blocks that slide
     t_det: Array  #: first detachment, (N_y, N_x) s; infinite before
-    switches: int = 0  #: switches from rest to sliding so far
+    switches: int = 0  #: switches to sliding so far, from rest or by turning back
     work: float = 0.0  #: work of the slider, J
     heat: float = 0.0  #: frictional heat, J
     path: float = 0.0  #: sum of v² h over blocks and steps, for the viscous heat, m²/s

@@ -129,7 +129,7 @@ def test_so_it_is_of_a_surface_of_ones_own(springblock, tmp_path, own):
         )
 
 
-def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_path):
+def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_path, monkeypatch):
     """With checkpoints or without, to the bit; and into no file that the run itself takes."""
     run, plain, kept = (tmp_path / name for name in ("run", "plain.nc", "kept.nc"))
     asked = ("simulate", *FLAT, "--duration", 4e-6, "--snapshot", 2e-6, "--output")
@@ -140,6 +140,9 @@ def test_fields_are_written_beside_the_run_and_go_on_with_it(springblock, tmp_pa
     assert (about["seed"], about["scene"]) == ("0", "n_blocks = 6, level = 0, direction = x")
     assert (about["gamma"], about["law"]) == (5e3, "coulomb")
     np.testing.assert_array_equal(read(run)[0].snapshots, fields.displacement)
+    monkeypatch.chdir(tmp_path)
+    for same in (kept, kept.name):
+        assert "both name" in springblock(*asked, kept, "--fields", same, refused=True)
     said = springblock(*asked, kept, "--fields", kept, refused=True)
     assert said.endswith(f"--fields and --output both name {kept}; choose two files")
 

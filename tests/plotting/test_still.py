@@ -57,6 +57,10 @@ PICTURES = {
 }
 
 
+def test_a_run_is_named_by_its_columns_and_rows():
+    assert oblong().name == "9 x 12 blocks"
+
+
 def test_colours_tell_when_a_block_has_detached(run):
     image, detached = painted(run), np.isfinite(run.t_det)
     assert image.shape == (12, 12, 3)

@@ -55,4 +55,4 @@ def test_a_study_is_as_long_as_its_work_on_all_cores_or_as_its_longest_job():
     assert in_words([600.0, 60.0], 2) == "about 10 min on 2 cores"
     assert in_words([36e3], 1) == "about 10.0 hours on 1 core"
     job = expected(Scene(120), Setup(), 3e-4, 10)
-    assert job == pytest.approx(2.0 + 6.5 * cpu_seconds(Scene(120), Setup(), 3e-4))
+    assert job == pytest.approx(1.5 + 4.2 * cpu_seconds(Scene(120), Setup(), 3e-4))

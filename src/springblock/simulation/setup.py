@@ -125,7 +125,7 @@ class Setup:
         Raises
         ------
         TypeError, ValueError
-            If a time is not valid, or the run would take more than a year on one core, have more
+            If a time is not valid, or the run would take 1.4 years or more on one core, have more
             samples than a table can hold, or more snapshots than fit in memory.
         """
         interval, intervals = self.sample_interval, math.inf

@@ -11,8 +11,8 @@ velocity_weakening  mu = mu_d + (mu_s - mu_d)/(1 + v/v_c) at a speed v (Burridge
                     doi:10.1785/BSSA0570030341; in this form Carlson & Langer 1989,
                     doi:10.1103/PhysRevA.40.6470, whose mu_d is zero).
 
-With mu_s <= mu_d friction does not weaken. Both weakening laws become Coulomb's, to the bit, in the
-limit of d_c or v_c to zero. For laws from files see `law_file`.
+With mu_s <= mu_d friction does not weaken. Both weakening laws become Coulomb's in the limit of d_c
+or v_c to zero, with the leapfrog to the bit. For laws from files see `law_file`.
 
 A law is a type, for which the kernels are compiled; Coulomb's is None and adds no operation to
 them. T is the velocity that mu F_n removes in one step, and V the mean speed of that step.
@@ -115,8 +115,8 @@ def _store_slip(law, b, state, moved, slides):
     law.slip[b] = state + moved if slides else 0.0
 
 
-#: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T. In the
-#: leapfrog `speed` is |v + w|/2, and friction reduces it by T/2: share is -1/2. If V is known,
+#: (law, state, speed, share, static, dynamic) -> T at the mean speed V = speed + share T, where
+#: `speed` is that without friction: share is -β in the leapfrog, see `friction`. If V is known,
 #: share is 0. T is infinite if no V solves the equation: the block stops.
 resistance = _of_each_law(
     {
@@ -126,8 +126,8 @@ resistance = _of_each_law(
     },
     lambda law, state, speed, share, static, dynamic: dynamic,
 )
-#: (law, state, speed, static, dynamic) -> weight β of the velocity after a step in the one at which
-#: friction is evaluated: 1/2, but more where friction rises steeply with speed.
+#: (law, state, speed, static, dynamic) -> weight β: friction is evaluated at (1 - β) v + β v⁺, with
+#: v and v⁺ before and after the step. β is 1/2, or more where friction rises steeply with speed.
 end_weight = _of_each_law(
     {FromFile: law_file.end_weight}, lambda law, state, speed, static, dynamic: 0.5
 )

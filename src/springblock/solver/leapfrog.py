@@ -49,7 +49,7 @@ from springblock.solver.stability import leapfrog_force_time
 FORCE_EVALUATIONS = 1
 WORK_FIELDS = 0
 
-#: Relative margin, against rounding, by which the estimated steps at rest of a row are reduced.
+#: Relative margin, against rounding, on the estimated number of steps that a row stays at rest.
 _SLACK = 1e-9
 #: Relative tolerance on the velocity of a block that F_mot has accelerated from rest.
 _FROM_REST = 1e-12

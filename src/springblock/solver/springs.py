@@ -32,8 +32,8 @@ from springblock.model.numbers import Array
 from springblock.model.pattern import MAX_BLOCKS
 from springblock.solver.compilation import kernel
 
-#: Largest |q| for which g is computed by the polynomial, whose relative error, 4e-13, is that of
-#: rounding in a strain of 5e-4 between blocks displaced by l.
+#: Largest |q| for which g is computed by the polynomial, whose relative error, 4e-13, equals the
+#: rounding error of a strain of 5e-4 computed from displacements of size l.
 SERIES_RANGE = 1.0 / 32.0
 SERIES_DEGREE = 6
 
@@ -51,9 +51,9 @@ LANES = 8
 
 U = np.uint64  # signed indices would be checked for wrap-around, and not vectorised
 ONE = U(1)
-# Offsets of the fields of scratch: the forces on a band of rows, then, in the view `one_row`, the
-# springs of one row, counted from its start. Their distance is constant, so that the compiler can
-# exclude overlaps, and not a power of two, so that they do not share cache sets.
+# Offsets of the fields of scratch: first the forces on a band of rows, then the springs of one row,
+# whose offsets count from the start of the view `one_row`. Their distance is constant, so that the
+# compiler can exclude overlaps, and not a power of two, so that they do not share cache sets.
 _FIELD = MAX_BLOCKS + 72
 _FIELDS = tuple(U(k * _FIELD) for k in range(10))
 FORCE_X, FORCE_Y = _FIELDS[:2]
