@@ -104,10 +104,10 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the detachment rate falls below half its mean (from the first detachment to the
     last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
     Two weaker criteria are met with pawls of 8 and 10, but also on surfaces without two peaks,
-    while their force exceeds 95 % of its maximum: a window of 0.01 t_avg, and a mean rate without
-    the first and the last tenth of the blocks. With the latter, the quietest 0.05 t_avg have 0.34
-    and 0.29 of the mean rate with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
-    without grooves.
+    while their force exceeds 95 % of its maximum: a window of 0.01 t_avg instead of 0.05 t_avg, or
+    a mean rate taken between the detachments of the first and of the last tenth of the blocks.
+    Relative to the latter, the rate in the quietest 0.05 t_avg is 0.34 and 0.29 with these pawls,
+    and 0.08 and 0.21 on pillars of 58 and 30 blocks without grooves.
     """
     name = "the detachment rate between the load peaks over the mean rate"
     for part, quantity in (

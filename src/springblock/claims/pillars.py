@@ -354,12 +354,13 @@ def _larger_there(
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: there are more precursors where static friction is lowest than at every other pillar
     size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
-    candidates. An interval encloses those of all candidates; it has no upper limit for a candidate
-    itself, or where the intervals of the candidates differ in sign. With the default step static
-    friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by
-    0.0002 at 6 and by 0.0006 at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that
-    0.0001 [-0.0004, 0.0006] remains. To decide which is lower would take more than ten thousand
-    realisations with 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
+    candidates. Each interval encloses those found with either candidate as the size of lowest
+    friction; it has no upper limit where a candidate is the size compared with, or where one of
+    these intervals is positive and the other negative. With the default step static friction at n_p
+    = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by
+    0.0006 at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that 0.0001 [-0.0004,
+    0.0006] remains. To decide which is lower would take more than ten thousand realisations with
+    5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

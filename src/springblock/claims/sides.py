@@ -259,7 +259,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the correlation extends over less than a block: c(r = 1) on external sides parallel
     to the grooves and on edges along the grooves is below 1/e. The verdict is the same for any
-    bound from 0.23 to 0.5, all of which c(r = 1) exceeds when sliding along the grooves.
+    bound from 0.23 to 0.5; when sliding along the grooves, c(r = 1) exceeds 0.5.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         found = _correlations(evidence.correlation[across(scene)])[side, 1]

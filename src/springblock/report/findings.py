@@ -113,7 +113,7 @@ def _correlation(tables: Tables) -> dict[str, Any]:
         return {}
     span = f"{min(values):.1f} to {max(values):.1f}"
     return {
-        "title": f"On large pillars, detachments are correlated over {span} blocks",
+        "title": f"On large pillars, detachment times are correlated over {span} blocks",
         "fits": [
             (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
             for curve, letters in _FITS.items()
