@@ -245,6 +245,15 @@ def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypat
     assert register.changes(grows) == "Nothing has been changed since."
 
 
+def test_verdicts_nearer_to_the_paper_and_farther_from_it_are_counted(monkeypatch):
+    confirmed = ["not reproduced", "not settled", "reproduced", "reproduced", "not tested"]
+    now = ["reproduced in part", "reproduced", "reproduced", "not settled", "reproduced"]
+    before = {str(i): {"confirmed": verdict} for i, verdict in enumerate(confirmed)}
+    monkeypatch.setattr(register, "verdicts", lambda: before)
+    table = [{"claim": str(i), "verdict": verdict} for i, verdict in enumerate(now)]
+    assert register.moved([*table, {"claim": "new", "verdict": "reproduced"}]) == (2, 1)
+
+
 def test_every_statement_is_as_registered():
     """Each is in the register; one in another form has a reason, and reasons have a statement."""
     judged, names = register.verdicts(), {claim.name for claim in CLAIMS}

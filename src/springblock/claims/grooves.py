@@ -49,7 +49,8 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
 
 def only_along(evidence: Evidence) -> Iterator[Finding]:
     """Tested: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is
-    below 1 % of the largest force.
+    below 1 % of the largest force. The mean force curves have 2.5, 1.9, 1.3, 0.7, 0.3 and 0.1 % at
+    15, 30, ... 90°.
     """
     along = slid_both_ways(evidence.records)
     scenes = [scene for scene in evidence.records if replace(scene, direction=ALONG) in along]

@@ -40,6 +40,7 @@ def page(table: Sequence[Row]) -> str:
         tally=listed([first.replace(" ", " are ", 1), *others]),
         summary="\n\n".join(_contents(numbered)),
         changes=register.changes(table),
+        moved=register.moved(table),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
 

@@ -43,6 +43,17 @@ def verdicts() -> dict[str, Row]:
     return {name: row | {"confirmed": fresh.get(name, "")} for name, row in rows.items()}
 
 
+def moved(table: Sequence[Row]) -> tuple[int, int]:
+    """Count the verdicts that are nearer to the paper than those of the registered tests, and those
+    that are farther from it.
+    """
+    order = ("not reproduced", "not settled", "reproduced in part", "reproduced")
+    before, now = verdicts(), {row["claim"]: row["verdict"] for row in table}
+    both = [(before[name]["confirmed"], now[name]) for name in now if name in before]
+    steps = [order.index(b) - order.index(a) for a, b in both if {a, b} <= {*order}]
+    return sum(step > 0 for step in steps), sum(step < 0 for step in steps)
+
+
 def changes(table: Sequence[Row]) -> str:
     """List in a Markdown table which tests differ from those registered, and why.
 
