@@ -295,10 +295,9 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the
     distance between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A
     exp(-r/l_c). With l_c fitted at n_p = 20 or 60, the case that holds, with the paper's scatter
-    and A exp(-r/l_c), would be open (upper limits: 2.05 and 2.16). With a scatter of 0.02 or 0.05
-    l_c is nearly as long as the side of these pillars: with l_c fitted at n_p = 20 these cases
-    would be open; fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c)
-    would fail.
+    and A exp(-r/l_c), would be open (upper limits: 2.05 and 2.02). With a scatter of 0.02 or 0.05 l_c is
+    nearly as long as the side of these pillars: with l_c fitted at n_p = 20 these cases would be
+    open; fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)

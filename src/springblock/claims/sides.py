@@ -188,8 +188,9 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at
-    n_p = 20.
+    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p
+    = 20. With equal weights at all r, instead of those of each fit, l_c of exp(-r/l_c) decreases by
+    0.17 [0.07, 0.28] blocks (95 %).
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
