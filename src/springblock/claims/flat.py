@@ -242,8 +242,8 @@ def average_is_propagation(run: Record) -> float:
 def localized_stick_slip(run: Record) -> float:
     """Tested: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
-    detachments. The number is a mean over the rest of the run; the verdict is the same for the
-    first such time after the minimum alone, and for the first 2 to 50.
+    detachments. The number is a mean over the rest of the run; the verdict is the same if only the
+    first interval of this length after the minimum is counted, or the first 2 to 50.
     """
     minimum = first_minimum(run.force)
     if minimum is None:

@@ -200,8 +200,8 @@ def warning(run: Run) -> float:
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Tested: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
     nearer to those of the flat surface than to those of pillars with n_p = 20. Static friction may
-    differ, as in the paper. Compared with n_p = 6 the statement would hold at n_p = 2; but at this
-    size t_max comes before t_avg, as on the flat surface.
+    differ, as in the paper. If n_p = 6 replaced n_p = 20, the statement would hold at n_p = 2; but
+    at n_p = 6 t_max comes before t_avg, as on the flat surface.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -294,10 +294,11 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     friction may be within the numerical bias, 0.001, of the lowest are candidates. With another
     scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the
     distance between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A
-    exp(-r/l_c). With l_c fitted at n_p = 20 or 60, the case that holds, with the paper's scatter
-    and A exp(-r/l_c), would be open (upper limits: 2.05 and 2.02). With a scatter of 0.02 or 0.05 l_c is
-    nearly as long as the side of these pillars: with l_c fitted at n_p = 20 these cases would be
-    open; fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    exp(-r/l_c). One case holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at
+    n_p = 20 or 60 it would be open (upper limits: 2.05 and 2.02), and the statement not reproduced.
+    With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
+    fitted: fitted at n_p = 20, these four cases would be open; fitted at n_p = 10, those of
+    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -353,13 +354,13 @@ def _larger_there(
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Tested: there are more precursors where static friction is lowest than at every other pillar
     size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
-    candidates. Each interval encloses those found with either candidate as the size of lowest
-    friction; it has no upper limit where a candidate is the size compared with, or where one of
-    these intervals is positive and the other negative. With the default step static friction at n_p
-    = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by
-    0.0006 at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that 0.0001 [-0.0004,
-    0.0006] remains. To decide which is lower would take more than ten thousand realisations with
-    5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
+    candidates. The difference is computed with each candidate as the size of lowest friction, and
+    the interval covers all results; it has no upper limit where a candidate would be compared with
+    itself, or where the results differ in sign. With the default step static friction at n_p = 6 is
+    lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by 0.0006
+    at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that 0.0001 [-0.0004, 0.0006]
+    remains. To decide which is lower would take more than ten thousand realisations with 5e-9 s. If
+    friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

@@ -60,7 +60,7 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the mean stress on the edges of grooved pillars is larger when sliding across the
-    grooves.
+    grooves; surfaces with grooves alone are not tested.
     """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
     for along in slid_both_ways(evidence.stress):
