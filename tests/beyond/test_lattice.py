@@ -81,7 +81,7 @@ def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
     assert "Thicker layers, l = 10 µm: changes (80 µm at l_z = 10" in size
     assert "No disorder: changes (80 µm at l = 10 µm, 40" in size
     assert "On thicker layers, the friction-minimising size** changes (80 µm at l_z" in conclusion
-    refined = f"On finer lattices** with l <= l_z, it {UNCHANGED} (except with no disorder: changes); static "
+    refined = f"with l <= l_z, it {UNCHANGED} (except with no disorder: changes); static "
     assert refined in conclusion
     assert (
         "| stress concentration on pillars of 80 µm | increases | increases | increases |"

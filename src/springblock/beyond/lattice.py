@@ -241,8 +241,8 @@ def _conclusion(
         values.append(f"the {length}, in µm, {_refined(compared, by)}")
     _, thicker = moves.get("layer", ("", "is not compared"))
     return (
-        f"**On thicker layers, the friction-minimising size** {thicker}. **On finer lattices** with "
-        f"l <= l_z, it {_refined(compared, moves)}; {'; '.join(values)}."
+        f"**On thicker layers, the friction-minimising size** {thicker}. **On finer lattices** "
+        f"with l <= l_z, it {_refined(compared, moves)}; {'; '.join(values)}."
     )
 
 
