@@ -263,6 +263,13 @@ def test_every_statement_is_as_registered():
     assert others <= set(register.reasons())
 
 
+def test_forces_across_grooves_are_those_of_the_turned_surface():
+    across = Scene(12, 5, 7, n_p2=2, n_s2=1, direction="y")
+    forces = np.stack(elastic_forces(across, Material()))
+    assert (np.isfinite(forces).all(axis=0) == across.contact).all()
+    assert np.nanmean(np.hypot(*forces)) == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize("direction", ["x", "y"])
 def test_forces_before_any_slip_follow_from_elasticity(direction):
     scene = Scene(12, 4, 2, direction=direction)

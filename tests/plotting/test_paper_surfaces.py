@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.patches import ConnectionPatch
 
 from springblock import Material, Pattern
 from springblock.plotting import drawing
@@ -56,6 +57,8 @@ def test_pillars_are_those_of_the_mask(figure, pattern, portion):
     np.testing.assert_array_equal(
         surface.images[0].get_array(), pattern.contact[:portion, :portion]
     )
+    ends = [line.xy2 for line in surface.figure.artists if isinstance(line, ConnectionPatch)]
+    assert ends == [(0, 0), (0, 1)]  # from the corners of the frame to those of the enlarged pillar
     y, x = pattern.origins[0]
     size = pattern.levels[0].size
     np.testing.assert_array_equal(

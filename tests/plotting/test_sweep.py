@@ -110,6 +110,7 @@ def test_error_bars_and_numbers_do_not_overlap():
         table = [r for s in speeds for n in sizes for r in rows(at(s, n_p=n, n_s=n), 0.8)]
         picture = sweep.draw(lines(table, "slider_velocity"), "slider_velocity", ["t_avg"])
         settle(picture)
+        assert picture.legends[0].get_window_extent().width < picture.bbox.width
         (ax,) = picture.axes
         caps = [line for bars in ax.containers for line in bars.lines[1]]
         width = caps[0].get_markersize() * picture.dpi / 72.0

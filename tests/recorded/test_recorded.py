@@ -25,6 +25,7 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
+from scipy.io import netcdf_file
 
 import precision
 from beyond.made_up import grooves, lattices, sizes_and_distances
@@ -36,6 +37,7 @@ from springblock import Pattern, Setup, Surface
 from springblock.accuracy import production, work_precision
 from springblock.accuracy.conventions import SCENES
 from springblock.accuracy.page import page as errors
+from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import QUESTIONS
 from springblock.beyond.page import page as questions
 from springblock.claims import CLAIMS
@@ -44,6 +46,7 @@ from springblock.claims.table import SCHEMA
 from springblock.claims.table import rows as judged
 from springblock.cli import main
 from springblock.cli.simulate import batch_table
+from springblock.io.fields import write_fields
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.records import Record
 from springblock.io.rows import Row
@@ -54,6 +57,7 @@ from springblock.model.scene import Scene
 from springblock.plotting.figures import FIGURES
 from springblock.report.findings import findings as findings_of
 from springblock.report.page import page as report
+from springblock.simulation.fields import Fields
 from springblock.study import configuration as study
 from studies import ROOT, Study
 
@@ -170,6 +174,35 @@ def errors_measured() -> str:
         )
     timed = {"cpu_seconds", "prelude_seconds"}
     return "\n".join(written(table.drop(columns=timed & {*table})) for table in (full_size, small))
+
+
+def cases() -> str:
+    """All stiff and extreme cases, which tests/validation runs."""
+    names = ("family", "name", "parameter", "quantity", "expected")
+    return written(pd.DataFrame([{n: getattr(each, n) for n in names} for each in all_cases()]))
+
+
+def fields() -> str:
+    """Variables, attributes and values of a file of fields."""
+    rng, vectors = np.random.default_rng(0), (2, 2, 2, 3)
+    moving = np.array([[[[False]]], [[[True]]]])
+    made = Fields(
+        time=np.array([1e-5, 2e-5]),
+        spacing=1e-5,
+        contact=np.array([[True, True, False], [True, False, True]]),
+        displacement=rng.standard_normal(vectors),
+        velocity=np.where(moving, rng.standard_normal(vectors), 0.0),
+        stress=rng.standard_normal(vectors),
+    )
+    with tempfile.TemporaryDirectory() as name:
+        write_fields(made, file := Path(name) / "fields.nc", gamma=5e3)
+        with netcdf_file(file, mmap=False) as held:
+            parts = {"file": held} | dict(held.variables)
+            lines = [f"{each}: {dict(part._attributes)}" for each, part in parts.items()]
+            lines += [
+                f"{each}: {part.data.ravel().tolist()}" for each, part in held.variables.items()
+            ]
+    return "\n".join(lines) + "\n"
 
 
 def reasons() -> str:
@@ -399,9 +432,11 @@ TEXTS: dict[str, Callable[[], str]] = {
     "accuracy.csv": errors_measured,
     "accuracy.md": accuracy,
     "beyond.md": beyond,
+    "cases.csv": cases,
     "claims.csv": findings,
     "claims.md": claims,
     "commands.txt": commands,
+    "fields.txt": fields,
     "figures.csv": figures,
     "jobs.txt": jobs,
     "mechanism.md": reasons,

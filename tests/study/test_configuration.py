@@ -78,7 +78,7 @@ def test_a_law_may_be_an_axis_with_its_constant():
 
 
 def test_gaps_may_be_multiples_and_parts_of_a_pillar():
-    gaps = {"n_p/2": [1, 5, 15], "n_p/3": [1, 3, 10], "2n_p": [6, 20, 60], "3n_p": [9, 30, 90]}
+    gaps = {"n_p/2": [1, 5, 15], "n_p/3": [1, 3, 10], "2n_p": [6, 20, 60], "3n_p/2": [4, 15, 45]}
     for given, expected in gaps.items():
         grid = {"n_p": [3, 10, 30], "n_s": [given], "direction": ["x"], "seeds": 1}
         assert [e.scene.n_s for e in ensembles(changed("scenes.far", to=grid))["far"]] == expected
