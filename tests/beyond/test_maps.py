@@ -93,6 +93,7 @@ def test_friction_is_that_on_the_common_side_where_there_is_one():
     made = sizes_and_distances(together)
     usual = next(scene for scene in made if scene.n_p == 4)
     larger = replace(usual, n_blocks=usual.n_blocks + usual.n_p + usual.n_s)
-    found = friction.friction_map(made | {larger: lean(larger, 0.5)})
+    stiff = replace(usual, varied={"youngs_modulus": 1e9})
+    found = friction.friction_map(made | {larger: lean(larger, 0.5), stiff: lean(stiff, 0.5)})
     at = usual.n_p, usual.n_s
     np.testing.assert_array_equal(found[at], friction.friction_map(made)[at])

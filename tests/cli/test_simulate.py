@@ -53,7 +53,10 @@ def test_a_prelude_changes_nothing(springblock, tmp_path, own, known):
 def test_a_batch_holds_every_seed_and_says_how_it_was_computed(springblock, tmp_path):
     how = ("--material", "gamma=4e3", "--step", 1e-8, "--integrator", "rk4", "--duration", 4e-6)
     seeds = ("--first-seed", 3, "--last-seed", 5)
-    springblock("simulate", *FLAT, *seeds, *how, "--direction", 30, "--output", tmp_path / "a")
+    said = springblock(
+        "simulate", *FLAT, *seeds, *how, "--direction", 30, "--output", tmp_path / "a"
+    )
+    assert "at the end the force still increases in 3 of 3" in said
     table = pq.read_table(tmp_path / "a")
     assert table["seed"].to_pylist() == [3, 4, 5]
     assert set(table["direction"].to_pylist()) == {"30"}

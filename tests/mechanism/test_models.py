@@ -91,6 +91,30 @@ def test_two_blocks_bear_what_the_first_one_loses(second):
     assert curve.force == pytest.approx([2.0, 0.6 + max(second, 1.0 + handed_over)])
 
 
+def test_load_is_transferred_as_the_equilibrium_of_all_sliding_blocks_demands(rng):
+    """S_AA u_A = s b_A - f_A, solved anew for each set A of sliding blocks."""
+    layer = Layer(Pattern.pillars(8, 4, 4).contact, MATERIAL)
+    k, stiffness = len(layer.stress), layer.stiffness
+    static, dynamic = rng.uniform(0.8, 1.2, k), rng.uniform(0.5, 0.7, k)
+    slides, s, found = np.zeros(k, bool), 0.0, []
+    while not slides.all():
+        a, friction = np.tile(slides, 2), np.r_[dynamic, 0.0 * dynamic]
+        moved = np.zeros((2, 2 * k))  # u = s u_b - u_f, where blocks slide
+        if slides.any():
+            moved[:, a] = np.linalg.solve(stiffness[a][:, a], np.c_[layer.pull, friction][a]).T
+        pull, push = layer.pull - stiffness @ moved[0], stiffness @ moved[1]
+        rest = np.flatnonzero(~slides)
+        (px, py), (qx, qy) = pull.reshape(2, k)[:, rest], push.reshape(2, k)[:, rest]
+        square, half = px**2 + py**2, px * qx + py * qy
+        left = qx**2 + qy**2 - static[rest] ** 2
+        reached = np.maximum((np.sqrt(half**2 - square * left) - half) / square, s)
+        s = reached.min()
+        found.append((s, (s * px + qx).sum() + dynamic[slides].sum()))
+        slides[rest[reached.argmin()]] = True
+    curve = quasi_static(layer, static, dynamic)
+    assert np.stack(curve, axis=1) == pytest.approx(np.array(found), rel=1e-9)
+
+
 def test_a_block_that_overshoots_rests_at_half_of_its_stress():
     """It slips by 2 (mu_s - mu_d) F_n/(K + K_s), and its neighbour is loaded by K of that."""
     static, dynamic = np.array([1.0, 1.9]), np.array([0.8, 1.5])

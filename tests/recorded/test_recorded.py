@@ -1,7 +1,7 @@
 """Nothing that the study writes from given data changes unnoticed.
 
 The data are those made up for other tests; no simulation is involved, so that the numbers do not
-depend on the processor. `PYTHONPATH=src:tests python tests/recorded/test_recorded.py` records all
+depend on the processor (but for stiff cases, which are simulated for their closed forms). `PYTHONPATH=src:tests python tests/recorded/test_recorded.py` records all
 texts again, after an intended change.
 """
 
@@ -177,9 +177,13 @@ def errors_measured() -> str:
 
 
 def cases() -> str:
-    """All stiff and extreme cases, which tests/validation runs."""
+    """All stiff and extreme cases, and their closed forms."""
     names = ("family", "name", "parameter", "quantity", "expected")
-    return written(pd.DataFrame([{n: getattr(each, n) for n in names} for each in all_cases()]))
+    rows = [
+        {name: getattr(each, name) for name in names} | {"closed_form": each.outcome().closed_form}
+        for each in all_cases()
+    ]
+    return written(pd.DataFrame(rows))
 
 
 def fields() -> str:
@@ -259,7 +263,8 @@ def batch(file: Path, runs: list[Record]) -> Path:
         summary(run)
         | {name: getattr(run, name) for name in ("force", "detachments", "switches")}
         | {"normal_force": run.normal_force}
-        | {name: getattr(run, name).ravel() for name in ("t_det", "contact")}
+        | {name: getattr(run, name).ravel() for name in ("t_det", "contact", "snapshots")}
+        | {"snapshot_times": run.snapshot_times}
         for run in runs
     ]
     write(batch_table(rows), file, ORIGIN)
@@ -276,7 +281,8 @@ def commands() -> str:
         large = batch(folder / "pillars-24.parquet", few[paper.PILLARS[2]][:4])
         varied = [scene for scene in (*paper.FEW, *paper.MANY) if scene.varied]
         others = [batch(folder / f"{i}.parquet", few[scene]) for i, scene in enumerate(varied)]
-        grooved = batch(folder / "grooves.parquet", few[paper.ALONG])
+        kept = {"snapshot_times": np.array([1e-5]), "snapshots": np.zeros((1, 2, paper.N, paper.N))}
+        grooved = batch(folder / "grooves.parquet", [replace(r, **kept) for r in few[paper.ALONG]])
         said = [
             ("table", flat, small, large),
             ("table", flat, small, "--by", "n_p", "--of", "dynamic_friction", "--of", "t_first"),
@@ -284,7 +290,7 @@ def commands() -> str:
             ("compare", flat, others[0]),
             ("compare", small, large, "--of", "t_avg", "--output", folder / "compared.csv"),
             ("compare", folder, flat),
-            ("info", small),
+            ("info", grooved),
             ("verify", small, small),
             ("verify", small, large),
             ("aggregate", small, flat, *correlated(folder / "all.parquet")[:3]),
