@@ -1,8 +1,9 @@
 """Nothing that the study writes from given data changes unnoticed.
 
 The data are those made up for other tests; no simulation is involved, so that the numbers do not
-depend on the processor (but for stiff cases, which are simulated for their closed forms). `PYTHONPATH=src:tests python tests/recorded/test_recorded.py` records all
-texts again, after an intended change.
+depend on the processor (but for stiff cases, which are simulated for their closed forms).
+`PYTHONPATH=src:tests python tests/recorded/test_recorded.py` records all texts again, after an
+intended change.
 """
 
 import re

@@ -167,6 +167,14 @@ def test_the_first_minimum_counts_once_the_force_has_risen_by_a_tenth(force, ind
 # --- what is refused
 
 
+def test_static_friction_of_a_rectangle_is_that_of_its_blocks():
+    """The normal force is P l² N_y N_x; like blocks let go together, at mu_s F_n each."""
+    surface = Surface(np.ones((3, 7), bool), 0.9, 0.5)
+    run = simulate(surface, duration=1.6e-4)
+    assert run.normal_force == pytest.approx(PAPER.pressure * PAPER.spacing**2 * 21)
+    assert run.static_friction == pytest.approx(0.9, rel=0.01)
+
+
 def array(value, dtype=float, shape=(2, 2)):
     return np.full(shape, value, dtype)
 
