@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.verification.problems import Answer, Reference
 from springblock.accuracy.work_precision import root_mean_square
-from springblock.simulation.run import Array
+from springblock.model.numbers import Array
 
 
 class Metrics(NamedTuple):

@@ -15,7 +15,7 @@ from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.simulation.run import Array
+from springblock.model.numbers import Array
 
 SURFACE = ("y", "x", "contact", "mu_static", "mu_dynamic")
 T_DET = ("y", "x", "t_det")

@@ -88,8 +88,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header += ["friction-minimising n_p", "lowest friction"]
     lines = []
     for kind, sizes in families(found).items():
-        contact = f"{100.0 / float(1 + kind) ** 2:.1f}"
-        lines.append([str(kind), contact, ", ".join(map(str, sizes)), *lowest_in_words(sizes)])
+        percent = f"{100.0 / float(1 + kind) ** 2:.1f}"
+        lines.append([str(kind), percent, ", ".join(map(str, sizes)), *lowest_in_words(sizes)])
     yield markdown_table(header, lines)
 
 
