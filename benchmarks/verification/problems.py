@@ -13,9 +13,9 @@ import numpy as np
 from springblock.files import write_text
 from springblock.model.defaults import SAMPLE_INTERVAL
 from springblock.model.material import Material
+from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.model.surface import Surface
-from springblock.model.numbers import Array
 
 SURFACE = ("y", "x", "contact", "mu_static", "mu_dynamic")
 T_DET = ("y", "x", "t_det")
