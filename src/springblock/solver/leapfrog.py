@@ -104,15 +104,28 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
     return sum_x - phantoms * ux[x], sum_y - phantoms * uy[x]
 
 
-@njit(inline="always")
-def _starts_from_rest(blocks, law, b, fx, fy):
-    """Whether F_mot and friction have accelerated block b from rest in this one step."""
-    force = math.hypot(fx, fy)
-    friction = resistance(
-        law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
-    )
-    left = 1.0 - friction / force
-    return math.hypot(blocks.vx[b] - left * fx, blocks.vy[b] - left * fy) <= _FROM_REST * force
+@kernel
+def _list_releases(blocks, law, released, count, band, s, row):
+    """List the blocks of a row that were at rest until this step; return their number so far.
+
+    F_mot and friction have accelerated them from rest in this one step.
+    """
+    i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
+    for x in range(ONE, band.grid.n_x + ONE):
+        b = i + x
+        vx, vy = blocks.vx[b], blocks.vy[b]
+        if blocks.static[b] > 0.0 and (vx != 0.0 or vy != 0.0):
+            fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+            force = math.hypot(fx, fy)
+            friction = resistance(
+                law, state_at_release(law), 0.5 * force, -0.5, blocks.static[b], blocks.dynamic[b]
+            )
+            left = 1.0 - friction / force
+            if math.hypot(vx - left * fx, vy - left * fy) <= _FROM_REST * force:
+                released.row[count], released.x[count] = np.int64(row), np.int64(x)
+                released.ax[count], released.ay[count] = vx, vy
+                count += 1
+    return count
 
 
 @kernel
@@ -122,19 +135,17 @@ def _record_switches(blocks, law, released, count, band, s, dots, row, now):
     `dots` holds w·v of each block: negative if it has reversed, zero if it was at rest. Returns the
     switches, and the number of blocks released so far.
     """
-    i, own, switches = row * band.grid.pitch, (row - band.start) * band.grid.pitch, np.int64(0)
+    switches, from_rest = np.int64(0), False
+    i, t_det = row * band.grid.pitch, blocks.t_det
     for x in range(ONE, band.grid.n_x + ONE):
         b = i + x
-        slides = (blocks.vx[b] != 0.0 or blocks.vy[b] != 0.0) and blocks.static[b] > 0.0
-        if not (slides and dots[x] <= 0.0):
-            continue
-        switches += 1
-        blocks.t_det[b] = min(blocks.t_det[b], now)
-        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-        if dots[x] == 0.0 and _starts_from_rest(blocks, law, b, fx, fy):
-            released.row[count], released.x[count] = np.int64(row), np.int64(x)
-            released.ax[count], released.ay[count] = blocks.vx[b], blocks.vy[b]
-            count += 1
+        slides = ((blocks.vx[b] != 0.0) | (blocks.vy[b] != 0.0)) & (blocks.static[b] > 0.0)
+        switched = slides & (dots[x] <= 0.0)
+        switches += np.int64(switched)
+        t_det[b] = now if switched & (t_det[b] > now) else t_det[b]
+        from_rest = from_rest | (slides & (dots[x] == 0.0))
+    if from_rest:
+        count = _list_releases(blocks, law, released, count, band, s, row)
     return switches, count
 
 
@@ -291,20 +302,27 @@ def place_releases(blocks, law, rows, released, count, constants, k):
 
 
 @kernel
-def _settle_rows(blocks, rows, band, s, pull, now):
-    """Estimate for how long rows at rest stay so, and close the edges of all rows of a band.
+def _steps_at_rest(static, s, own, i, n, pull):
+    """Lower bound on the steps for which a row stays at rest if its neighbours do.
 
     As long as no block moves, only the slider changes F_mot of a block, by `pull` per step.
     """
+    least = np.inf
+    for x in range(ONE, n + ONE):
+        fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
+        least = min(least, static[i + x] - math.sqrt(fx * fx + fy * fy))
+    return np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
+
+
+@kernel
+def _settle_rows(blocks, rows, band, s, pull, now):
+    """Estimate for how long rows at rest stay so, and close the edges of all rows of a band."""
     for row in range(band.start, band.stop):
         i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
         computed = rows.in_contact[row] and rows.awake[row]
         if computed and not rows.sliding[row + ONE] and rows.due[row] <= now:
-            least = np.inf
-            for x in range(ONE, band.grid.n_x + ONE):
-                fx, fy = s[FORCE_X + own + x], s[FORCE_Y + own + x]
-                least = min(least, blocks.static[i + x] - math.sqrt(fx * fx + fy * fy))
-            rows.due[row] = now + np.int64(min((1.0 - _SLACK) * least / pull, _FOREVER))
+            steps = _steps_at_rest(blocks.static, s, own, i, band.grid.n_x, pull)
+            rows.due[row] = now + steps
         close_edge(blocks.ux, blocks.uy, row, band.grid)
 
 
