@@ -60,7 +60,7 @@ def test_the_largest_difference_is_that_between_the_ends_of_one_group():
     [
         (0.03, 0.02, "more on the size of pillars than on contact fraction"),
         (0.02, 0.03, "more on contact fraction than on the size of pillars"),
-        (0.03, 0.03, "equally on the size of pillars and on contact fraction"),
+        (0.03, 0.03, "about equally on the size of pillars and on contact fraction"),
     ],
 )
 def test_what_friction_depends_on_more_is_what_changes_it_more(by_size, by_contact, words):

@@ -75,7 +75,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     if not (by_contact and by_size):
         return
     size, contact = largest_difference(by_contact), largest_difference(by_size)
-    words = "Static friction depends equally on the size of pillars and on contact fraction"
+    words = "Static friction depends about equally on the size of pillars and on contact fraction"
     if size.low > contact.high:
         words = "Static friction depends more on the size of pillars than on contact fraction"
     elif contact.low > size.high:

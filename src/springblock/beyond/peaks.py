@@ -62,7 +62,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         f"{less or 'none'}. Of these surfaces, along the grooves, it is the most prominent with "
         f"pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
-        "surfaces with up to 3.7 %)."
+        "further surfaces)."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
