@@ -109,10 +109,10 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     0.05 t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
     without grooves.
     """
-    name = "the detachment rate between the load peaks over the mean rate"
+    name = "the detachment rate over its mean"
     for part, quantity in (
-        ("the quietest 0.05 t_avg", partial(quietest_rate, share=0.05)),
-        ("the whole phase", rate_between),
+        ("the quietest 0.05 t_avg between the load peaks", partial(quietest_rate, share=0.05)),
+        ("the time between the load peaks", rate_between),
     ):
         for scene, found in _grooved(evidence.records).items():
             rate = samples.mean([quantity(peaks) / mean_rate(peaks.run) for peaks in found])

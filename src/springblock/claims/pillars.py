@@ -148,7 +148,7 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of positions enclosed by the two outermost rings that are nearer to these than the "
+    "the share of the positions inside the two outermost rings that lie further outwards than the "
     f"first {_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )

@@ -82,7 +82,7 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
     most a fifth of the standard deviation of the stress over the blocks of the mean pillar.
     """
     largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
-    name = f"{largest}, over the standard deviation"
+    name = f"{largest}, over the latter's standard deviation"
     for scene in pillars(evidence.stress):
         stresses = _pillar_stress(evidence, scene)
         if len(stresses) >= 2:

@@ -22,10 +22,10 @@ from springblock.solver.shear import shear_forces
 
 #: Sample intervals between two tests of whether a run is complete.
 _SAMPLES_PER_CALL = 10
-#: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of the
-#: time of the last first detachment.
+#: A run whose force does not drop (mu_d = mu_s, or strong damping) ends at this multiple of its
+#: largest t_det.
 _WITHOUT_DROP = 1.5
-#: A run fails at this multiple of the loading time of its strongest block, F_c/(K_s v).
+#: A run with stuck blocks fails at this multiple of its longest loading time, F_c/(K_s v).
 _LATEST = 3.0
 
 
@@ -124,7 +124,7 @@ def simulate(
 
 
 def _is_over(motion: Motion, end: int | None, latest: float) -> bool:
-    """Return whether the run is complete, see `simulate`; it fails after the time `latest`, s."""
+    """Return whether the run is complete, see `simulate`; raise if blocks are stuck after `latest`, s."""
     if end is not None:
         return motion.samples >= end
     blocks, now = motion.state.blocks, motion.steps * motion.setup.step

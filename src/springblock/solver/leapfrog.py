@@ -106,9 +106,9 @@ def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
 
 @kernel
 def _list_releases(blocks, law, released, count, band, s, row):
-    """List the blocks of a row that were at rest until this step; return their number so far.
+    """List the blocks of a row that were at rest until this step; return the number listed so far.
 
-    F_mot and friction have accelerated them from rest in this one step.
+    They have the velocity that F_mot and friction give a block at rest in one step.
     """
     i, own = row * band.grid.pitch, (row - band.start) * band.grid.pitch
     for x in range(ONE, band.grid.n_x + ONE):
@@ -294,7 +294,7 @@ def place_releases(blocks, law, rows, released, count, constants, k):
         state = state_at_release(law)
         friction = resistance(law, state, 0.5 * a1, 0.0, blocks.static[b], blocks.dynamic[b])
         store_state(law, b, state, (slip + speed) * a1, True)
-        work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s, and for the change of speed
+        work = friction * a1 * (slip + 0.5 * (theta - 0.5))  # along s + (θ_ε - 1/2) a/2
         extra = a2 * (0.125 - epsilon / 8.0 - 0.5 * stiffness * slip * slip)  # Q of (12)
         rows.heat[row] += work + extra
         rows.squares[row] += (speed * speed - 1.0) * a2

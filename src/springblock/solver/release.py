@@ -94,4 +94,4 @@ def release_theta(released, threshold, springs, slider, slide):
     if before > threshold:
         return np.nan
     now = math.hypot(*force_in_patch(released.now, 2, 2, springs, slider))
-    return (now - threshold) / (now - before) if now > threshold else 0.0  # by rounding
+    return (now - threshold) / (now - before) if now > threshold else 0.0  # rounding

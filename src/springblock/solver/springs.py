@@ -101,7 +101,7 @@ class Band(NamedTuple):
 class Columns(NamedTuple):
     """Columns [start, stop) of a band, from 1, computed together."""
 
-    springs: np.uint64  #: first column whose springs are needed, including those from the west
+    springs: np.uint64  #: first column whose springs are computed: `start` needs those on its west
     start: np.uint64
     stop: np.uint64
 
