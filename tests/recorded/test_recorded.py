@@ -454,7 +454,7 @@ TEXTS: dict[str, Callable[[], str]] = {
 
 def anywhere(text: str) -> str:
     """Return the text without digests of code and files."""
-    return re.sub(r"\b[0-9a-f]{16,}\b", "...", text)
+    return re.sub(r"(?<!\.)\b(?=\d*[a-f])[0-9a-f]{16,}\b", "...", text)
 
 
 @pytest.mark.parametrize("name", TEXTS)

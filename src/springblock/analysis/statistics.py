@@ -139,7 +139,9 @@ def bootstrap_interval(statistic: Callable[[Array], Array], k: int) -> Interval:
     value = statistic(np.full((1, k), 1.0 / k))[0]
     if k < 3:
         return Interval(value, *np.full((2, *value.shape), np.nan))
-    resampled = statistic(bootstrap_weights(k))
+    weights = bootstrap_weights(k)
+    resampled = statistic(weights)
+    resampled[np.ptp(weights, axis=1) == 0.0] = value  # BCa counts values that are equal to the bit
     given = SimpleNamespace(bootstrap_distribution=np.moveaxis(resampled, 0, -1))
 
     def of_indices(drawn: NDArray[np.intp], axis: int) -> Array:
