@@ -124,7 +124,7 @@ def simulate(
 
 
 def _is_over(motion: Motion, end: int | None, latest: float) -> bool:
-    """Return whether the run is complete, see `simulate`; raise if blocks are stuck at `latest`, s."""
+    """Return whether a run is complete, see `simulate`; raise if blocks are stuck at `latest` s."""
     if end is not None:
         return motion.samples >= end
     blocks, now = motion.state.blocks, motion.steps * motion.setup.step
