@@ -120,7 +120,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     """Tested: fronts are clusters of more than 20 detached blocks when half of all blocks have
     detached; chance forms about two. Between the smallest and the largest value of a parameter
     their number changes by more than a tenth of that with the paper's constants. When a tenth of
-    the blocks have detached, chance forms none, and the number changes by 0.58 (velocity), 0.98
+    the blocks have detached, chance forms none, and these ratios are 0.58 (velocity), 0.98
     (pressure) and 0.43 (scatter).
     """
     for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):

@@ -103,8 +103,8 @@ def rate_between(peaks: Peaks) -> float:
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the detachment rate falls below half its mean (from the first detachment to the
     last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
-    Two weaker criteria, a window of 0.01 t_avg and a mean rate while the middle eight tenths of the
-    blocks detach, are met with pawls of 8 and 10, but also on surfaces without two peaks, while
+    Two weaker criteria, a window of 0.01 t_avg, or half the mean rate over the middle eight tenths
+    of detachments, are met with pawls of 8 and 10, but also on surfaces without two peaks, while
     their force exceeds 95 % of its maximum. Relative to this mean rate, the rate in the quietest
     0.05 t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
     without grooves.
