@@ -98,7 +98,7 @@ class Problem:
         self.k_int, self.k_s, self.h = material.k_int, material.k_s, setup.step
         velocity = material.slider_velocity * np.array(heading(direction))
         self.v_slider = velocity.reshape(2, 1, 1)  #: m/s
-        #: a and tau of (7), s; in the Runge-Kutta method forces act for the whole step
+        #: a, and tau in s, of (7); in the Runge-Kutta method forces act for the whole step
         self.a = np.exp(-self.gamma * self.h)
         damped = self.gamma and setup.integrator == "leapfrog"
         self.tau = (1.0 - self.a) / self.gamma if damped else self.h
@@ -195,7 +195,7 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
     low, high = still, np.maximum(speed, speed + share * friction_at(still))
     mean, rises = high, friction_at(high) > friction_at(still)
     bisected = rises | (share > 0.0)
-    for _ in range(2000):  # pragma: no branch - far fewer halvings leave no number between
+    for _ in range(2000):  # pragma: no branch - ends long before: low and high meet
         right = speed + share * friction_at(mean)
         low, high = np.where(mean < right, mean, low), np.where(mean < right, high, mean)
         found = np.maximum(np.where(bisected, 0.5 * (low + high), right), 0.0)
@@ -208,7 +208,7 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
 def release_theta(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
     """Share θ of the step that follows a release, (9), from |F_mot| at step k and u at k - 1.
 
-    NaN for a block beyond its threshold one step earlier, too, which was at rest for an instant.
+    NaN if |F_mot| also exceeded F_c at k - 1: the block was at rest for an instant only.
     """
     before = np.hypot(*motive_force(problem, u_before, k - 1))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -276,7 +276,7 @@ def _where(chosen: Mask, memory: Memory, other: Memory) -> Memory:
 
 
 def _end_weight(problem: Problem, memory: Memory, speed: Array) -> Array:
-    """Weight of the velocity after a step in the velocity at which friction is evaluated.
+    """Weight β of v⁺, the velocity after a step: friction acts at (1 - β) v + β v⁺.
 
     1/2, but more if friction increases so steeply with speed that the velocity would oscillate.
     """

@@ -27,8 +27,8 @@ from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.simulation.run import Run
 
-#: Last r of the fits, blocks, which begin at r = 1: a third of the shortest side on which enough
-#: distances can be fitted, 20. Lengths from different ranges cannot be compared.
+#: Last r of the fits from r = 1 on, blocks: a third of 20, the shortest side with enough distances
+#: for a fit. Lengths from different ranges cannot be compared.
 LAST = 6
 #: Grid of correlation lengths for the fit, blocks, in steps of 1 %. A parabola interpolates, since
 #: the jackknife needs a smooth estimate.
@@ -86,7 +86,7 @@ def references(size: int) -> NDArray[np.intp]:
 
 
 def lagged_products(values: Array) -> Array:
-    """Sum v(x₀) v(x₀ ± r) over sides, (..., sides, n_p), references and directions; (..., r).
+    """Sum v(x₀) v(x₀ ± r) over sides, references and directions: (..., sides, n_p) -> (..., r).
 
     From r = 0 to the largest r for which all x₀ ± r belong to the side.
     """

@@ -22,7 +22,7 @@ from springblock.simulation.run import Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
-#: Least force of a load peak over the largest force; during sliding it is at most two thirds.
+#: Least force of a load peak, over the largest force.
 _LOAD_PEAK = 0.9
 PROMINENT = 0.01  #: least prominence of a load peak over the largest force
 
@@ -224,8 +224,8 @@ class Curve:
 def whole_curve(runs: Sequence[Run]) -> Curve:
     """Force and detachments of an ensemble up to the end of its longest run.
 
-    After the end of a run its force is NaN and its number of first detachments 0: a run ends when
-    all blocks have detached.
+    After the end of a run its force is NaN and its number of first detachments 0: a run ends only
+    after all blocks have detached.
     """
     cut(runs, [run.time for run in runs])  # refuses runs that are sampled differently
     time = max((run.time for run in runs), key=len)
@@ -239,7 +239,7 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
 
 
 def mean_of_rest(values: Array) -> Interval:
-    """Mean and interval, (n,), over those of k runs that have not ended, (k, n) with NaN after it.
+    """Mean and interval, (n,), over those of k runs, (k, n), that have not ended (NaN marks the end).
 
     NaN if fewer than half of the runs are left, since these are the slowest.
     """
@@ -286,7 +286,8 @@ def load_peaks(curve: Array, scatter: ArrayLike) -> NDArray[np.intp]:
 
     The prominence of a peak must be at least two standard errors of the mean, `scatter`, and
     `PROMINENT` of the largest force, which excludes the waves of loading; its force must be at
-    least `_LOAD_PEAK` of the largest force, which excludes those of sliding.
+    least `_LOAD_PEAK` of the largest force, which excludes those of sliding on flat surfaces (on
+    others a run ends at the first of these).
     """
     from scipy.signal import find_peaks  # slow to import, and few figures need it
 

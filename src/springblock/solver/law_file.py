@@ -1,7 +1,7 @@
 """Laws of friction from files (`springblock.model.law`), as the kernels call them.
 
-All these laws are one type, whose functions are called through pointers: a new law compiles them
-alone, in a second or two. The state of a block is a row of an array, and functions take the index
+All these laws are one type, whose functions are called through pointers: a new law compiles only
+its own, in a second or two. The state of a block is a row of an array, and functions take the index
 of the row. T and V are as in `laws`.
 """
 
@@ -28,12 +28,12 @@ class FromFile(NamedTuple):
     """Friction by a law from a file."""
 
     state: Array  #: (2 blocks + 1, variables): now, one step before, and at a release
-    contact: NDArray[np.bool_]  #: (2 blocks + 1,), by the same rows; others have no friction
+    contact: NDArray[np.bool_]  #: (2 blocks + 1,) for the same rows; without contact no friction
     constants: Array  #: in the order of the file
     load: float  #: F_n, as the velocity that it adds in one step
     speed: float  #: l/h, m/s
     step: float  #: h, s
-    failed: NDArray[np.int64]  #: (1,) block whose mu was negative or not finite, or -1
+    failed: NDArray[np.int64]  #: (1,) row of state whose mu was negative or not finite, or -1
     friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu
     update: Any  #: (constants, state, row, speed, step): the state in a row, after a step
 
