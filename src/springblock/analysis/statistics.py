@@ -239,7 +239,7 @@ def whole_curve(runs: Sequence[Run]) -> Curve:
 
 
 def mean_of_rest(values: Array) -> Interval:
-    """Mean and interval, (n,), over those of k runs, (k, n), that have not ended (NaN marks the end).
+    """Mean and interval, (n,), over those of k runs, (k, n), that go on; NaN marks the end.
 
     NaN if fewer than half of the runs are left, since these are the slowest.
     """
