@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from springblock.accuracy.work_precision import SETTLED_STEPS, cost_of, orders_of
+from springblock.accuracy.work_precision import SETTLED_STEPS, cost_of, horizon, orders_of
 from springblock.model.defaults import STEP
 
 
@@ -27,3 +27,11 @@ def test_one_slow_run_does_not_change_the_cost_of_a_realisation():
     ]
     assert cost_of("leapfrog", runs) == (2.0, 30.0)
     assert cost_of("rk4", runs) == (2.0, 120.0)
+
+
+def test_runs_part_where_the_first_of_two_detaches():
+    """Blocks that never detach, or differ by less than 0.1 % of t_max, part nothing."""
+    one = SimpleNamespace(t_max=100.0, t_det=np.array([[10.0, 60.0], [50.0, np.nan]]))
+    other = SimpleNamespace(t_max=100.0, t_det=np.array([[10.09, 40.0], [45.0, 30.0]]))
+    assert horizon(one, other) == horizon(other, one) == 40.0
+    assert horizon(one, one) == np.inf
