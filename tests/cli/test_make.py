@@ -117,7 +117,7 @@ def test_the_page_shows_the_errors_of_plain_runge_kutta_and_where_it_finds_no_er
     text = page(precision=rows)
     assert "runs are 10.0 % (flat), 10.0 % (pillared), 30.0 % (grooved).\n" in text
     assert "they are\n  10.0 % (flat), 10.0 % (pillared), 10.0 % (grooved).\n" in text
-    assert "| t_max | none | 1.0e-01 | 1.0e-01 |\n" in text
+    assert "| t_max | 0 | 1.0e-01 | 1.0e-01 |\n" in text
 
 
 def test_questions_beyond_the_paper_are_answered_where_they_were_simulated(

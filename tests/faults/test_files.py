@@ -72,6 +72,15 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert not list(faults(study.results))
 
 
+def test_a_file_that_is_set_aside_again_replaces_no_other(study, springblock):
+    aside = study.results / "set-aside" / TABLE
+    for content in (b"once", b"twice"):
+        (study.results / TABLE).write_bytes(content)
+        springblock("repair", study.results)
+    assert aside.read_bytes() == b"once"
+    assert aside.with_name(f"{aside.name}.again").read_bytes() == b"twice"
+
+
 def test_files_are_compared_with_the_last_configuration_of_a_study(study):
     """A study that grew had another one before."""
     record = study.results / "study.json"

@@ -37,9 +37,9 @@ def realisations(friction, lag=-2e-6, seeds=5, scatter=1e-3, **lengths):
     ]
 
 
-def found(*samples, claims=()):
+def found(*samples, claims=(), peaks=()):
     rows = [row for sample in samples for row in sample]
-    return findings.findings({"realisations": rows, "claims": claims})
+    return findings.findings({"realisations": rows, "claims": claims, "mechanism_peaks": peaks})
 
 
 def test_the_size_of_least_friction_follows_the_numbers_and_not_the_paper():
@@ -107,6 +107,23 @@ def test_a_study_says_whether_it_settles_that_two_peaks_need_hierarchy(verdict, 
     along = judged("Two load peaks along grooves", "n_p2 = 8", 0.028)
     alone = judged("Without hierarchy one load peak", "surface = pillars", 0.009, verdict, "open")
     assert found(claims=[along, alone])["peaks"]["is_open"] == is_open
+
+
+def test_grooves_alone_are_those_of_the_pawls_with_the_deepest_fall():
+    """Of the chapter on the mechanism, along the grooves and with the study's constants."""
+    scenes = (
+        *(Scene(48, n_p2=8, n_s2=2), Scene(48, n_p2=8, n_s2=2, direction="y")),
+        *(Scene(48, n_p2=8, n_s2=6), Scene(48, n_p2=4, n_s2=2)),
+        *(Scene(48, n_p2=8, n_s2=2, varied=(("mu_dynamic", 0.7),)), Scene(48, 23, 25, 8, 2)),
+    )
+    rows = [
+        scene.row | {"measured": 3.0 * i + fall}
+        for i, scene in enumerate(scenes, 1)
+        for fall in (-0.5, 0.0, 0.5)
+    ]
+    along = [judged("Two load peaks along grooves", f"n_p2 = {n}", n / 400.0) for n in (4, 8)]
+    assert found(claims=along, peaks=rows)["peaks"]["alone"] == "0.030 [0.018, 0.042]"
+    assert found(claims=along)["peaks"]["alone"] == ""
 
 
 def test_differences_within_the_scatter_are_not_significant():
@@ -186,6 +203,7 @@ def test_symbols_are_set_and_nothing_but_symbols():
     assert typeset("t_max < l_c") == "<var>t<sub>max</sub></var> &lt; <var>l<sub>c</sub></var>"
     assert typeset("n_p2/n_s2") == "<var>n<sub>p2</sub></var>/<var>n<sub>s2</sub></var>"
     assert typeset("c_x of `rk4`") == "<var>c<sub>x</sub></var> of <code>rk4</code>"
+    assert typeset("2μ_d/l_z²") == "2<var>μ<sub>d</sub></var>/<var>l<sub>z</sub></var>²"
     for name in ("level-1/n_p-2", "supplement_n_p", "n_p_x", "t_maximum", "static_friction"):
         assert typeset(name) == name
 

@@ -32,8 +32,9 @@ _FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the stu
 
 #: Opening, and the section on full size, of a study without errors at full size.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
-by at most {most:.1f} % (far ends of 95 % intervals), mostly less than the standard error of a mean
-over {ensemble} seeds. Quote means with their intervals over seeds, and compare no single runs.
+by at most {most:.1f} % (far ends of 95 % intervals); “Ensembles of small surfaces” compares this
+with the standard error of a mean over {ensemble} seeds. Quote means with their intervals over
+seeds, and compare no single runs.
 """
 
 _WITHOUT = """This study was run without `production: true`, which measures errors on surfaces of
@@ -206,8 +207,8 @@ def _runs(row: Row) -> str:
 
 
 def _error(row: Row) -> str:
-    """Format an error, or "none" where runs agree to every digit."""
-    return f"{row['error']:.1e}" if row["error"] else "none"
+    """Format an error; 0 where runs agree to every digit."""
+    return f"{row['error']:.1e}" if row["error"] else "0"
 
 
 def _orders(*rows: Row) -> str:

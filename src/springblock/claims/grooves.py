@@ -63,10 +63,10 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
 
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on pillars without grooves and on grooves without pillars, the mean prominence of the
-    lesser peak is below 1 % of the largest force. On pillars of 6 blocks it mostly comes from
-    fluctuations of single runs (the mean force curve has 0.2 %), and with N = 240 it is 0.63 [0.45,
-    0.80] % (12 realisations); along grooves it does not (2.5 % with pawls of 8). Without pillars of
-    6 blocks the verdict is the same.
+    lesser peak is below 1 % of the largest force. Fluctuations of single runs make most of it on
+    pillars of 6 blocks (the mean force curve has 0.2 %; with N = 240 it is 0.63 [0.45, 0.80] %, 12
+    realisations), but not along grooves (2.5 % with pawls of 8). Without pillars of 6 blocks the
+    verdict is the same.
     """
     for scene in surfaces.pillars(evidence.records):
         case = {"surface": f"pillars of {scene.n_p} blocks"}
@@ -144,9 +144,9 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
 
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     """Tested: compared with the same pillars without grooves, the force stays above 95 % of its
-    maximum for longer (smooth), and blocks detach in less time (rapid). Over t_avg in place of
-    t_max, all outcomes are the same. Taken separately, the transition is smooth at four of the five
-    widths of pawls (the fifth is open), and rapid at none.
+    maximum for longer (smooth), and blocks detach in less time (rapid). Both times are
+    over t_max; over t_avg, all outcomes are the same. Taken separately, the transition is smooth at
+    four of the five widths of pawls (the fifth is open), and rapid at none.
     """
     smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)

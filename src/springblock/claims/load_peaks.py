@@ -129,8 +129,8 @@ def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
 @mean_over(_grooved, f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
     """Tested: more than nine tenths of the edge blocks have detached at the lowest force between
-    the peaks. With a bound below 0.84 the statement would hold with pawls of 8 and of 10 blocks,
-    with one above 0.92 with neither.
+    the peaks. A bound below 0.84 would be met with pawls of 8 and of 10 blocks, one above 0.92 with
+    neither.
     """
     return share_detached(peaks, edge)
 
@@ -185,9 +185,9 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the surface lost its stress, so that the
-    force fell to 0.6 F_n, the growth would exceed a tenth. The growth is 0.28 and 0.33 of the
-    excess of static friction over the mean mu_dynamic (pawls of 8 and 10); a tenth of this excess
-    suffices in one run of 987.
+    force fell to 0.6 F_n, the growth would exceed a tenth. Divided by the
+    excess of static friction over the mean mu_dynamic it is 0.28 and 0.33 (pawls of 8 and 10), and
+    at most a tenth in one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())

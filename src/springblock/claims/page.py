@@ -160,7 +160,7 @@ def _section(number: int, part: Sequence[Row]) -> str:
     first = part[0]
     quoted, tested, criterion = first["statement"].partition(" Tested: ")
     lines = [f"## {number}. {first['claim']}", f"{quoted} (section {first['section']})"]
-    lines += [f"Tested: {criterion}"] if tested else []
+    lines += [f"Test: {criterion}"] if tested else []
     lines.append(
         f"**{first['verdict'].capitalize()}** ({first['form']} statement). {decided(part)}"
     )

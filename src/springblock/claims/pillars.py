@@ -104,7 +104,7 @@ def early_near_border(run: Record) -> float:
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """Tested: more than nine tenths of the blocks in the two outermost rings detach before t_max;
-    or, as in the paper's figure of mean times, the last part of these rings does so on average.
+    or, as in the paper's figure, the mean time of every part of these rings is before t_max.
     With a bound below 0.74 the statement would hold for single blocks for n_p of 7 and more.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
@@ -201,7 +201,7 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Tested: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
     nearer to those of the flat surface than to those of pillars with n_p = 20. Static friction may
     differ, as in the paper. If n_p = 6 replaced n_p = 20, the statement would hold at n_p = 2; but
-    at n_p = 6 t_max comes before t_avg, as on the flat surface.
+    n_p = 6 is no contrast: t_max comes before t_avg, as on the flat surface.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -295,10 +295,10 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the
     distance between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A
     exp(-r/l_c). One case holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at
-    n_p = 20 or 60 it would be open (upper limits: 2.05 and 2.02), and the statement not reproduced.
-    With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
-    fitted: fitted at n_p = 20, these four cases would be open; fitted at n_p = 10, those of
-    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    n_p = 20 or 60 this case would be open (upper limits: 2.05 and 2.02), and the statement not
+    reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on
+    which it is fitted: fitted at n_p = 20, the four cases of these scatters would be open; fitted
+    at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)

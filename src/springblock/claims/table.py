@@ -49,8 +49,8 @@ SCHEMA = pa.schema(
     ]
 )
 _WANTED = (
-    f"missing: surfaces or tables of `config/full.yaml`, with {ENOUGH} realisations each, from "
-    "which `docs/claims.md` has a verdict"
+    f"missing: surfaces with {ENOUGH} realisations each, or tables, with which the study of "
+    "`config/full.yaml` has a verdict"
 )
 _MISSING = Finding({}, "", UNKNOWN, (np.nan, np.nan), _WANTED)
 

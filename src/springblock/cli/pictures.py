@@ -80,8 +80,8 @@ def plot(
     else:
         rows = read_tables(files, SUMMARY).to_pylist()
         found = lines(rows, over)
-        picture = sweep.draw(found, over, observables or ["static_friction"])
-        caption = sweep.caption(found)
+        observables = observables or ("static_friction",)
+        picture, caption = sweep.draw(found, over, observables), sweep.caption(found, observables)
         if left_out := len(rows) - len(sweep.drawn(found)):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:

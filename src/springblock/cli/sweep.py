@@ -26,6 +26,7 @@ from springblock.plotting.style import save
 from springblock.simulation.setup import Setup
 
 _BATCH = 5  #: seeds of one job
+_DRAWN = ("static_friction", "t_max", "t_avg")  #: observables of the figures
 
 
 class Job(NamedTuple):
@@ -139,8 +140,8 @@ def sweep(
     write(table, output / "realisations.parquet", made_by)
     for over in axes(scenes):
         found = lines(table.to_pylist(), over)
-        picture = plot.draw(found, over, ["static_friction", "t_max", "t_avg"])
-        save(picture, output / f"{over}.png", plot.caption(found))
+        picture = plot.draw(found, over, _DRAWN)
+        save(picture, output / f"{over}.png", plot.caption(found, _DRAWN))
     click.echo(f"springblock table {output} shows the means, and with --changes how they change")
 
 

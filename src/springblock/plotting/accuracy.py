@@ -17,8 +17,7 @@ from springblock.plotting.style import BLACK, GREY, NANO, PERCENT, Look
 
 #: Names, colours and markers, with the Runge-Kutta whose order is lost.
 _METHODS = style.METHODS | {
-    PLAIN: {"label": "Runge–Kutta, stage-wise friction", "color": GREY}
-    | {"marker": "^", "markersize": 3.4}
+    PLAIN: {"label": "plain Runge–Kutta", "color": GREY} | {"marker": "^", "markersize": 3.4}
 }
 _ORDER_TWO: Look = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (5, 3))}
 _SCATTER: Look = {"color": "#D6E4EE", "linewidth": 0.0, "zorder": 0}

@@ -108,8 +108,8 @@ FIGURES: dict[str, Declaration] = {
         title="Force and detachments, grooved pillars",
         module="paper_results",
         caption="""Left: friction force over the normal force; right: share of first detachments per
-        bin; against time, from the moment at which one of the mean forces of a row reaches 80 % of
-        its maximum. Grooved pillars, sliding along and across the grooves; a row for each width of
+        bin; against time, from the earliest moment at which a mean force reaches 80 % of its
+        maximum. Grooved pillars, sliding along and across the grooves; a row for each width of
         pawls and grooves, n_p2/n_s2. Figure 9 of the paper, which does not give its sizes.""",
         groups=("grooves",),
         keys=PATTERN,
@@ -146,12 +146,12 @@ FIGURES: dict[str, Declaration] = {
     "work_precision": Declaration(
         title="Error against work",
         module="accuracy",
-        caption="""a-c) Error of first detachment times in single realisations against force
-        evaluations, relative to a solution that locates every event, before the horizon up to which
-        realisations can be compared. d-f) Bias of mean static friction against the step, relative
+        caption="""a-c) Error of first detachment times before the horizon, in single
+        realisations, relative to a solution that locates every event, against force evaluations.
+        d-f) Bias of mean static friction against the step, relative
         to the same seeds at a fine step. Small surfaces and, where the study has `production:
-        true`, 120 × 120 blocks; both integrators, and Runge-Kutta with friction evaluated in each
-        stage.""",
+        true`, 120 × 120 blocks; both integrators, and plain Runge-Kutta, with friction
+        evaluated in each stage.""",
         draws="tables",
         tables=("work_precision", "production"),
         marks="""Blue areas: range of 95 % of the means over 20 seeds. Bars: 95 % t intervals. The
@@ -165,7 +165,7 @@ FIGURES: dict[str, Declaration] = {
         speed.""",
         draws="tables",
         tables=("stability",),
-        marks="""Refused cases are beyond the stability limit; failed ones end in an exception.""",
+        marks="""Refused cases are beyond the stability limit.""",
     ),
     "mechanism_friction": Declaration(
         title="Stress, load transfer and overshoot",

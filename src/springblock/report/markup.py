@@ -14,7 +14,9 @@ from springblock.claims.page import anchor
 from springblock.io.schemas import said
 
 #: Symbols with an index, which the paper prints below the line; parts of paths have none.
-_SYMBOL = re.compile(r"\b(mu|[A-Za-zμγσω])_(max|min|avg|det|int|[a-z][23]?|0)\b(?!-\w)")
+_SYMBOL = re.compile(
+    r"(?<![^\W\d])(mu|[A-Za-zμγσω])_(max|min|avg|det|int|[a-z][23]?|0)(?![a-zA-Z0-9_]|-\w)"
+)
 _ANCHOR = re.compile(r"&lt;a id=&#34;([\w-]+)&#34;&gt;&lt;/a&gt;")
 #: Line that opens or closes a folded part, the only other HTML in a page of the study.
 _FOLD = re.compile(r"<details><summary>([^<>]*)</summary>|</details>")

@@ -109,7 +109,7 @@ def _of_study(
     return {
         "findings": found,
         "SHOWN": SHOWN,
-        "reasons": {"friction": mechanism.opening, "peaks": peaks},
+        "reasons": {"friction": mechanism.opening[:-1], "peaks": peaks},
         "model": figures.get(MODEL),
         "statements": statements(claims),
         "counted": counted(numbered_parts(claims)),
