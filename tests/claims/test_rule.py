@@ -210,7 +210,7 @@ def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
     ("claims", "expected"),
     [
         (SOME, "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)."),
-        (SOME, "**Not tested** (universal statement). Missing: surfaces with 20 realisations each, or tables, "),
+        (SOME, "**Not tested** (universal statement). Missing: surfaces with 20 realisations "),
         ([growing([(-1.0, 2.0)], n=1000)], "about 26000 realisations would settle it"),
         ([growing([HOLDS] * 5)], "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
         (
