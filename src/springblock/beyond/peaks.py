@@ -74,8 +74,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
             f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
             f"and less prominent in {less or 'none'}. In the {len(two)} cases in which its "
             f"prominence exceeds {_TWO:g} % on both, the differences are significant in "
-            f"{sum(_significant(two)) or 'none'}. The surfaces differ in size, too, and "
-            "fluctuations of the force decrease with the size."
+            f"{sum(_significant(two)) or 'none'}. The surfaces also differ in the "
+            "number of blocks in contact, with which fluctuations of the force decrease."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

@@ -63,10 +63,10 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
 
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on pillars without grooves and on grooves without pillars, the mean prominence of the
-    lesser peak is below 1 % of the largest force. Fluctuations of single runs make most of it on
-    pillars of 6 blocks (the mean force curve has 0.2 %; with N = 240 it is 0.63 [0.45, 0.80] %, 12
-    realisations), but not along grooves (2.5 % with pawls of 8). Without pillars of 6 blocks the
-    verdict is the same.
+    lesser peak is below 1 % of the largest force. On pillars of 6 blocks, most of it is
+    fluctuations of single runs (the mean force curve has 0.2 %; with N = 240 the mean is 0.63
+    [0.45, 0.80] %, 12 runs), but not along grooves (2.5 % with pawls of 8). Without pillars of 6
+    blocks the verdict is the same.
     """
     for scene in surfaces.pillars(evidence.records):
         case = {"surface": f"pillars of {scene.n_p} blocks"}

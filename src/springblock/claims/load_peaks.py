@@ -103,8 +103,8 @@ def rate_between(peaks: Peaks) -> float:
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the detachment rate falls below half its mean (from the first detachment to the
     last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
-    Two weaker criteria, a window of 0.01 t_avg, or half the mean rate over the middle eight tenths
-    of detachments, are met with pawls of 8 and 10, but also on surfaces without two peaks, while
+    With pawls of 8 and 10, two weaker criteria are met: a window of 0.01 t_avg, or half the mean
+    rate over the middle eight tenths of detachments. Surfaces without two peaks also meet them when
     their force exceeds 95 % of its maximum. Relative to this mean rate, the rate in the quietest
     0.05 t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
     without grooves.
@@ -185,8 +185,8 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the surface lost its stress, so that the
-    force fell to 0.6 F_n, the growth would exceed a tenth. Divided by the
-    excess of static friction over the mean mu_dynamic it is 0.28 and 0.33 (pawls of 8 and 10), and
+    force fell to 0.6 F_n, the growth would exceed a tenth. As a share of
+    static friction minus the mean mu_dynamic, the growth is 0.28 and 0.33 (pawls of 8 and 10), and
     at most a tenth in one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))

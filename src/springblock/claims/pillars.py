@@ -294,13 +294,13 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Tested: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
     friction may be within the numerical bias, 0.001, of the lowest are candidates. With another
-    scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not include the
-    distance between these sizes. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A
-    exp(-r/l_c). One case holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at
-    n_p = 20 or 60 this case would be open (upper limits: 2.05 and 2.02), and the statement not
-    reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on
-    which it is fitted: fitted at n_p = 20, the four cases of these scatters would be open; fitted
-    at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not allow for so
+    coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case
+    holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at n_p = 20 or 60 this
+    case would be open (upper limits: 2.05 and 2.02), and the statement not reproduced. With
+    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
+    fitted: fitted at n_p = 20, the four cases of these scatters would be open; fitted at n_p = 10,
+    those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -361,8 +361,8 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     itself, or where the results differ in sign. With the default step static friction at n_p = 6 is
     lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by 0.0006
     at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that 0.0001 [-0.0004, 0.0006]
-    remains. To decide which is lower would take more than ten thousand realisations with 5e-9 s. If
-    friction is lowest at 6 the statement fails, if at 7 it holds.
+    remains (unrounded). To decide which is lower would take more than ten thousand realisations
+    with 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
