@@ -206,7 +206,7 @@ def resistance(problem: Problem, memory: Memory, speed: Array, share: Array | fl
 
 
 def release_theta(problem: Problem, now: Array, u_before: Array, k: int) -> Array:
-    """Share θ of the step that follows a release, (9), from |F_mot| at step k and u at k - 1.
+    """Share θ of the step left after a release, (9), from |F_mot| at step k and u at k - 1.
 
     NaN if |F_mot| also exceeded F_c at k - 1: the block was at rest for an instant only.
     """
@@ -350,7 +350,7 @@ def runge_kutta(problem: Problem, state: State) -> State:
 def _direction(problem: Problem, force: Array, v: Array, friction: Array, released: Mask) -> Array:
     """Unit vectors e: of the velocity in the middle of the step, or of the force at a release.
 
-    Under weakening laws, the velocity in the middle of the step solves the implicit equation.
+    Under weakening laws, that velocity is found with friction along e itself.
     """
     m, h, gamma = problem.m, problem.h, problem.gamma
     with np.errstate(invalid="ignore", divide="ignore"):

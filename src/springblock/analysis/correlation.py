@@ -27,8 +27,8 @@ from springblock.model.numbers import Array
 from springblock.model.pattern import Pattern
 from springblock.simulation.run import Run
 
-#: Last r of the fits from r = 1 on, blocks: a third of 20, the shortest side with enough distances
-#: for a fit. Lengths from different ranges cannot be compared.
+#: Last r of the fits from r = 1 on, blocks: a third of 20; shorter sides are fitted up to n_p/3.
+#: Lengths from different ranges cannot be compared.
 LAST = 6
 #: Grid of correlation lengths for the fit, blocks, in steps of 1 %. A parabola interpolates, since
 #: the jackknife needs a smooth estimate.
@@ -211,7 +211,7 @@ def _lowest(misfit: Array) -> Array:
 
 
 def fit_tail(correlation: Array, error: Array) -> Array:
-    """Fit A exp(-r/l), A > 0, as `fit_length` does; (b,). For each l, A follows by regression."""
+    """Fit A exp(-r/l), A >= 0, as `fit_length` does; (b,). For each l, A follows by regression."""
     if correlation.shape[-1] < 3:
         return np.full(len(correlation), np.nan)
     decays, weight = _decays(correlation.shape[-1]), error**-2.0

@@ -1,8 +1,8 @@
 """Laws of friction from files (`springblock.model.law`), as the kernels call them.
 
-All these laws are one type, whose functions are called through pointers: a new law compiles only
-its own, in a second or two. The state of a block is a row of an array, and functions take the index
-of the row. T and V are as in `laws`.
+All these laws are one type that calls its functions through pointers: for a new law only these are
+compiled, in a second or two. The state of a block is a row of an array, and functions take the row.
+T and V are as in `laws`.
 """
 
 import math
@@ -41,7 +41,7 @@ class FromFile(NamedTuple):
 def from_file(
     law: LawFile, contact: NDArray[np.bool_], load: float, speed: float, step: float
 ) -> FromFile:
-    """Return a law for blocks at rest; the other arguments are fields of `FromFile`.
+    """Return a law for blocks at rest; `contact`: (blocks,); other arguments as of `FromFile`.
 
     A law that numba cannot compile is refused with a ValueError that gives the reason.
     """

@@ -95,7 +95,7 @@ def make_rows(in_contact: NDArray[np.bool_], periodic: bool) -> Rows:
 
 @njit(inline="always")
 def _without_phantoms(ux, uy, i, grid, sum_x, sum_y):
-    """Subtract the displacements of phantoms, which do not move, from the sums over a row."""
+    """Subtract the displacements of phantoms (see `lattice`) from the sums over a row."""
     if grid.periodic is not None:
         for x in range(grid.n_x + ONE, grid.width + ONE):
             sum_x, sum_y = sum_x - ux[i + x], sum_y - uy[i + x]
@@ -261,7 +261,7 @@ def _reconstruct_displacements(blocks, law, released, row, x, constants, slider)
 def place_releases(blocks, law, rows, released, count, constants, k):
     """Place the releases of `count` blocks at their times within the step, not at its end.
 
-    The loop has moved each block by a since step k. By (10) to (12) of docs/model.md it slips by s
+    The loop moved each by a = (ax, ay) since step k. By (10) to (12) of docs/model.md it slips by s
     until step k and then moves at (1/2 + θ_ε) a. Heat grows by Q and the additional friction work.
     """
     springs, slide = constants.springs, (constants.slider_x, constants.slider_y)
