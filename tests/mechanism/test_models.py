@@ -115,13 +115,17 @@ def test_load_is_transferred_as_the_equilibrium_of_all_sliding_blocks_demands(rn
     assert np.stack(curve, axis=1) == pytest.approx(np.array(found), rel=1e-9)
 
 
-def test_a_block_that_overshoots_rests_at_half_of_its_stress():
-    """It slips by 2 (mu_s - mu_d) F_n/(K + K_s), and its neighbour is loaded by K of that."""
-    static, dynamic = np.array([1.0, 1.9]), np.array([0.8, 1.5])
+@pytest.mark.parametrize(("mu_d", "threshold"), [(0.8, 1.9), (0.3, 5.0)])
+def test_a_block_that_overshoots_rests_at_half_of_its_stress(mu_d, threshold):
+    """It slips by 2 (mu_s - mu_d) F_n/(K + K_s), and its neighbour is loaded by K of that.
+
+    Where mu_s > 2 mu_d, it is pushed back afterwards.
+    """
+    static, dynamic = np.array([1.0, threshold]), np.array([mu_d, 1.5])
     curve = overshooting(ROW, static, dynamic)
-    left, loaded = 2.0 * 0.8 - 1.0, 1.0 + 2.0 * (1.0 - 0.8) * K / (K + K_S)
+    left, loaded = 2.0 * mu_d - 1.0, 1.0 + 2.0 * (1.0 - mu_d) * K / (K + K_S)
     until_again = 1.0 - left  # of the first, which feels K_s and a neighbour at rest
-    until_second = 1.9 - loaded
+    until_second = threshold - loaded
     s = 1.0 + min(until_again, until_second)
     assert curve.slider[:2] * K_S == pytest.approx([1.0, s])
     assert curve.force[:2] == pytest.approx([2.0, left + loaded + 2.0 * (s - 1.0)])
