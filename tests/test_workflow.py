@@ -166,6 +166,11 @@ def test_a_study_of_own_scenes_has_none_of_the_papers(study):
     }
     assert jobs.keys() == {"compile", "prelude", "simulate_batch", *drawn, *films}
     assert jobs["simulate_batch"] == 4
+    grids["scatter"]["direction"] = ["y", "x"]
+    study.write("own.yaml", own)
+    said = study.run("--dry-run", "--quiet", "host", "-p", configuration=("own.yaml",))
+    filmed = re.findall(r"springblock .*animate (\S+/level-0/\S+)", said)
+    assert filmed == ["own/realisations/n_blocks-36/level-0/gamma-0.0/direction-y/batch-0.parquet"]
     study.write("own.yaml", {**own, "scenes": {"scatter": None}})
     refused = study.run("--dry-run", configuration=("own.yaml",), refused=True)
     assert "scenes: no scenes are given" in refused

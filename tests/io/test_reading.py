@@ -9,6 +9,7 @@ import pytest
 
 from springblock import Surface, read, simulate
 from springblock.io.parquet import write
+from springblock.io.records import read_records
 from springblock.model.scene import Scene
 
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 9, "--last-seed", 10)
@@ -35,6 +36,13 @@ def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_pa
         assert run.snapshots.tobytes() == told.snapshots.tobytes()
         assert run.snapshots.shape == (2, 2, rows, 6)
     assert (read_back[0].snapshots[1] != read_back[1].snapshots[1]).any()
+
+
+def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_path):
+    late, early = tmp_path / "batch-10.parquet", tmp_path / "batch-2.parquet"
+    springblock(*BATCH, "--output", late)
+    springblock(*BATCH[:-4], "--first-seed", 2, "--last-seed", 2, "--output", early)
+    assert [run.seed for run in read_records([late, early])] == [2, 9, 10]
 
 
 def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):
