@@ -360,9 +360,9 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     the interval covers all results; it has no upper limit where a candidate would be compared with
     itself, or where the results differ in sign. With the default step static friction at n_p = 6 is
     lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by 0.0006
-    at 7 (300 realisations of each; 100 repeated with 5e-9 s), so that 0.0001 [-0.0004, 0.0006]
-    remains (unrounded). To decide which is lower would take more than ten thousand realisations
-    with 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
+    at 7 (300 realisations each; 100 also with 5e-9 s): from unrounded values, 0.0001 [-0.0004,
+    0.0006] remains. To decide which is lower would take more than ten thousand realisations with
+    5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
