@@ -55,11 +55,11 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
-    rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
+    rank = "; on some of the others it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces, and less prominent on "
-        f"{less or 'none'}. Of these surfaces, along the grooves, it is the most prominent with "
+        f"{less or 'none'}. Of all {len(found)}, along the grooves, its prominence is largest with "
         f"pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
         "further surfaces)."

@@ -65,7 +65,7 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Tested: on pillars without grooves and on grooves without pillars, the mean prominence of the
     lesser peak is below 1 % of the largest force. On pillars of 6 blocks, most of it is
     fluctuations of single runs (the mean force curve has 0.2 %; with N = 240 the mean is 0.63
-    [0.45, 0.80] %, 12 runs), but not along grooves (2.5 % with pawls of 8). Without pillars of 6
+    [0.45, 0.80] %, 12 runs), but not on grooves alone (2.5 % with pawls of 8). Without pillars of 6
     blocks the verdict is the same.
     """
     for scene in surfaces.pillars(evidence.records):

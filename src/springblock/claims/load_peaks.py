@@ -105,8 +105,9 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
     With pawls of 8 and 10, it does so in a window of 0.01 t_avg, or if the mean is over the middle
     eight tenths of detachments. Surfaces without two peaks do so too while their force exceeds 95 %
-    of its maximum. Relative to the latter mean, the rate in the quietest 0.05 t_avg is 0.34 and
-    0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks without grooves.
+    of its maximum. Relative to the mean over these eight tenths, the rate in the quietest 0.05
+    t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
+    without grooves.
     """
     name = "the detachment rate over its mean"
     for part, quantity in (

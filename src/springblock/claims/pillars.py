@@ -297,10 +297,10 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not allow for so
     coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case
     holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at n_p = 20 or 60 this
-    case would be open (upper limits: 2.05 and 2.02), and the statement not reproduced. With
-    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
-    fitted: fitted at n_p = 20, the four cases of these scatters would be open; fitted at n_p = 10,
-    those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    case would be open (ratios up to 2.05 and 2.02), and the statement not reproduced. With scatters
+    of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted: fitted
+    at n_p = 20, the four cases of these scatters would be open; fitted at n_p = 10, those of
+    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)

@@ -155,11 +155,11 @@ def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: from the middle fifth of a side to its corners (r up to 7, 11 and 23 at n_p = 20, 30
-    and 60), the rms distance of c_x from exp(-r/l_c), and from A exp(-r/l_c), is below 0.05, and
-    below that from a power law of 1 + r and from a straight line (amplitude 1 or free). At r = 1 to
-    6 alone (the range of the fits of l_c), A exp(-r/l_c) is no better than the power law at n_p =
-    30 and 60, and exp(-r/l_c) is worse.
+    """Tested: for pairs of blocks with one in the middle fifth of a side, and none at its corners
+    (r up to 7, 11 and 23 at n_p = 20, 30 and 60), the rms distance of c_x from exp(-r/l_c), and
+    from A exp(-r/l_c), is below 0.05, and below that from a power law of 1 + r and from a straight
+    line (amplitude 1 or free). At r = 1 to 6 alone (the range of the fits of l_c), A exp(-r/l_c) is
+    no better than the power law at n_p = 30 and 60, and exp(-r/l_c) is worse.
     """
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
