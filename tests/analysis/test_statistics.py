@@ -240,16 +240,15 @@ def test_the_bootstrap_takes_any_statistic_of_weights(rng):
     assert (bootstrap_weights(3).max(axis=1) < 1.0).all()  # one realisation has no variance
 
 
-@pytest.mark.parametrize("k", [3, 4, 5, 10])
-def test_rounding_does_not_move_the_limits_of_a_few_realisations(k, rng):
-    """Some resamples hold each realisation once; BCa counts those that equal the sample."""
-    values = rng.exponential(size=k)
+def test_rounding_does_not_move_the_limits_of_four_realisations(rng):
+    """179 resamples hold each realisation once; BCa counts those that equal the sample."""
+    values = rng.exponential(size=4)
 
     def rounded(weights):
         return (weights @ values) * np.resize([1.0, 1.0 - 1e-15, 1.0 + 1e-15], len(weights))
 
-    exact = bootstrap_interval(lambda weights: weights @ values, k)
-    np.testing.assert_allclose(bootstrap_interval(rounded, k), exact, rtol=1e-12)
+    exact = bootstrap_interval(lambda weights: weights @ values, 4)
+    np.testing.assert_allclose(bootstrap_interval(rounded, 4), exact, rtol=1e-12)
 
 
 def test_limits_are_percentiles_if_no_single_realisation_matters():

@@ -35,7 +35,7 @@ _on_flat = partial(mean_over, surfaces.flat)
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the bias of the mean, on small surfaces, is within one standard error of an ensemble
+    """Test: the bias of the mean, on small surfaces, is within one standard error of an ensemble
     of 20. The paper does not say how its Runge-Kutta method treats friction within a step. Three
     methods are therefore tested: both integrators of this study, and the plain Runge-Kutta method,
     in which friction opposes the velocity of each stage. Errors of single runs with the plain
@@ -59,7 +59,7 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a block
+    """Test: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a block
     (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks moved with its
     mid-plane; with this reading the statement would be reproduced.
     """
@@ -80,7 +80,7 @@ def varied(evidence: Evidence, *names: str) -> list[Scene]:
 
 @_on_flat("the amplitude of an oscillation at t_max over that at t = 0", ranges.NEGLIGIBLE)
 def damping(run: Record) -> float:
-    """Tested: viscous damping reduces the amplitude of oscillations to less than a tenth by t_max
+    """Test: viscous damping reduces the amplitude of oscillations to less than a tenth by t_max
     of the flat surface; the verdict is the same on pillars, where t_max is later. The amplitude
     decreases as exp(-gamma t/2) in all modes of the lattice, since even the slowest mode, with the
     frequency (K_s/m)^(1/2), is underdamped.
@@ -89,7 +89,7 @@ def damping(run: Record) -> float:
 
 
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on flat surfaces with other moduli at the same ratio, static friction changes by less
+    """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
     than 5 %, and t_max < t_avg.
     """
     flats = surfaces.flat(evidence.records)
@@ -117,7 +117,7 @@ def fronts(run: Run) -> float:
 
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: fronts are clusters of more than 20 detached blocks when half of all blocks have
+    """Test: fronts are clusters of more than 20 detached blocks when half of all blocks have
     detached; chance forms about two. Between the smallest and the largest value of a parameter
     their number changes by more than a tenth of that with the paper's constants. When a tenth of
     the blocks have detached, chance forms none, and these ratios are 0.58 (velocity), 0.98
@@ -136,7 +136,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: less than a tenth of the blocks detach before t_max. Blocks also detach without a
+    """Test: less than a tenth of the blocks detach before t_max. Blocks also detach without a
     front, where their own threshold is below the mean load: at t_max this holds for 0.05 of all
     blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3. Without
     these, the shares would be 0.09, 0.09 and 0.11, so that only the largest scatter would fail.
@@ -155,7 +155,7 @@ def single_events(run: Run) -> float:
 
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: most precursors, which “are those occurring before t_max”, detach before all of their
+    """Test: most precursors, which “are those occurring before t_max”, detach before all of their
     eight neighbours; or, if events are counted, most clusters of precursors are a single block. Of
     the blocks that detach before 0.9 t_max, and of those before 0.99 t_max, most detach before
     their neighbours.
@@ -173,7 +173,7 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     ranges.MOST,
 )
 def weakest_first(run: Record) -> float:
-    """Tested: of the m blocks that detach before t_max, most are among the m with the lowest
+    """Test: of the m blocks that detach before t_max, most are among the m with the lowest
     mu_static.
     """
     early = run.t_det < run.t_max
@@ -187,7 +187,7 @@ def weakest_first(run: Record) -> float:
     (1.0 - 0.9, 0.9),
 )
 def not_all_nucleate(run: Record) -> float:
-    """Tested: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
+    """Test: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
     neighbour that detaches by t_max. The paper's precursors are all blocks that detach before
     t_max, but the last of them have no time to trigger a front. Of all precursors, 0.263 [0.256,
     0.269] have no such neighbour: the verdict is the same.
@@ -198,7 +198,7 @@ def not_all_nucleate(run: Record) -> float:
 
 @_on_flat(_BEFORE, ranges.NEGLIGIBLE)
 def onset(run: Record) -> float:
-    """Tested: less than a tenth of the blocks detach before t_max."""
+    """Test: less than a tenth of the blocks detach before t_max."""
     return samples.before_peak(run)
 
 
@@ -216,7 +216,7 @@ def avalanche_follows(run: Record) -> float:
 
 @_on_flat(f"the detachment rate at t_max over its maximum {_WINDOW}", ranges.FEWER_THAN_HALF)
 def peaks_apart(run: Record) -> float:
-    """Tested: at t_max the detachment rate is below half its maximum."""
+    """Test: at t_max the detachment rate is below half its maximum."""
     counts = samples.rates(run, _BURST * run.t_max)
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
 
@@ -227,7 +227,7 @@ def peaks_apart(run: Record) -> float:
     within(0.5),
 )
 def average_is_propagation(run: Record) -> float:
-    """Tested: t_avg differs from the time of the largest detachment rate by less than half the
+    """Test: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, which is the time from a tenth to nine tenths of the detachments.
     t_max differs from t_avg by 0.77 of this duration. The verdict is the same for any bound from
     0.3 on, and for windows of 0.2 to 5 % of t_max.
@@ -241,7 +241,7 @@ def average_is_propagation(run: Record) -> float:
     ranges.NEGLIGIBLE,
 )
 def localized_stick_slip(run: Record) -> float:
-    """Tested: after the first force minimum, there is less than one slip for every ten blocks in a
+    """Test: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
     detachments. The number is a mean over the rest of the run; the verdict is the same if only the
     first interval of this length after the minimum is counted, or the first 2 to 50.
@@ -260,7 +260,7 @@ def peak_before_average(run: Record) -> float:
 
 
 def uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: in the core (here the blocks 10 or more from the edge), position explains less than a
+    """Test: in the core (here the blocks 10 or more from the edge), position explains less than a
     fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
     of a standard deviation, a small effect. The verdict is the same for the two outermost rings;
     with a bound above 0.38 the statement would hold. As a general statement it would be reproduced
@@ -285,7 +285,7 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     within(_SMALL, 0.5),
 )
 def nucleation_anywhere(run: Record) -> float:
-    """Tested: on average, 30 to 70 % of all positions are nearer to the edge than the first patch
+    """Test: on average, 30 to 70 % of all positions are nearer to the edge than the first patch
     of 5 x 5 blocks to detach; for a random position the mean is 50 %. The verdict is the same for
     patches of 1 to 17 blocks a side.
     """

@@ -38,7 +38,7 @@ def prominent(
 
 
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: when sliding along the grooves, the mean prominence of the lesser peak exceeds 1 % of
+    """Test: when sliding along the grooves, the mean prominence of the lesser peak exceeds 1 % of
     the largest force. A mean over runs includes their fluctuations, which decrease with the size of
     the surface: the prominence of the mean force curve is 2.0, 0.9 and 0.2 % with pawls of 8, 10
     and 13 blocks.
@@ -48,7 +48,7 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def only_along(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is
+    """Test: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is
     below 1 % of the largest force. The mean force curves have 2.5, 1.9, 1.3, 0.7, 0.3 and 0.1 % at
     15, 30, ... 90°.
     """
@@ -62,7 +62,7 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
 
 
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on pillars without grooves and on grooves without pillars, the mean prominence of the
+    """Test: on pillars without grooves and on grooves without pillars, the mean prominence of the
     lesser peak is below 1 % of the largest force. On pillars of 6 blocks, most of it is
     fluctuations of single runs (the mean force curve has 0.2 %; with N = 240 the mean is 0.63
     [0.45, 0.80] %, 12 runs), but not on grooves alone (2.5 % with pawls of 8). Without pillars of 6
@@ -76,7 +76,7 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
 
 
 def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on pillars cut by equal grooves in both directions, the mean prominence of the lesser
+    """Test: on pillars cut by equal grooves in both directions, the mean prominence of the lesser
     peak is below 1 % of the largest force. The verdict is the same for any bound below 1.3 %. With
     a bound above 2.1 % the statement would hold; with grooves in one direction the prominence is
     2.8 %. Part of it comes from fluctuations of single runs: the mean force curve has 0.7 %,
@@ -89,7 +89,7 @@ def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
 
 
 def edges_before_core(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the edges detach before the core."""
+    """Test: the edges detach before the core."""
     name = "t_det/t_avg of the core minus that of the edges"
     for along in slid_both_ways(evidence.records):
         inside, edges = surfaces.core(along.contact), surfaces.edge(along.contact)
@@ -119,7 +119,7 @@ def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
 
 
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
+    """Test: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
     along the grooves of the second level, and is below 1 % when sliding across them. The failing
     case is sliding across grooves of the second level but along those of the third, where the
     paper's explanation leads one to expect a second peak; but the mean force curve has 0.3 %, and
@@ -134,7 +134,7 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
 
 
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: with three levels, the mean prominence of the third most prominent peak exceeds 1 %
+    """Test: with three levels, the mean prominence of the third most prominent peak exceeds 1 %
     of the largest force. That of the second does, with 0.0163 and 0.0219: if “multiple” meant two,
     the statement would be reproduced.
     """
@@ -144,10 +144,10 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
 
 
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: compared with the same pillars without grooves, the force stays above 95 % of its
-    maximum for longer (smooth), and blocks detach in less time (rapid). Both times are
-    over t_max; over t_avg, all outcomes are the same. Taken separately, the transition is smooth at
-    four of the five widths of pawls (the fifth is open), and rapid at none.
+    """Test: compared with the same pillars without grooves, the force stays above 95 % of its
+    maximum for longer (smooth), and blocks detach in less time (rapid). Both times are over
+    t_max; over t_avg, all outcomes are the same. Taken separately, the transition is smooth at four
+    of the five widths of pawls (the fifth is open), and rapid at none.
     """
     smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)
@@ -159,7 +159,7 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
 
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: static friction is greater when sliding across the grooves, on surfaces whose grooves
+    """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
     are narrower than the pawls between them.
     """
     name = "static friction across the grooves minus that along them (same seeds)"
@@ -169,7 +169,7 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 
 
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
+    """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
     quarters, which is longer along grooves between pawls of 4, the statement would be reproduced in
     part.
@@ -181,7 +181,7 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
 
 
 def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: static friction changes by more than 1 % from the shortest to the longest pillars.
+    """Test: static friction changes by more than 1 % from the shortest to the longest pillars.
     Pillars of 115 blocks and more are on N = 240, all others on N = 120.
     """
     scenes = sorted(surfaces.grooved(evidence.records), key=lambda s: (s.n_p2, s.n_p))

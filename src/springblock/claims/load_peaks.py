@@ -78,7 +78,7 @@ def _grooved(records: Records) -> dict[Scene, list[Peaks]]:
     estimate=samples.proportion,
 )
 def second_peak_decides(peaks: Peaks) -> float:
-    """Tested: the second peak is the higher one in most runs that have two."""
+    """Test: the second peak is the higher one in most runs that have two."""
     return float(peaks.run.force[peaks.second] > peaks.run.force[peaks.first])
 
 
@@ -101,7 +101,7 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the detachment rate falls below half its mean (from the first detachment to the
+    """Test: the detachment rate falls below half its mean (from the first detachment to the
     last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
     With pawls of 8 and 10, it does so in a window of 0.01 t_avg, or if the mean is over the middle
     eight tenths of detachments. Surfaces without two peaks do so too while their force exceeds 95 %
@@ -128,7 +128,7 @@ def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
 
 @mean_over(_grooved, f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
-    """Tested: more than nine tenths of the edge blocks have detached at the lowest force between
+    """Test: more than nine tenths of the edge blocks have detached at the lowest force between
     the peaks. A bound below 0.84 would be met with pawls of 8 and of 10 blocks, one above 0.92 with
     neither.
     """
@@ -139,7 +139,7 @@ def edges_make_first_peak(peaks: Peaks) -> float:
     _grooved, f"the share of core blocks that have not detached {_AT_VALLEY}", ranges.NEARLY_ALL
 )
 def rest_between_peaks(peaks: Peaks) -> float:
-    """Tested: at the lowest force between the peaks more than nine tenths of the core blocks have
+    """Test: at the lowest force between the peaks more than nine tenths of the core blocks have
     not yet detached. On the other 16 surfaces of this study with two load peaks the share is 0.87
     to 0.98; it is below 0.9 on pillars of 25 and 30 blocks with pawls of 7 and 6.
     """
@@ -152,7 +152,7 @@ def rest_between_peaks(peaks: Peaks) -> float:
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
-    """Tested: between the load peaks there is more than one further slip for every two blocks that
+    """Test: between the load peaks there is more than one further slip for every two blocks that
     have detached; one block may slip several times. With a bound of one for every ten blocks the
     statement would hold.
     """
@@ -167,7 +167,7 @@ def slips_again(peaks: Peaks) -> float:
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Tested: between the load peaks the surface bears more than if all blocks slid. After the
+    """Test: between the load peaks the surface bears more than if all blocks slid. After the
     second peak the force falls below that of sliding blocks in every run. Only the force on the
     whole surface is tested: in five runs on other seeds, when the core bears most, the edges bear
     0.50 F_n per block, less than sliding blocks (`docs/mechanism.md`).
@@ -183,7 +183,7 @@ def stressed_between_peaks(peaks: Peaks) -> float:
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """Tested: from its lowest value between the load peaks until nine tenths of the blocks have
+    """Test: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the surface lost its stress, so that the
     force fell to 0.6 F_n, the growth would exceed a tenth. As a share of
     static friction minus the mean mu_dynamic, the growth is 0.28 and 0.33 (pawls of 8 and 10), and
@@ -195,7 +195,7 @@ def small_force_suffices(peaks: Peaks) -> float:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on pillars of the same n_p, the time between the peaks is shorter with the widest
+    """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest
     pawls than with the narrowest, among those with which most runs have two peaks. A time that
     depends on pillar length alone would not show that the difference matters.
     """

@@ -158,7 +158,7 @@ def _needed(row: Row) -> str:
 
 def _section(number: int, part: Sequence[Row]) -> str:
     first = part[0]
-    quoted, tested, criterion = first["statement"].partition(" Tested: ")
+    quoted, tested, criterion = first["statement"].partition(" Test: ")
     lines = [f"## {number}. {first['claim']}", f"{quoted} (section {first['section']})"]
     lines += [f"Test: {criterion}"] if tested else []
     lines.append(

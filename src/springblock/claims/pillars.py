@@ -43,7 +43,7 @@ _large = partial(pillars, smallest=_LARGE)
 
 
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: position explains less than a fifth of the variance of a pillar's mean t_det."""
+    """Test: position explains less than a fifth of the variance of a pillar's mean t_det."""
     name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
     for scene, runs in pillars(evidence.records).items():
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
@@ -67,7 +67,7 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean times over pillars and realisations are in this order, on the border and on
+    """Test: the mean times over pillars and realisations are in this order, on the border and on
     the second ring; the centre is the innermost block, or 2 x 2 blocks. The corners of the second
     ring detach after the edges of the border along x, by 0.007 t_max at n_p = 30 and by more on
     smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003 [-0.007, 0.0004] of
@@ -84,7 +84,7 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(pillars, "the share of pillars whose parts detach in this order", ranges.NEARLY_ALL)
 def always_in_order(run: Record) -> float:
-    """Tested: corners, edges across and along the sliding direction and centre detach in this
+    """Test: corners, edges across and along the sliding direction and centre detach in this
     order, both on the border and on the second ring, on more than nine tenths of the individual
     pillars. Pillars of 4 blocks have only the border.
     """
@@ -103,7 +103,7 @@ def early_near_border(run: Record) -> float:
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: more than nine tenths of the blocks in the two outermost rings detach before t_max;
+    """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max;
     or, as in the paper's figure, the mean time of every part of these rings is before t_max.
     With a bound below 0.74 the statement would hold for single blocks for n_p of 7 and more.
     """
@@ -128,7 +128,7 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: most precursors lie in the two outermost rings of blocks, and less than half detach
+    """Test: most precursors lie in the two outermost rings of blocks, and less than half detach
     before all of their eight neighbours (isolated).
     """
     for scene, runs in _broad(evidence.records).items():
@@ -153,7 +153,7 @@ def inside(run: Record) -> Array:
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Tested: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
+    """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach lies, on average, in the outer quarter of the area. The verdict is the same inside 1
     to 4 rings and for patches of 2 to 5 blocks a side; on the flat surface about half of all
     positions are nearer to the edge than the first patch.
@@ -173,7 +173,7 @@ def centre_last(evidence: Evidence) -> Iterator[Finding]:
 
 @mean_over(pillars, "t_max - t_avg", ranges.POSITIVE, unit="s")
 def peak_after_average(run: Record) -> float:
-    """Tested: the mean of t_max - t_avg over realisations is positive at every pillar size from n_p
+    """Test: the mean of t_max - t_avg over realisations is positive at every pillar size from n_p
     = 4 on; the paper treats smaller ones as a case of their own.
     """
     return run.t_max - run.t_avg
@@ -185,7 +185,7 @@ def peak_after_average(run: Record) -> float:
     ranges.NEARLY_ALL,
 )
 def front_after_peak(run: Record) -> float:
-    """Tested: more than nine tenths of the blocks enclosed by the two outermost rings detach after
+    """Test: more than nine tenths of the blocks enclosed by the two outermost rings detach after
     t_max.
     """
     return float(np.mean(inside(run) > run.t_max))
@@ -200,7 +200,7 @@ def warning(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
+    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
     nearer to those of the flat surface than to those of pillars with n_p = 20. Static friction may
     differ, as in the paper. If n_p = 6 replaced n_p = 20, the statement would hold at n_p = 2; but
     n_p = 6 is no contrast: t_max comes before t_avg, as on the flat surface.
@@ -261,7 +261,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the force peak is narrower than at the size with the lowest mean static friction."""
+    """Test: the force peak is narrower than at the size with the lowest mean static friction."""
     scenes = _of_all_sizes(evidence)
     if scenes:
         best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
@@ -273,7 +273,7 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
-    """Tested: less than a tenth of the blocks are precursors. The two outermost rings alone hold
+    """Test: less than a tenth of the blocks are precursors. The two outermost rings alone hold
     13 % of the blocks at n_p = 60.
     """
     return samples.before_peak(run)
@@ -291,7 +291,7 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the pillar size of lowest static friction is within a factor of two of l_c, with the
+    """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
     friction may be within the numerical bias, 0.001, of the lowest are candidates. With another
     scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not allow for so
@@ -354,7 +354,7 @@ def _larger_there(
 
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: there are more precursors where static friction is lowest than at every other pillar
+    """Test: there are more precursors where static friction is lowest than at every other pillar
     size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
     candidates. The difference is computed with each candidate as the size of lowest friction, and
     the interval covers all results; it has no upper limit where a candidate would be compared with
@@ -368,7 +368,7 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the width of the force peak, divided by t_avg, is larger where static friction is
+    """Test: the width of the force peak, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
     within the numerical bias, 0.001, of the lowest are candidates.
     """
@@ -376,7 +376,7 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the duration of the transition, divided by t_avg, is larger where static friction is
+    """Test: the duration of the transition, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
     within the numerical bias, 0.001, of the lowest are candidates.
     """

@@ -91,7 +91,7 @@ class Claim:
     #: universal: always, only, all, uniform, necessary, negligible, the most; existential: can;
     #: general: all others.
     form: str
-    statement: str  #: the paper's words in quotation marks and, after "Tested:", the criterion
+    statement: str  #: the paper's words in quotation marks and, after "Test:", the criterion
     figure: int  #: of the paper, to which the statement refers
     test: Test
 

@@ -66,7 +66,7 @@ def _lengths(rows: Iterable[Row], name: str = "l_c", limits: str = "ci") -> dict
 
 
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10
+    """Test: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 10
     blocks or more.
     """
     name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
@@ -106,7 +106,7 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 
 
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean number of blocks per event, in excess of chance, is larger on sides along
+    """Test: the mean number of blocks per event, in excess of chance, is larger on sides along
     the sliding direction. Neighbours that detach within 0.5 % of t_max of each other belong to one
     event; corners are left out. Chance is the mean number on sides whose blocks come from different
     realisations.
@@ -122,7 +122,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on one side of one pillar in each direction, without its corners, position explains
+    """Test: on one side of one pillar in each direction, without its corners, position explains
     less than a fifth of the variance of t_det. Without the three blocks at either end the statement
     would hold.
     """
@@ -155,7 +155,7 @@ def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: for pairs of blocks with one in the middle fifth of a side, and none at its corners
+    """Test: for pairs of blocks with one in the middle fifth of a side, and none at its corners
     (r up to 7, 11 and 23 at n_p = 20, 30 and 60), the rms distance of c_x from exp(-r/l_c), and
     from A exp(-r/l_c), is below 0.05, and below that from a power law of 1 + r and from a straight
     line (amplitude 1 or free). At r = 1 to 6 alone (the range of the fits of l_c), A exp(-r/l_c) is
@@ -183,7 +183,7 @@ def _distances(found: Correlation, is_free: bool, weights: Array) -> Array:
 
 
 def three_blocks(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or
+    """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) exceeds 3 blocks on sides of 20 blocks or
     more. The paper's sign ≳ also allows "about 3": with a bound below 2.50 the statement would hold
     for both.
     """
@@ -195,7 +195,7 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p
+    """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p
     = 20. With equal weights at all r, instead of those of each fit, l_c of exp(-r/l_c) decreases by
     0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, which the paper excepts, are left
     out: on these the length of A exp(-r/l_c) is about 1.6 blocks.
@@ -213,7 +213,7 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: sides along the sliding direction, of 10 blocks or fewer and without their corners,
+    """Test: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
     (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event.
     """
@@ -235,7 +235,7 @@ def _with_largest(table: RowsByScene) -> Iterator[tuple[Scene, Scene]]:
 
 
 def same_shape(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on the grooved pillars with the most realisations (pawls of 8 blocks), c(r) differs
+    """Test: on the grooved pillars with the most realisations (pawls of 8 blocks), c(r) differs
     by less than 0.1 from that without grooves, at r = 1 to 6, on external sides parallel to the
     grooves and on edges along the grooves.
     """
@@ -249,7 +249,7 @@ def same_shape(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_length(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on the grooved pillars with the most realisations (pawls of 8 blocks), l_c of
+    """Test: on the grooved pillars with the most realisations (pawls of 8 blocks), l_c of
     exp(-r/l_c) and of A exp(-r/l_c) differs by less than one block from that without grooves, on
     external sides parallel to the grooves and on edges along the grooves.
     """
@@ -266,7 +266,7 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the correlation extends over less than a block: c(r = 1) on external sides parallel
+    """Test: the correlation extends over less than a block: c(r = 1) on external sides parallel
     to the grooves and on edges along the grooves is below 1/e. The verdict is the same for any
     bound from 0.23 to 0.5; when sliding along the grooves, c(r = 1) exceeds 0.5.
     """

@@ -59,7 +59,7 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean stress on the edges of grooved pillars is larger when sliding across the
+    """Test: the mean stress on the edges of grooved pillars is larger when sliding across the
     grooves; surfaces with grooves alone are not tested.
     """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
@@ -70,7 +70,7 @@ def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
 
 
 def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the standard deviation of the stress is below a tenth of its mean."""
+    """Test: the standard deviation of the stress is below a tenth of its mean."""
     name = "the standard deviation of the stress over its mean"
     for scene in (s for s in pillars(evidence.stress, 2) if s.n_p < surfaces.SMALLEST):
         deviation = float(np.nanstd(_modulus(evidence, scene)))
@@ -78,7 +78,7 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: on every pillar, the rms deviation of the stress from that on the mean pillar is at
+    """Test: on every pillar, the rms deviation of the stress from that on the mean pillar is at
     most a fifth of the standard deviation of the stress over the blocks of the mean pillar.
     """
     largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
@@ -92,7 +92,7 @@ def same_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def larger_across(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the stress component along the sliding direction is larger on edges across this
+    """Test: the stress component along the sliding direction is larger on edges across this
     direction than on edges along it. Neighbours load the former in tension or compression and the
     latter in shear; the slider loads all blocks equally.
     """
@@ -125,7 +125,7 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
 
 
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: Spearman's correlation between stress and mean t_det over the blocks of a pillar,
+    """Test: Spearman's correlation between stress and mean t_det over the blocks of a pillar,
     divided by the largest magnitude that it can have where several blocks bear equal stress, is
     below -0.5.
     """
@@ -139,7 +139,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the standard deviation of the stress is smaller than on the same pillars without
+    """Test: the standard deviation of the stress is smaller than on the same pillars without
     grooves. The largest stress, however, is smaller with grooves than without on all of them.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
@@ -151,7 +151,7 @@ def more_uniform(evidence: Evidence) -> Iterator[Finding]:
 
 
 def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: the mean stress component along the sliding direction is larger on the external sides
+    """Test: the mean stress component along the sliding direction is larger on the external sides
     than on those along the grooves.
     """
     for scene in slid_both_ways(evidence.stress):
@@ -164,7 +164,7 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
 
 
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    """Tested: four to six tenths of the contact blocks are beside a block without contact. The
+    """Test: four to six tenths of the contact blocks are beside a block without contact. The
     verdict is the same for an edge two blocks wide, which is half of the surface with pawls of 8
     and of 10.
     """

@@ -127,8 +127,8 @@ def statements(table: Sequence[Row]) -> list[Row]:
     return [
         {
             **part[0],
-            "words": part[0]["statement"].partition(" Tested: ")[0],
-            "criterion": part[0]["statement"].partition(" Tested: ")[2],
+            "words": part[0]["statement"].partition(" Test: ")[0],
+            "criterion": part[0]["statement"].partition(" Test: ")[2],
             "figure": _FIGURES.get(part[0]["claim"]),
             "decided": decided(part),
             "anchor": "claims-" + anchor(f"{number}. {part[0]['claim']}"),
