@@ -13,6 +13,7 @@ from springblock.analysis.statistics import (
     bootstrap_weights,
     cut,
     difference_interval,
+    events,
     independent_difference,
     load_peaks,
     mean_interval,
@@ -286,3 +287,8 @@ def test_the_interval_of_repeatability_is_the_jackknifes(rng):
     half = t.ppf(0.975, 7) * 7.0 * standard_error(np.array(left_out))
     value = found[0, 0]
     assert tuple(found[:, 0]) == pytest.approx((value, value - half, value + half))
+
+
+def test_an_event_ends_where_neighbours_detach_apart():
+    times = np.array([[0.500, 0.504, 0.508, 0.600, 0.602], [0.5, 0.6, 0.7, 0.8, 0.9]])
+    assert events(times).tolist() == events(times[:, ::-1]).tolist() == [2, 5]

@@ -24,7 +24,6 @@ from springblock.claims.samples import (
     rates,
 )
 from springblock.claims.sides import (
-    events,
     larger_events,
     misfits,
     mixed,
@@ -131,11 +130,6 @@ def test_events_along_the_sliding_direction_hold_whole_sides():
     runs = [replace(made, t_det=(0.2 + late + rows) * made.t_max) for late in (0.0, 0.0, 0.3)]
     (found,) = larger_events(Evidence(records={scene: runs}))
     assert found.estimate.value == pytest.approx((4.0 - 4.0 / 3.0) - (1.0 - 1.0))
-
-
-def test_an_event_ends_where_neighbours_detach_apart():
-    times = np.array([[0.500, 0.504, 0.508, 0.600, 0.602], [0.5, 0.6, 0.7, 0.8, 0.9]])
-    assert events(times).tolist() == events(times[:, ::-1]).tolist() == [2, 5]
 
 
 def test_mixed_sides_keep_each_place_and_take_it_from_another_realisation():

@@ -53,9 +53,11 @@ def peaks() -> list[Row]:
 
 def budget() -> list[Row]:
     """Return `mechanism_budget`: edges bear most at 300 µs, the core at 420 µs."""
+    events = {"x": 4.0, "y": 1.0}
     forces = {300: (0.2, 0.4), 360: (0.15, 0.5), 420: (0.1, 0.6), 480: (0.1, 0.3)}
     return [
         {"direction": direction, "model": model, "seed": seed, "edge_share": 0.25}
+        | {"edge_event": events[direction] + seed if model == "simulation" else None}
         | {"time": 1e-6 * time, "edge": edges + 0.001 * seed, "core": core, "free": 0.0}
         for direction in "xy"
         for model in ("simulation", "overshooting")

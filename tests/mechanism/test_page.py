@@ -39,6 +39,9 @@ def written() -> str:
         "with the paper's constants (1) are on pawls of 12 blocks, with predictions of up to 0.40",
         "It predicts 0 of the 1 cases with two peaks across the grooves",
         "with pawls of 7 blocks, and one with pawls of 12",
+        # of a simulation; 4 and 5 blocks along the grooves, 1 and 2 across
+        "in events of 4.5 [-1.9, 10.9] blocks",
+        "events have 1.5 [-4.9, 7.9] blocks",
         # edges are a quarter of the blocks: 0.2 of the normal force is 0.8 F_n on each
         "| along | full model | 0.80 [",
         "| 300 [300, 300] | 0.40 [",

@@ -1,5 +1,7 @@
 """Surfaces and rows of the chapter's tables; forces on edges, core and blocks without contact."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -30,6 +32,15 @@ def test_edges_are_beside_a_block_without_contact():
     expected[3:5, 3:5] = False
     assert np.array_equal(edges, expected)
     assert not tables.edge_blocks(np.ones((3, 3), bool)).any()  # an edge of the surface is none
+
+
+def test_events_on_edges_count_neighbours_along_x_that_detach_together():
+    """Two edges of four blocks: one detaches in two events, the other block by block."""
+    contact = Pattern.pillars(6, 4, 2).contact
+    times = np.zeros((6, 6))
+    times[1, 1:5], times[4, 1:5] = (0.2, 0.204, 0.3, 0.3), (0.1, 0.2, 0.3, 0.4)
+    run = SimpleNamespace(t_det=times, t_max=1.0)
+    assert tables.event_size(run, contact) == pytest.approx(8 / (2 + 4))
 
 
 def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):

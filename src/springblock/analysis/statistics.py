@@ -25,6 +25,9 @@ _RESAMPLES = 2000
 #: Least force of a load peak, over the largest force.
 _LOAD_PEAK = 0.9
 PROMINENT = 0.01  #: least prominence of a load peak over the largest force
+#: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
+#: in this time, so that a block is released by its neighbour.
+_EVENT = 0.005
 
 
 class Interval(NamedTuple):
@@ -307,3 +310,11 @@ def prominence(curve: Array, rank: int = 2) -> float:
     _, found = find_peaks(curve, prominence=0.0, height=_LOAD_PEAK * highest)
     prominences = np.sort(found["prominences"])
     return float(prominences[-rank]) / highest if len(prominences) >= rank else 0.0
+
+
+def events(times: Array) -> NDArray[np.intp]:
+    """Count the events in which rows of blocks detach, (...), from their t_det/t_max, (..., n).
+
+    Neighbours that detach within 0.5 % of t_max of each other belong to one event.
+    """
+    return 1 + np.count_nonzero(np.abs(np.diff(times, axis=-1)) > _EVENT, axis=-1)

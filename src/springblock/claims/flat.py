@@ -35,12 +35,12 @@ _on_flat = partial(mean_over, surfaces.flat)
 
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the bias of the mean, on small surfaces, is within one standard error of an ensemble
-    of 20. The paper does not say how its Runge-Kutta method treats friction within a step. Three
-    methods are therefore tested: both integrators of this study, and the plain Runge-Kutta method,
-    in which friction opposes the velocity of each stage. Errors of single runs with the plain
-    method decrease slowly with the step on flat surfaces, and show no convergence on patterned ones
-    (`docs/accuracy.md`).
+    """Test: the bias of the mean, on small surfaces, is within one standard error of an ensemble of
+    20. The paper does not say how its Runge-Kutta method treats friction within a step. Three
+    methods are therefore tested: both integrators of this study (leapfrog and rk4), and the plain
+    Runge-Kutta method, in which friction opposes the velocity of each stage. Errors of single runs
+    with the plain method decrease slowly with the step on flat surfaces, and show no convergence on
+    patterned ones (`docs/accuracy.md`).
     """
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
@@ -118,10 +118,10 @@ def fronts(run: Run) -> float:
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     """Test: fronts are clusters of more than 20 detached blocks when half of all blocks have
-    detached; chance forms about two. Between the smallest and the largest value of a parameter
-    their number changes by more than a tenth of that with the paper's constants. When a tenth of
-    the blocks have detached, chance forms none, and these ratios are 0.58 (velocity), 0.98
-    (pressure) and 0.43 (scatter).
+    detached; chance forms about two. Between the smallest and the largest value of a parameter the
+    number of fronts changes by more than a tenth of the number with the paper's constants. If
+    fronts are counted when a tenth of the blocks have detached, where chance forms none, the change
+    is 0.58 (velocity), 0.98 (pressure) and 0.43 (scatter) of the number with the paper's constants.
     """
     for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):
         scenes = varied(evidence, name)
@@ -130,7 +130,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
         chosen = scenes[0], scenes[-1], flat
         low, high = (dict(scene.varied)[name] for scene in chosen[:2])
         change = samples.relative(*(over_runs(fronts, evidence.records[s]) for s in chosen))
-        span = f"from {name} = {low:g} to {high:g}, over that with the paper's constants"
+        span = f"from {name} = {low:g} to {high:g}, over the number with the paper's constants"
         statistic, size = f"the change in the number of fronts {span}", samples.magnitude(change)
         yield Finding({"constant": name}, statistic, size, (_AFFECTS, INF), in_files(*chosen))
 
@@ -229,8 +229,8 @@ def peaks_apart(run: Record) -> float:
 def average_is_propagation(run: Record) -> float:
     """Test: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, which is the time from a tenth to nine tenths of the detachments.
-    t_max differs from t_avg by 0.77 of this duration. The verdict is the same for any bound from
-    0.3 on, and for windows of 0.2 to 5 % of t_max.
+    For comparison, t_max differs from t_avg by 0.77 of it. The verdict is the same for any bound
+    from 0.3 on, and for windows of 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 
@@ -243,8 +243,10 @@ def average_is_propagation(run: Record) -> float:
 def localized_stick_slip(run: Record) -> float:
     """Test: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
-    detachments. The number is a mean over the rest of the run; the verdict is the same if only the
-    first interval of this length after the minimum is counted, or the first 2 to 50.
+    detachments. The number of slips is a mean over all intervals of this length in the rest of the
+    run; the verdict is the same if only the first of them, or the first 2 to 50, are counted. If
+    the transition were to last from 5 to 95 % of the detachments, the number would be 0.117, and
+    the statement would fail.
     """
     minimum = first_minimum(run.force)
     if minimum is None:
@@ -262,10 +264,10 @@ def peak_before_average(run: Record) -> float:
 def uniform(evidence: Evidence) -> Iterator[Finding]:
     """Test: in the core (here the blocks 10 or more from the edge), position explains less than a
     fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
-    of a standard deviation, a small effect. The verdict is the same for the two outermost rings;
-    with a bound above 0.38 the statement would hold. As a general statement it would be reproduced
-    in part. Over the whole surface, position explains 0.010 of the variance; with this measure
-    alone the statement would hold.
+    of a standard deviation (a bound for small effects). The verdict is the same for the two
+    outermost rings. With a bound above 0.37 for the outermost blocks the statement would hold. As a
+    general statement it would be reproduced in part. Over the whole surface, position explains
+    0.010 of the variance; with this measure alone the statement would hold.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"

@@ -40,17 +40,17 @@ def prominent(
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Test: when sliding along the grooves, the mean prominence of the lesser peak exceeds 1 % of
     the largest force. A mean over runs includes their fluctuations, which decrease with the size of
-    the surface: the prominence of the mean force curve is 2.0, 0.9 and 0.2 % with pawls of 8, 10
-    and 13 blocks.
+    the surface: the prominence in the force averaged over runs is 2.0, 0.9 and 0.2 % with pawls of
+    8, 10 and 13 blocks.
     """
     for scene in slid_both_ways(evidence.records):
         yield prominent(evidence, scene, _TWO_PEAKS)
 
 
 def only_along(evidence: Evidence) -> Iterator[Finding]:
-    """Test: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is
-    below 1 % of the largest force. The mean force curves have 2.5, 1.9, 1.3, 0.7, 0.3 and 0.1 % at
-    15, 30, ... 90°.
+    """Test: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is below
+    1 % of the largest force. In the force averaged over runs, the prominence is 2.5, 1.9, 1.3, 0.7,
+    0.3 and 0.1 % at 15, 30, ... 90°.
     """
     along = slid_both_ways(evidence.records)
     scenes = [scene for scene in evidence.records if replace(scene, direction=ALONG) in along]
@@ -63,10 +63,10 @@ def only_along(evidence: Evidence) -> Iterator[Finding]:
 
 def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars without grooves and on grooves without pillars, the mean prominence of the
-    lesser peak is below 1 % of the largest force. On pillars of 6 blocks, most of it is
-    fluctuations of single runs (the mean force curve has 0.2 %; with N = 240 the mean is 0.63
-    [0.45, 0.80] %, 12 runs), but not on grooves alone (2.5 % with pawls of 8). Without pillars of 6
-    blocks the verdict is the same.
+    lesser peak is below 1 % of the largest force. On pillars of 6 blocks, most of the prominence
+    comes from fluctuations of single runs (in the force averaged over runs it is 0.2 %; with N =
+    240 the mean prominence is 0.63 [0.45, 0.80] %, 12 runs); on grooves alone it does not (2.5 % in
+    the averaged force, with pawls of 8). Without pillars of 6 blocks the verdict is the same.
     """
     for scene in surfaces.pillars(evidence.records):
         case = {"surface": f"pillars of {scene.n_p} blocks"}
@@ -78,10 +78,10 @@ def hierarchy_needed(evidence: Evidence) -> Iterator[Finding]:
 def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars cut by equal grooves in both directions, the mean prominence of the lesser
     peak is below 1 % of the largest force. The verdict is the same for any bound below 1.3 %. With
-    a bound above 2.1 % the statement would hold; with grooves in one direction the prominence is
-    2.8 %. Part of it comes from fluctuations of single runs: the mean force curve has 0.7 %,
-    against 2.0 % with grooves in one direction, so that the verdict may not hold on larger
-    surfaces.
+    a bound above 2.1 % the statement would hold. With grooves in one direction the prominence is
+    2.8 %. Part of the prominence comes from fluctuations of single runs: in the force averaged over
+    runs it is 0.7 % with equal grooves in both directions, and 2.0 % with grooves in one. On larger
+    surfaces the verdict may therefore be another.
     """
     for scene in surfaces.grooved(evidence.records, 3):
         if (scene.n_p2, scene.n_s2) == (scene.n_p3, scene.n_s3):
@@ -122,10 +122,10 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
     along the grooves of the second level, and is below 1 % when sliding across them. The failing
     case is sliding across grooves of the second level but along those of the third, where the
-    paper's explanation leads one to expect a second peak; but the mean force curve has 0.3 %, and
-    the rest comes from the fluctuations of single runs. Without this finding, which is a registered
-    one, the statement would be reproduced. Along the grooves of the second level the mean force
-    curves have 0.95 and 1.13 %.
+    paper's explanation leads one to expect a second peak; but in the force averaged over runs its
+    prominence is 0.3 %, and the rest comes from the fluctuations of single runs. Without this
+    finding, which is a registered one, the statement would be reproduced. Along the grooves of the
+    second level it is 0.95 and 1.13 % in the averaged force.
     """
     for along, case in _third_levels(evidence):
         yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
@@ -134,9 +134,9 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
 
 
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
-    """Test: with three levels, the mean prominence of the third most prominent peak exceeds 1 %
-    of the largest force. That of the second does, with 0.0163 and 0.0219: if “multiple” meant two,
-    the statement would be reproduced.
+    """Test: with three levels, the mean prominence of the third most prominent peak exceeds 1 % of
+    the largest force. That of the second peak does, with 0.0163 (third level across the second) and
+    0.0219 (along it): if “multiple” meant two, the statement would be reproduced.
     """
     name = "the prominence of the third peak over the largest force"
     for scene, case in _third_levels(evidence):
@@ -145,9 +145,9 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
 
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     """Test: compared with the same pillars without grooves, the force stays above 95 % of its
-    maximum for longer (smooth), and blocks detach in less time (rapid). Both times are over
-    t_max; over t_avg, all outcomes are the same. Taken separately, the transition is smooth at four
-    of the five widths of pawls (the fifth is open), and rapid at none.
+    maximum for longer (smooth), and blocks detach in less time (rapid). Both times are divided by
+    t_max; divided by t_avg, they give the same outcomes. Taken separately, the transition is smooth
+    at four of the five widths of pawls (the fifth is open), and rapid at none.
     """
     smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)
@@ -171,8 +171,8 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
-    quarters, which is longer along grooves between pawls of 4, the statement would be reproduced in
-    part.
+    quarters, which is longer along grooves than across between pawls of 4, the statement would be
+    reproduced in part.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

@@ -101,13 +101,13 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the detachment rate falls below half its mean (from the first detachment to the
-    last), in the quietest 0.05 t_avg between the peaks or on average from one peak to the other.
-    With pawls of 8 and 10, it does so in a window of 0.01 t_avg, or if the mean is over the middle
-    eight tenths of detachments. Surfaces without two peaks do so too while their force exceeds 95 %
-    of its maximum. Relative to the mean over these eight tenths, the rate in the quietest 0.05
-    t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars of 58 and 30 blocks
-    without grooves.
+    """Test: the detachment rate falls below half its mean (from the first detachment to the last),
+    in the quietest 0.05 t_avg between the peaks or on average from one peak to the other. With
+    pawls of 8 and 10, it does fall below this bound in a window of 0.01 t_avg, or if the mean is
+    over the middle eight tenths of detachments; but it does so too on surfaces without two peaks,
+    while the force exceeds 95 % of its maximum. Relative to the mean over these eight tenths, the
+    rate in the quietest 0.05 t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars
+    of 58 and 30 blocks without grooves.
     """
     name = "the detachment rate over its mean"
     for part, quantity in (
@@ -139,9 +139,10 @@ def edges_make_first_peak(peaks: Peaks) -> float:
     _grooved, f"the share of core blocks that have not detached {_AT_VALLEY}", ranges.NEARLY_ALL
 )
 def rest_between_peaks(peaks: Peaks) -> float:
-    """Test: at the lowest force between the peaks more than nine tenths of the core blocks have
-    not yet detached. On the other 16 surfaces of this study with two load peaks the share is 0.87
-    to 0.98; it is below 0.9 on pillars of 25 and 30 blocks with pawls of 7 and 6.
+    """Test: at the lowest force between the peaks more than nine tenths of the core blocks have not
+    yet detached. On the 16 surfaces with two load peaks that are not cases here the share is 0.87
+    to 0.98; it is below 0.9 on pillars of 25 blocks with pawls of 7 and on pillars of 30 blocks
+    with pawls of 6.
     """
     return 1.0 - share_detached(peaks, core)
 
@@ -185,9 +186,9 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Test: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the surface lost its stress, so that the
-    force fell to 0.6 F_n, the growth would exceed a tenth. As a share of
-    static friction minus the mean mu_dynamic, the growth is 0.28 and 0.33 (pawls of 8 and 10), and
-    at most a tenth in one run of 987.
+    force fell to 0.6 F_n, the growth would exceed a tenth. Relative to the difference between
+    static friction and the mean mu_dynamic, the growth is 0.28 and 0.33 (pawls of 8 and 10), and at
+    most a tenth in only one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())
@@ -195,9 +196,9 @@ def small_force_suffices(peaks: Peaks) -> float:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest
-    pawls than with the narrowest, among those with which most runs have two peaks. A time that
-    depends on pillar length alone would not show that the difference matters.
+    """Test: on pillars of the same n_p, among pawls with which most runs have two peaks, the widest
+    have a shorter time between the peaks than the narrowest. A time that depends on pillar length
+    alone would not show that the difference n_p - n_p2 matters.
     """
     name = "the time between the load peaks over t_avg, with pawls of {} minus with pawls of {}"
     found = twice_peaked(surfaces.grooved(evidence.records))

@@ -203,7 +203,7 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
     nearer to those of the flat surface than to those of pillars with n_p = 20. Static friction may
     differ, as in the paper. If n_p = 6 replaced n_p = 20, the statement would hold at n_p = 2; but
-    n_p = 6 is no contrast: t_max comes before t_avg, as on the flat surface.
+    n_p = 6 would be no contrast to the flat surface: t_max comes before t_avg on both.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -216,7 +216,7 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, larger)]
             away = samples.magnitude(samples.position(*three))
-            over = f"over that at n_p = {larger.n_p}"
+            over = f"over the same difference at n_p = {larger.n_p}"
             statistic = f"the difference in {name} from the flat surface, {over}"
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, larger)
             yield found_on(scene, statistic, away, claimed, beside=beside)
@@ -292,15 +292,15 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
-    paper's scatter of the thresholds and with others, which change l_c. All sizes whose static
-    friction may be within the numerical bias, 0.001, of the lowest are candidates. With another
-    scatter only n_p = 3, 6, 10, 20 and 30 were simulated, and the intervals do not allow for so
-    coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case
-    holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at n_p = 20 or 60 this
-    case would be open (ratios up to 2.05 and 2.02), and the statement not reproduced. With scatters
-    of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted: fitted
-    at n_p = 20, the four cases of these scatters would be open; fitted at n_p = 10, those of
-    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    paper's scatter of the thresholds and with others, which change l_c. Candidates are all sizes
+    whose static friction may exceed the lowest by no more than the numerical bias, 0.001. With
+    other scatters only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the
+    error of so coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c).
+    One case holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at n_p = 20 or
+    60 this case would be open (ratios up to 2.05 and 2.02), and the statement not reproduced. With
+    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
+    fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open; with l_c
+    fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -355,30 +355,33 @@ def _larger_there(
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at every other pillar
-    size. All sizes whose static friction may be within the numerical bias, 0.001, of the lowest are
-    candidates. The difference is computed with each candidate as the size of lowest friction, and
-    the interval covers all results; it has no upper limit where a candidate would be compared with
-    itself, or where the results differ in sign. With the default step static friction at n_p = 6 is
-    lower than at 7 by 0.0006 [0.0002, 0.0010], but the step raises it by 0.0002 at 6 and by 0.0006
-    at 7 (300 realisations each; 100 also with 5e-9 s): from unrounded values, 0.0001 [-0.0004,
-    0.0006] remains. To decide which is lower would take more than ten thousand realisations with
-    5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
+    size. Candidates for the size of lowest friction are all whose static friction may exceed the
+    lowest by no more than the numerical bias, 0.001. The difference is computed with each candidate
+    as the size of lowest friction, and the interval covers all results; it has no upper limit where
+    a candidate would be compared with itself, or where the results differ in sign. With the default
+    step, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010]. This step raises
+    friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations each; 100 also with a step of 5e-9
+    s); without this bias the difference, from unrounded values, is 0.0001 [-0.0004, 0.0006]. To
+    decide which is lower would take more than ten thousand realisations with a step of 5e-9 s. If
+    friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: the width of the force peak, divided by t_avg, is larger where static friction is
-    lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
-    within the numerical bias, 0.001, of the lowest are candidates.
+    lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
+    friction are all whose static friction may exceed the lowest by no more than the numerical bias,
+    0.001.
     """
     return _larger_there(evidence, f"{_SUPPORTED}, over t_avg,", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """Test: the duration of the transition, divided by t_avg, is larger where static friction is
-    lowest than on the smallest and on the largest pillars. All sizes whose static friction may be
-    within the numerical bias, 0.001, of the lowest are candidates.
+    lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
+    friction are all whose static friction may exceed the lowest by no more than the numerical bias,
+    0.001.
     """
     name = "the time from a tenth to nine tenths of the detachments, over t_avg,"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

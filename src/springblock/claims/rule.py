@@ -184,13 +184,14 @@ def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: st
     if not others:
         values = [case.get(key, "") for case, _ in cases]
         return [phrase(key, listed(_ranges(values, [found == outcome for _, found in cases])))]
-    phrases = []
+    limited, whole = [], []
     for value in dict.fromkeys(case.get(key, "") for case, _ in cases):
         group = [(case, found) for case, found in cases if case.get(key, "") == value]
-        whole = all(found == outcome for _, found in group)
-        parts = [""] if whole else _phrases(group, others, outcome)
-        phrases += [f"{phrase(key, value)} {part}".strip() for part in parts]
-    return phrases
+        if all(found == outcome for _, found in group):
+            whole.append(phrase(key, value))
+        else:
+            limited += [f"{phrase(key, value)} {part}" for part in _phrases(group, others, outcome)]
+    return limited + whole  # so that a limit is not read as one of all phrases
 
 
 def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:

@@ -10,13 +10,13 @@ from functools import partial
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.analysis.correlation import LAST, Correlation, side_times
 from springblock.analysis.estimate import Estimate
 from springblock.analysis.statistics import (
     Interval,
     bootstrap_interval,
+    events,
     independent_difference,
     repeatability,
 )
@@ -31,9 +31,6 @@ from springblock.model.scene import Scene
 
 _DECAYED = (-INF, float(np.exp(-1.0)))
 _BROAD = 20  #: n_p from which on l_c is fitted over the same distances
-#: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
-#: in this time, so that a block is released by its neighbour.
-_EVENT = 0.005
 _SHORT = 10  #: n_p up to which sides are no longer than a few l_c
 #: Columns of the length and of its limits, by fit.
 _FITS = {PLAIN: ("l_c", "ci"), SCALED: ("tail", "tail")}
@@ -78,14 +75,6 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
         yield Finding(case, "c_y(r = 1)", c["y", 1], _DECAYED, source)
 
 
-def events(times: Array) -> NDArray[np.intp]:
-    """Count the events in which sides detach, (...), from t_det/t_max of their blocks, (..., n).
-
-    Neighbours that detach within 0.5 % of t_max of each other belong to one event.
-    """
-    return 1 + np.count_nonzero(np.abs(np.diff(times, axis=-1)) > _EVENT, axis=-1)
-
-
 def mixed(times: Array) -> Array:
     """Take each block of the sides from another realisation, which leaves chance alone."""
     k, n = len(times), times.shape[-1]
@@ -122,7 +111,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on one side of one pillar in each direction, without its corners, position explains
+    """Test: on one side of a pillar along x and on one along y, without corners, position explains
     less than a fifth of the variance of t_det. Without the three blocks at either end the statement
     would hold.
     """
@@ -155,11 +144,11 @@ def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Test: for pairs of blocks with one in the middle fifth of a side, and none at its corners
-    (r up to 7, 11 and 23 at n_p = 20, 30 and 60), the rms distance of c_x from exp(-r/l_c), and
-    from A exp(-r/l_c), is below 0.05, and below that from a power law of 1 + r and from a straight
-    line (amplitude 1 or free). At r = 1 to 6 alone (the range of the fits of l_c), A exp(-r/l_c) is
-    no better than the power law at n_p = 30 and 60, and exp(-r/l_c) is worse.
+    """Test: at r = 1 to 6, where l_c is fitted, the rms distance of c_x from exp(-r/l_c) is below
+    0.05, and below its distances from a power law of 1 + r and from a straight line, both of
+    amplitude 1; likewise for A exp(-r/l_c), with free amplitudes. Up to the last r before the
+    corners (7, 11 and 23 at n_p = 20, 30 and 60), A exp(-r/l_c) would hold at all three sizes, and
+    exp(-r/l_c) at n_p = 20 and be open at 30 and 60.
     """
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
@@ -178,7 +167,7 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
 
 def _distances(found: Correlation, is_free: bool, weights: Array) -> Array:
     """Return the distance from the exponential, and that minus those from the other curves."""
-    exponential, *others = misfits(found.weighted(weights)[:, 1:-1], is_free)
+    exponential, *others = misfits(found.weighted(weights)[:, 1 : LAST + 1], is_free)
     return np.column_stack([exponential, *(exponential - other for other in others)])
 
 
@@ -195,10 +184,10 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
-    """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p
-    = 20. With equal weights at all r, instead of those of each fit, l_c of exp(-r/l_c) decreases by
-    0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, which the paper excepts, are left
-    out: on these the length of A exp(-r/l_c) is about 1.6 blocks.
+    """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p =
+    20. If all r had equal weights in both fits, l_c of exp(-r/l_c) would decrease from n_p = 20 to
+    60 by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, on which the paper finds l_c
+    difficult to estimate, are left out; on them l_c of A exp(-r/l_c) is about 1.6 blocks.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:

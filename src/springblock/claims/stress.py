@@ -140,7 +140,7 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """Test: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. The largest stress, however, is smaller with grooves than without on all of them.
+    grooves. The largest stress, however, is smaller with grooves than without on all these pillars.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):

@@ -133,12 +133,15 @@ def _of_budget(table: pd.DataFrame) -> Fields:
         cells = [written(*each) for each in zip(runs.T, (2, 0, 2, 2, 0, 1), strict=True)]
         lines.append([_ALONG[str(direction)], NAMES[str(model)], *cells])
         falls[direction, model] = runs[:, -1]
+    simulated = table[table["model"] == "simulation"]
+    by_seed = simulated.groupby(["direction", "seed"])["edge_event"]
     header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, when the core's is largest"]
     header += ["core, maximum", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
         "edge_share": 100.0 * table["edge_share"].iloc[0],
         "budget": markdown_table(header, lines),
+        "event": [written(sizes, 1) for _, sizes in by_seed.first().groupby("direction")],
         "deeper": written(falls["x", "simulation"] - falls["x", "overshooting"], 1),
     }
 

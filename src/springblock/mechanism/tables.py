@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_erosion
 from tqdm import tqdm
 
-from springblock.analysis.statistics import prominence
+from springblock.analysis.statistics import events, prominence
 from springblock.io.rows import Row
 from springblock.io.schemas import SCENE, SETUP, column, numbers, texts
 from springblock.mechanism import models, pawls
@@ -72,6 +72,11 @@ BUDGET = pa.schema(
         *texts(model="simulation or overshooting"),
         *_SAME[-1:],
         *numbers("1", edge_share="share of edge blocks in the blocks in contact"),
+        *numbers(
+            "blocks",
+            edge_event="mean number of blocks in an event on edges: neighbours that detach within "
+            "0.5 % of t_max of each other; NaN in overshooting",
+        ),
         *numbers("s", time="time; overshooting: displacement of the slider over its velocity"),
         *numbers(
             "1",
@@ -148,20 +153,29 @@ def budget_rows(surface: Scene) -> Iterator[Row]:
             for name, of in groups.items()
         }
         static, dynamic = (load * turn(mu)[held] for mu in drawn)
+        sizes = {"simulation": event_size(run, contact), "overshooting": np.nan}
         modelled = {"free": np.zeros(_TIMES.size)}
         for name in ("edge", "core"):
             curve = models.overshooting(layer, static, dynamic, turn(groups[name])[held])
             slider, force = np.pad(curve, ((0, 0), (1, 0)))  # from rest on
             modelled[name] = np.interp(way, slider, force, right=np.nan) / normal_force
         for model, parts in (("simulation", simulated), ("overshooting", modelled)):
+            own = {"model": model, "edge_share": edge_share, "edge_event": sizes[model]}
             for i, time in enumerate(_TIMES):
                 at_time = {name: values[i] for name, values in parts.items()}
-                yield same | {"model": model, "edge_share": edge_share, "time": time, **at_time}
+                yield same | own | {"time": time, **at_time}
 
 
 def edge_blocks(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return the blocks in contact beside one without, along x or y, (N_y, N_x)."""
     return contact & ~binary_erosion(contact, border_value=1)
+
+
+def event_size(run: Run, contact: NDArray[np.bool_]) -> float:
+    """Return the mean number of blocks that detach in one event, on edges along x."""
+    edges = np.any(contact, axis=1) & ~np.any(contact & ~edge_blocks(contact), axis=1)
+    times = run.t_det[np.ix_(edges, contact.any(axis=0))] / run.t_max
+    return float(times.size / events(times).sum())
 
 
 def _runs(
