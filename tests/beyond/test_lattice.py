@@ -1,6 +1,7 @@
 """Changes with the lattice are distinguished from changes with the layer or the disorder."""
 
 import numpy as np
+import pytest
 
 from beyond.made_up import PLACES, SIZES, lattices
 from springblock.analysis.statistics import Interval
@@ -123,3 +124,11 @@ def test_values_without_scatter_are_exact():
     assert minimum(sizes).alike == [40.0]
     for value in measures(sizes, 80.0, 120.0, 240.0).values():
         assert value.low == value.mean == value.high
+
+
+@pytest.mark.parametrize(("smallest", "is_compared"), [(40.0, True), (80.0, False)])
+def test_sizes_are_compared_if_there_are_four(smallest, is_compared):
+    pillars = lattices(eighty, eighty, runs=3).items()
+    some = {s: runs for s, runs in pillars if s.n_p * 480.0 / s.n_blocks >= smallest}
+    said = "sizes compared: 40, 80, 120 and 240 µm" in "".join(answers(some))
+    assert said == is_compared

@@ -167,6 +167,10 @@ def cases_of(outcomes, *keys):
             cases_of({"holds": [(4, "x"), (6, "x")], "fails": [(4, "y"), (6, "y")]}, "n_p", "side"),
             "It holds on x; it fails on y.",  # by the one key that separates them
         ),
+        (  # a limit stands where it can be read as that of one phrase only
+            cases_of({"holds": [(4, 1), (4, 2), (20, 1)], "fails": [(20, 2)]}, "n_p", "ring"),
+            "It holds at n_p = 20 for ring = 1 and at n_p = 4; it fails at n_p = 20 for ring = 2.",
+        ),
         (cases_of({"holds": [("the core",)]}, "part"), ""),
     ],
 )

@@ -25,6 +25,16 @@ def test_load_peaks_are_measured_on_each_surface_and_seed(monkeypatch):
     assert {row["predicted"] for row in rows} == set(map(tables.predicted, small))
 
 
+def test_each_part_has_the_columns_of_its_table():
+    columns = {table: {tables.measure(part)[0] for part in parts} for table, parts in TABLES.items()}
+    assert columns == {
+        "mechanism": {tables.FRICTION},
+        "mechanism_variants": {tables.FRICTION},
+        "mechanism_peaks": {tables.PEAKS},
+        "mechanism_budget": {tables.BUDGET},
+    }
+
+
 def test_edges_are_beside_a_block_without_contact():
     edges = tables.edge_blocks(Pattern.pillars(8, 4, 4).contact)
     expected = np.zeros((8, 8), bool)

@@ -419,13 +419,19 @@ def sums(name: str) -> Iterator[Row]:
 
 
 def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield the points, (n, 2), of lines, symbols, bands and bars, and the values of images."""
+    """Yield the points, (n, 2), of axes, texts, lines, symbols, bands, bars, arrows and images."""
+    yield "axes", np.transpose([ax.get_xlim(), ax.get_ylim()])
+    for axis, ticks in enumerate((ax.get_xticks(), ax.get_yticks())):
+        yield "axes", np.outer(ticks, np.eye(2)[axis])
+    for text in ax.texts:
+        yield "texts", np.array([text.get_position()], dtype=float)
     for line in ax.lines:
         yield "lines", np.array(line.get_xydata(), dtype=float)
     for patch in ax.patches:
         if isinstance(patch, FancyArrowPatch):
-            continue  # its path is in pixels
-        yield "patches", patch.get_patch_transform().transform(patch.get_path().vertices)
+            yield "arrows", patch.get_path().vertices[:1]  # the head has a size in pixels
+        else:
+            yield "patches", patch.get_patch_transform().transform(patch.get_path().vertices)
     for collection in ax.collections:
         yield "collections", np.asarray(collection.get_offsets(), dtype=float)
         for path in collection.get_paths():
@@ -433,6 +439,7 @@ def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
     for image in ax.images:
         values = np.ma.filled(image.get_array().astype(float), np.nan).ravel()
         yield "images", np.stack([values, np.arange(values.size)], axis=1)
+        yield "images", np.reshape(image.get_extent(), (2, 2))
 
 
 TEXTS: dict[str, Callable[[], str]] = {

@@ -20,6 +20,7 @@ from springblock.study.configuration import (
     for_figures,
     setup,
 )
+from springblock.study.texts import check_texts
 from studies import ROOT, SCHEMA, places
 
 SWEEPS = {"angle": {"groups": ["grooves", "angles"], "over": "direction"}}
@@ -112,11 +113,13 @@ def test_only_keys_can_be_added(added):
 
 def test_lists_can_be_extended():
     further = {"pillars": {"n_p": [15], "seeds": [7]}, "grooves": [PAPER["scenes"]["angles"]]}
+    further["new"] = {"n_p": [4], "n_s": [4], "direction": ["x"], "seeds": 1}
     whole = completed(PAPER | {"add": {"scenes": further, "step": 1e-8}})
     check(whole, SCHEMA)
     sizes = {e.scene.n_p: len(e.seeds) for e in ensembles(whole)["pillars"]}
     assert sizes == {e.scene.n_p: len(e.seeds) for e in ensembles(PAPER)["pillars"]} | {15: 7}
     assert len(ensembles(whole)["grooves"]) == len(ensembles(PAPER)["grooves"]) + 5
+    assert len(ensembles(whole)["new"]) == 1
     assert (whole["step"], whole["scenes"]["flat"]) == (1e-8, PAPER["scenes"]["flat"])
     assert completed(PAPER) == PAPER
 
@@ -281,3 +284,11 @@ def test_one_sentence_says_what_is_wrong(key, value, sentence):
     with pytest.raises(ValueError, match=sentence) as refusal:
         check(changed(key, to=value), SCHEMA)
     assert "\n" not in str(refusal.value)
+
+
+def test_texts_are_no_longer_than_paths_can_be():
+    longest = "/".join(["a" * 200, *["a" * 199] * 4])  # 1000 bytes
+    check_texts({"a" * 200: longest})
+    for text in ("b/" + "a" * 201, longest + "a", "ä" * 101):
+        with pytest.raises(ValueError, match="1000 bytes, and 200 between two slashes"):
+            check_texts(text)
