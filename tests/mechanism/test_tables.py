@@ -26,7 +26,9 @@ def test_load_peaks_are_measured_on_each_surface_and_seed(monkeypatch):
 
 
 def test_each_part_has_the_columns_of_its_table():
-    columns = {table: {tables.measure(part)[0] for part in parts} for table, parts in TABLES.items()}
+    columns = {
+        table: {tables.measure(part)[0] for part in parts} for table, parts in TABLES.items()
+    }
     assert columns == {
         "mechanism": {tables.FRICTION},
         "mechanism_variants": {tables.FRICTION},
