@@ -8,7 +8,7 @@ import pytest
 from specimens import flat
 from springblock import Material, Setup, simulate
 from springblock.accuracy import plain_rk4
-from springblock.accuracy.reference import solve
+from springblock.accuracy.reference import _System, solve
 from springblock.solver.integrators import INTEGRATORS
 from validation.test_surfaces import LAWS, oblong
 
@@ -38,6 +38,19 @@ def test_in_the_reference_every_block_detaches_and_energy_is_conserved(reference
     assert np.isfinite(reference.t_det).all()
     assert np.ptp(reference.t_det) > 40 * max(STEPS)
     assert abs(reference.relative_residual) < 1e-9  # of steps accurate to 1e-10
+
+
+def test_the_reference_knows_how_fast_forces_turn(rng):
+    """The rate of the angle of F_mot, against its difference along a straight path."""
+    system = _System(flat(3, seed=0), PAPER, np.zeros(1))
+    u, v = 0.1 * rng.standard_normal((2, 2, 9, 1))
+    motives = [
+        system._lattice.force(u + t * v) + system._slider_force(np.array([t]), u + t * v)
+        for t in (-1e-4, 0.0, 1e-4)
+    ]
+    before, after = (np.arctan2(motive[1], motive[0]) for motive in (motives[0], motives[2]))
+    expected = np.remainder(after - before + np.pi, 2.0 * np.pi) - np.pi
+    assert system._turning(motives[1], u, v) == pytest.approx(expected / 2e-4, rel=1e-4)
 
 
 def test_the_reference_has_a_sample_at_the_end():
