@@ -10,7 +10,13 @@ from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
 from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
 from springblock.claims.flat import fronts, not_all_nucleate, single_events, weakest_first
-from springblock.claims.load_peaks import both_peaks, mean_rate, quietest_rate, rate_between
+from springblock.claims.load_peaks import (
+    both_peaks,
+    main_rate,
+    mean_rate,
+    quietest_rate,
+    rate_between,
+)
 from springblock.claims.pillars import _over_t_avg, _rings
 from springblock.claims.rule import Evidence
 from springblock.claims.samples import (
@@ -149,7 +155,10 @@ def test_of_several_load_peaks_the_two_most_prominent_count():
 
 def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():
     times = np.array([5.0, *range(20, 29), 50.0, np.nan])
-    assert mean_rate(replace(RUN, t_det=times)) == pytest.approx(11.0 / 45.0)
+    run = replace(RUN, t_det=times)
+    assert mean_rate(run) == pytest.approx(11.0 / 45.0)
+    # nine of eleven detach in 8 s; the deciles are at 20 and 28 s
+    assert main_rate(run) == pytest.approx(0.8 * 11.0 / 8.0)
 
 
 def test_rates_between_load_peaks_are_per_second():

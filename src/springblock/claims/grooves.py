@@ -160,7 +160,8 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
 
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
-    are narrower than the pawls between them.
+    are narrower than the pawls between them. If “narrow” meant half as wide as the pawls or less,
+    all cases would fail.
     """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

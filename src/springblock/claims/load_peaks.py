@@ -7,6 +7,7 @@ divided by t_avg: where the peaks are about equally high, t_max belongs to eithe
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -88,6 +89,12 @@ def mean_rate(run: Run) -> float:
     return float(np.count_nonzero(np.isfinite(run.t_det)) / lasting)
 
 
+def main_rate(run: Run) -> float:
+    """Return the mean detachment rate over the transition, 1/s."""
+    detached = 0.8 * np.count_nonzero(np.isfinite(run.t_det))
+    return float(detached / (samples.lasting(run) * run.t_max))
+
+
 def quietest_rate(peaks: Peaks, share: float) -> float:
     """Return the lowest detachment rate between the peaks, in a window over t_avg, 1/s."""
     width = share * peaks.run.t_avg
@@ -101,23 +108,25 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the detachment rate falls below half its mean (from the first detachment to the last),
-    in the quietest 0.05 t_avg between the peaks or on average from one peak to the other. With
-    pawls of 8 and 10, it does fall below this bound in a window of 0.01 t_avg, or if the mean is
-    over the middle eight tenths of detachments; but it does so too on surfaces without two peaks,
-    while the force exceeds 95 % of its maximum. Relative to the mean over these eight tenths, the
-    rate in the quietest 0.05 t_avg is 0.34 and 0.29 with these pawls, and 0.08 and 0.21 on pillars
-    of 58 and 30 blocks without grooves.
+    """Test: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
+    peaks or on average from one peak to the other; the mean is over all detachments or over the
+    transition (from a tenth to nine tenths of them), since the paper does not say what the phase is
+    quieter than. Also on surfaces without two peaks the rate falls as low while the force exceeds
+    95 % of its maximum: relative to the mean over the transition, the quietest 0.05 t_avg have 0.08
+    and 0.21 on pillars of 58 and 30 blocks without grooves.
     """
     name = "the detachment rate over its mean"
-    for part, quantity in (
-        ("the quietest 0.05 t_avg between the load peaks", partial(quietest_rate, share=0.05)),
-        ("the time between the load peaks", rate_between),
+    intervals: dict[str, Callable[[Peaks], float]] = {
+        "the quietest 0.05 t_avg between the load peaks": partial(quietest_rate, share=0.05),
+        "the time between the load peaks": rate_between,
+    }
+    means = {"all detachments": mean_rate, "the transition": main_rate}
+    for (part, rate), (span, mean), (scene, found) in product(
+        intervals.items(), means.items(), _grooved(evidence.records).items()
     ):
-        for scene, found in _grooved(evidence.records).items():
-            rate = samples.mean([quantity(peaks) / mean_rate(peaks.run) for peaks in found])
-            case = {"interval": part, **surfaces.case_of(scene)}
-            yield samples.found_on(scene, name, rate, ranges.FEWER_THAN_HALF, case=case)
+        relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
+        case = {"interval": part, "mean over": span, **surfaces.case_of(scene)}
+        yield samples.found_on(scene, name, relative, ranges.FEWER_THAN_HALF, case=case)
 
 
 def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
@@ -198,7 +207,8 @@ def small_force_suffices(peaks: Peaks) -> float:
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars of the same n_p, among pawls with which most runs have two peaks, the widest
     have a shorter time between the peaks than the narrowest. A time that depends on pillar length
-    alone would not show that the difference n_p - n_p2 matters.
+    alone would not show that the difference n_p - n_p2 matters. The difference that holds is a
+    twentieth of the time itself.
     """
     name = "the time between the load peaks over t_avg, with pawls of {} minus with pawls of {}"
     found = twice_peaked(surfaces.grooved(evidence.records))

@@ -131,6 +131,7 @@ def verdict(form: str, findings: Sequence[Finding]) -> tuple[str, str]:
 #: A key of a case with its value, as part of a sentence.
 _PHRASES = {
     "n_p": "at n_p = {}",
+    "against n_p": "against n_p = {}",
     "n_p2": "with pawls of {} blocks",
     "degrees": "at {}° to the grooves",
     "surface": "on {}",
@@ -138,6 +139,7 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "sliding {}",
     "interval": "in {}",
+    "mean over": "with the mean over {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
