@@ -121,11 +121,11 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
         "the time between the load peaks": rate_between,
     }
     means = {"all detachments": mean_rate, "the transition": main_rate}
-    for (part, rate), (span, mean), (scene, found) in product(
-        intervals.items(), means.items(), _grooved(evidence.records).items()
+    for (span, mean), (part, rate), (scene, found) in product(
+        means.items(), intervals.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        case = {"interval": part, "mean over": span, **surfaces.case_of(scene)}
+        case = {"mean over": span, "interval": part, **surfaces.case_of(scene)}
         yield samples.found_on(scene, name, relative, ranges.FEWER_THAN_HALF, case=case)
 
 

@@ -201,7 +201,8 @@ def warning(run: Run) -> float:
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
     nearer to those of the flat surface than to those of larger pillars. Each size of the larger
-    pillars is a case, since the paper does not say with which it compares. Static friction may
+    pillars is a case, since the paper does not say with which it compares; those of 20 blocks or
+    more are themselves nearer to the flat surface than those of 7 to 10. Static friction may
     differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {

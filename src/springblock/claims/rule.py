@@ -139,7 +139,7 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "sliding {}",
     "interval": "in {}",
-    "mean over": "with the mean over {}",
+    "mean over": "relative to the mean over {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
