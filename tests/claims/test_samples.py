@@ -16,6 +16,7 @@ from springblock.claims.load_peaks import (
     mean_rate,
     quietest_rate,
     rate_between,
+    small_force_suffices,
 )
 from springblock.claims.pillars import _over_t_avg, _rings
 from springblock.claims.rule import Evidence
@@ -151,6 +152,13 @@ def test_of_several_load_peaks_the_two_most_prominent_count():
     assert (found.first, found.second) == (100, 300)
     assert both_peaks(replace(run, **peaks((300.0, 0.65))(run))) is None
     assert 240.0 < 1e6 * run.time[both_peaks(run).valley] < 280.0
+
+
+def test_the_force_grows_to_the_second_load_peak_however_high_the_first():
+    run = paper.record(ALONG, 0)
+    found = both_peaks(replace(run, **peaks((220.0, 0.66), (300.0, 0.60), width=40.0)(run)))
+    second = found.run.force[found.second]
+    assert small_force_suffices.__wrapped__(found) == pytest.approx(second / found.lowest - 1.0)
 
 
 def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():

@@ -23,9 +23,10 @@ def threshold(material=PAPER, mu=1.0):
 @pytest.mark.parametrize("integrator", ["leapfrog", "rk4"])
 def test_a_block_bears_what_the_slider_pulls_until_it_slides(integrator):
     """To rounding: at rest τ l² = K_s v t, which is what F_mot is without neighbours."""
+    thick = Material(thickness=1.5 * PAPER.thickness)
     times = np.array([2e-5, 1e-4, LOADING // 2e-7 * 2e-7])
-    run = simulate(ONE, Setup(PAPER, integrator), duration=2e-4, snapshot_times=times)
-    pull = PAPER.k_s * PAPER.slider_velocity * times / PAPER.spacing**2
+    run = simulate(ONE, Setup(thick, integrator), duration=2e-4, snapshot_times=times)
+    pull = thick.k_s * thick.slider_velocity * times / thick.spacing**2
     np.testing.assert_allclose(run.fields.stress[:, 0, 0, 0], pull, rtol=1e-12)
     assert not run.fields.stress[:, 1].any()
     assert not run.fields.slip.any()

@@ -26,6 +26,11 @@ def test_results_of_another_configuration_or_code_are_refused_without_memory(mon
     record.refuse_unknown(RESULTS, BEFORE)
     with pytest.raises(ValueError, match=r"results of another configuration \(step\), and Snakem"):
         record.refuse_unknown(RESULTS, OTHER)
+    for more, fewer in ((BEFORE, BEFORE | {"new": None}), (BEFORE | {"new": None}, BEFORE)):
+        record.begin(Path("others"), more, touched=False)
+        with pytest.raises(ValueError, match=r"results of another configuration \(new\), and --t"):
+            record.begin(Path("others"), fewer, touched=True)
+        shutil.rmtree("others")
     monkeypatch.setattr(record, "digest", lambda step: f"of another {step}")
     with pytest.raises(ValueError, match=r"results of another code \(compile, mask, simulate, "):
         record.refuse_unknown(RESULTS, BEFORE)

@@ -81,8 +81,9 @@ def _refuse_other(
     now = _now(configuration)
     for made in record["made"]:
         for part in ("configuration", "code"):
-            differs = [key for key in now[part] if made[part].get(key) != now[part][key]]
-            if differs or made[part].keys() != now[part].keys():
+            was, here = made[part], now[part]
+            differs = [key for key in was | here if was.get(key, ...) != here.get(key, ...)]
+            if differs:
                 raise ValueError(
                     f"{results} may hold results of another {part} ({', '.join(differs)}), and "
                     f"{reason}; remove {results}, or choose another folder with the key results"
