@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from springblock import Prelude, read
+from springblock import Prelude, read, simulate
 from springblock.io.fields import read_fields
 from springblock.simulation.prelude import HOLDING
 
@@ -168,6 +168,19 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
     springblock(*LONG, "--output", whole)
     assert (tmp_path / "a.parquet").read_bytes() == whole.read_bytes()
     assert not kept.exists()
+
+
+def test_checkpoints_are_minutes_apart(springblock, tmp_path, monkeypatch):
+    module, apart = sys.modules["springblock.cli.simulate"], []
+
+    def run(*args, checkpoint_interval, **how):
+        apart.append(checkpoint_interval)
+        return simulate(*args, checkpoint_interval=checkpoint_interval, **how)
+
+    monkeypatch.setattr(module, "simulate", run)
+    words = ("--duration", 2e-6, "--checkpoint", 2, "--output", tmp_path / "a")
+    springblock("simulate", *FLAT, *words)
+    assert apart == [120.0]  # s
 
 
 def test_a_run_that_fails_is_named(springblock, tmp_path):
