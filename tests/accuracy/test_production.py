@@ -71,6 +71,7 @@ def test_an_ensemble_has_no_bias_from_itself(monkeypatch):
     few = work_precision._SURFACES["flat"]._replace(ensemble=Pattern.flat(4), seeds=3)
     monkeypatch.setitem(work_precision._SURFACES, "flat", few)
     monkeypatch.setattr(work_precision, "PAIRED_STEPS", {"leapfrog": [work_precision.FINE_STEP]})
+    monkeypatch.setattr(work_precision, "PAIRED_SEEDS", {"leapfrog": 2})  # of these three
     *paired, scatter, _, _ = work_precision.paired_rows("flat")
     assert [row["error"] for row in paired] == 3 * [0.0]
     assert scatter["error"] == pytest.approx(0.0, abs=1e-15)
