@@ -146,8 +146,10 @@ def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
 def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     """Test: compared with the same pillars without grooves, the force stays above 95 % of its
     maximum for longer (smooth), and blocks detach in less time (rapid). Both times are divided by
-    t_max; divided by t_avg, they give the same outcomes. Taken separately, the transition is smooth
-    at four of the five widths of pawls (the fifth is open), and rapid at none.
+    t_max; divided by t_avg, they give the same outcomes. Compared with plain pillars of 20 or 30
+    blocks instead, the transition with pawls of 8 and 10 is both smoother and more rapid. Taken
+    separately, the transition is smooth at four of the five widths of pawls (the fifth is open),
+    and rapid at none.
     """
     smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)

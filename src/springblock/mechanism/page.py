@@ -97,11 +97,13 @@ def _minima(rows: pd.DataFrame) -> dict[str, Lowest]:
 def _of_variants(table: pd.DataFrame) -> Fields:
     """Return the fields on flat surfaces and on other gaps, layers and scatter."""
     flat, pillars = table[table["n_p"] == 0], table[table["n_p"] > 0]
-    lines = []
+    lines, raised = [], []
     for name, rows in pillars.groupby(pillars.apply(_case, axis=1), sort=False):
         uneven, found = rows.groupby("n_p")["stress_variation"].first(), _minima(rows)
         here = rows[rows["n_p"] == found["simulation"].place]
         changes = [written(100.0 * (here[to] / here[of] - 1.0), 1) for of, to in _STEPS]
+        if mean_interval(here["overshooting"] / here["quasi_static"]).low > 1.0:
+            raised.append(str(name))
         sizes, most = ", ".join(map(str, uneven.index)), f"{uneven.idxmax()} ({uneven.max():.2f})"
         lines.append([str(name), sizes, most, *map(str, found.values()), *changes])
     thick = pillars[pillars["thickness"] == pillars["thickness"].max()]
@@ -112,6 +114,7 @@ def _of_variants(table: pd.DataFrame) -> Fields:
         "variants_seeds": table["seed"].nunique(),
         "variants": markdown_table(header, lines),
         "flat": [written(flat[name], 3) for name in NAMES],
+        "raised_by_overshoot": listed(raised) or "none of the other constants",
         "excess": written(excess.groupby(thick["seed"]).mean(), 1),
     }
 
