@@ -50,3 +50,13 @@ def written() -> str:
 )
 def test_the_page_says_what_follows_from_its_tables(written, said):
     assert said in written
+
+
+def test_it_is_said_where_overshoot_raises_friction(written):
+    assert "overshoot raises friction with none of the other constants" in written
+    thick = [
+        row | {"overshooting": (1.2 if row["thickness"] > 1e-5 else 1.0) * row["overshooting"]}
+        for row in variants()
+    ]
+    text = page(*map(pd.DataFrame, (rows(), thick, peaks(), budget())))
+    assert "overshoot raises friction with l_z = 40 µm" in " ".join(text.split())
