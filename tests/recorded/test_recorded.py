@@ -24,6 +24,7 @@ from click.testing import CliRunner
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 from scipy.io import netcdf_file
@@ -420,16 +421,20 @@ def sums(name: str) -> Iterator[Row]:
 
 def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
     """Yield the points, (n, 2), of axes, texts, lines, symbols, bands, bars, arrows and images."""
-    yield "axes", np.transpose([ax.get_xlim(), ax.get_ylim()])
-    for axis, ticks in enumerate((ax.get_xticks(), ax.get_yticks())):
-        yield "axes", np.outer(ticks, np.eye(2)[axis])
+    limits = (ax.get_xlim(), ax.get_autoscalex_on()), (ax.get_ylim(), ax.get_autoscaley_on())
+    for axis, (ends, automatic), column in zip(
+        (ax.xaxis, ax.yaxis), limits, np.eye(2), strict=True
+    ):
+        locator = axis.get_major_locator()  # what is automatic depends on matplotlib's version
+        chosen = locator.locs if isinstance(locator, FixedLocator) else []
+        yield "axes", np.outer([*chosen, *([] if automatic else ends)], column)
     for text in ax.texts:
         yield "texts", np.array([text.get_position()], dtype=float)
     for line in ax.lines:
         yield "lines", np.array(line.get_xydata(), dtype=float)
     for patch in ax.patches:
         if isinstance(patch, FancyArrowPatch):
-            yield "arrows", patch.get_path().vertices[:1]  # the head has a size in pixels
+            yield "arrows", patch.get_path().vertices[:1].round(1)  # the rest is in pixels
         else:
             yield "patches", patch.get_patch_transform().transform(patch.get_path().vertices)
     for collection in ax.collections:

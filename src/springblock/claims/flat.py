@@ -122,7 +122,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     number of fronts changes by more than a tenth of the number with the paper's constants. If
     fronts are counted when a tenth of the blocks have detached, where chance forms none, the change
     is 0.58 (velocity), -0.98 (pressure) and -0.43 (scatter) of the number with the paper's
-    constants; with scatter the sign is then another than in the test (0.32).
+    constants; for scatter the sign is then opposite to that in the test (0.32).
     """
     for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):
         scenes = varied(evidence, name)

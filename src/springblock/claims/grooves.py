@@ -81,7 +81,7 @@ def anisotropy_needed(evidence: Evidence) -> Iterator[Finding]:
     a bound above 2.1 % the statement would hold. With grooves in one direction the prominence is
     2.8 %. Part of the prominence comes from fluctuations of single runs: in the force averaged over
     runs it is 0.7 % with equal grooves in both directions, and 2.0 % with grooves in one. On larger
-    surfaces the verdict may therefore be another.
+    surfaces the verdict may therefore differ.
     """
     for scene in surfaces.grooved(evidence.records, 3):
         if (scene.n_p2, scene.n_s2) == (scene.n_p3, scene.n_s3):

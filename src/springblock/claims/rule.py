@@ -139,7 +139,7 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "sliding {}",
     "interval": "in {}",
-    "mean over": "relative to the mean over {}",
+    "mean": "relative to the mean rate {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
