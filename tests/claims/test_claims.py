@@ -108,6 +108,11 @@ def calm(run: Record) -> dict[str, Any]:
     return {"switches": run.detachments}
 
 
+def with_strain(*places: int) -> Change:
+    """Other displacements at the snapshots: the made-up ones at these places."""
+    return lambda run: {"snapshots": run.snapshots[list(places)]}
+
+
 two_peaks = peaks((220.0, 0.60), (300.0, 0.65))
 mirrored = moved(lambda run: 2.0 * run.t_avg - run.t_det)  # what was early is late
 tilted = moved(lambda run: run.t_det + 1e-6 * np.arange(paper.N))  # later at the right
@@ -129,6 +134,8 @@ CHANGES = [
     ("peaks_apart", [FLAT], shifted(5), REFUTED),
     ("average_is_propagation", [FLAT], late_avalanche, REFUTED),
     ("localized_stick_slip", [FLAT], all_again, REFUTED),
+    ("residual_strains", [FLAT], with_strain(0, 1, 1, 0), PARTLY),
+    ("residual_strains", [FLAT], with_strain(1, 1, 1, 0), REFUTED),
     ("nucleation_anywhere", [FLAT], cornered, REFUTED),
     ("uniform", [FLAT], tilted, REFUTED),
     ("pillars_alike", PILLARS, tilted, REFUTED),

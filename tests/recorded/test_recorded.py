@@ -61,7 +61,7 @@ from springblock.report.findings import findings as findings_of
 from springblock.report.page import page as report
 from springblock.simulation.fields import Fields
 from springblock.study import configuration as study
-from studies import ROOT, Study
+from studies import ROOT, TINY, Study
 
 RECORDED = Path(__file__).parent
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -384,7 +384,9 @@ def jobs() -> str:
     """The commands of all jobs of a tiny study."""
     with tempfile.TemporaryDirectory() as name:
         everything = {"accuracy": True, "production": True, "mechanism": True}
-        tiny = Study.begun(Path(name) / "study", **everything)
+        watched = {"flat": TINY["scenes"]["flat"] | {"snapshot_times": [1e-5]}}
+        scenes = TINY["scenes"] | watched
+        tiny = Study.begun(Path(name) / "study", scenes=scenes, **everything)
         said = tiny.run("--dry-run", "--printshellcmds", "--quiet", "host")
     found = re.findall(r"^Shell command: (.*(?:\n {4,}.*)*)", said, re.MULTILINE)
     return "\n".join(sorted({anywhere(command) for command in found})) + "\n"

@@ -105,15 +105,16 @@ def work(wildcards):
     return ensemble.scene, SETUPS[wildcards.scene], ensemble.duration, runs_of(wildcards)
 
 
+def snapshots(wildcards):
+    """Times at which the displacements of a scene are stored, as options."""
+    return " ".join(f"--snapshot {time}" for time in ENSEMBLE[wildcards.scene].snapshot_times)
+
+
 def memory(wildcards, attempt):
-    """MB to request, more in each attempt."""
-    return attempt * cost.memory(ENSEMBLE[wildcards.scene].scene, runs_of(wildcards))
-
-
-def memory_of_fields(wildcards, attempt):
-    """MB to request; a snapshot needs as much as a realisation."""
+    """MB to request, more in each attempt; a snapshot needs as much as a realisation."""
     ensemble = ENSEMBLE[wildcards.scene]
-    return attempt * cost.memory(ensemble.scene, 1 + len(ensemble.snapshot_times))
+    stored = runs_of(wildcards) * (1 + len(ensemble.snapshot_times))
+    return attempt * cost.memory(ensemble.scene, stored)
 
 
 def minutes(wildcards, attempt):

@@ -114,6 +114,7 @@ rule simulate_batch:
         scene=scene,
         how=HOW,
         duration=duration,
+        times=snapshots,
         first=lambda wildcards: seeds(wildcards)[0],
         last=lambda wildcards: seeds(wildcards)[-1],
     message:
@@ -121,7 +122,7 @@ rule simulate_batch:
     shell:
         "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
         "--prelude {input.prelude:q} --first-seed {params.first} --last-seed {params.last} "
-        "--output {output:q} > {log:q} 2>&1"
+        "{params.times} --output {output:q} > {log:q} 2>&1"
 
 
 rule simulate:
@@ -144,14 +145,14 @@ rule fields_of_scene:
     benchmark:
         f"{RESULTS}/benchmarks/{{scene}}/fields.tsv"
     resources:
-        mem_mb=memory_of_fields,
+        mem_mb=memory,
         runtime=minutes,
     params:
         code=code("simulate"),
         scene=scene,
         how=HOW,
         duration=duration,
-        times=lambda here: " ".join(f"--snapshot {s}" for s in ENSEMBLE[here.scene].snapshot_times),
+        times=snapshots,
         seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
     message:
         "Storing fields of {wildcards.scene}, seed {params.seed}"

@@ -14,6 +14,8 @@ from springblock.io.schemas import SCENE, SETUP
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import Scene
 
+_NONE = pa.schema([])
+
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
     """Write a table, of at least one row, whole or not at all, with `metadata` on the whole."""
@@ -56,8 +58,12 @@ def _array(values: Sequence[Any] | NDArray[Any], kind: pa.DataType) -> pa.Array:
     return pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(packed)])
 
 
-def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+def load(
+    path: Path, columns: Sequence[str] | None = None, optional: Sequence[str] = ()
+) -> pa.Table:
     """Read a file that `write` has written: all its columns, or those given.
+
+    Of `optional`, those that the file has are added to the columns given.
 
     A file that is damaged, not a table, or lacks a column is a ValueError.
     """
@@ -70,6 +76,8 @@ def load(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     missing = [name for name in columns or () if name not in present]
     if missing:
         raise ValueError(f"{path} lacks the column {missing[0]!r}; it holds {present}")
+    if columns is not None:
+        columns = [*columns, *(name for name in optional if name in present)]
     return file.read(columns, use_threads=False)  # Arrow's threads may abort a process on exit
 
 
@@ -78,16 +86,19 @@ def origin_of(table: pa.Table) -> dict[str, str]:
     return {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items()}
 
 
-def read(paths: Iterable[Path], schema: pa.Schema) -> pa.Table:
+def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) -> pa.Table:
     """Read the columns of `schema` from several files of one study, concatenated.
 
-    Files of different constants or code, or with the same realisation, are a ValueError.
+    Those of `optional` are read where a file has them, and null elsewhere. Files of different
+    constants or code, or with the same realisation, are a ValueError.
     """
-    tables = [(path, load(path, schema.names)) for path in paths]
+    tables = [(path, load(path, schema.names, optional.names)) for path in paths]
     refuse_mixture(tables)
     _refuse_mixed_code(tables)
     _refuse_repetition(tables)
-    return pa.concat_tables([table.cast(schema) for _, table in tables])
+    known = pa.schema([*schema, *optional])
+    cast = [table.cast(pa.schema(map(known.field, table.column_names))) for _, table in tables]
+    return pa.concat_tables(cast, promote_options="default")
 
 
 def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:

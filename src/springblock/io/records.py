@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from springblock.io.parquet import load
 from springblock.io.parquet import read as read_tables
 from springblock.io.schemas import BATCH, SCENE, SETUP, SNAPSHOTS
 from springblock.model.material import Material
@@ -50,17 +49,12 @@ def read(path: str | Path) -> list[Record]:
     ValueError
         If the file is damaged, or lacks a column of such tables.
     """
-    table = load(Path(path))
-    kept = SNAPSHOTS if "snapshots" in table.column_names else []
-    return _records(read_tables([Path(path)], pa.schema([*BATCH, *kept])))
+    return read_records([Path(path)])
 
 
 def read_records(paths: Iterable[Path]) -> list[Record]:
-    """Read stored realisations, without snapshots, in ascending order of seeds."""
-    return _records(read_tables(paths, BATCH))
-
-
-def _records(table: pa.Table) -> list[Record]:
+    """Read stored realisations in ascending order of seeds."""
+    table = read_tables(paths, BATCH, SNAPSHOTS)
     records = [_record(table.slice(i, 1)) for i in range(table.num_rows)]
     return sorted(records, key=lambda record: record.seed)
 
@@ -74,7 +68,7 @@ def _record(row: pa.Table) -> Record:
     fields |= {name: fields[name].reshape(scene.shape) for name in ("t_det", "contact")}
     if scene.mask is not None:
         scene = replace(scene, mask=replace(scene.mask, values=fields["contact"]))
-    if "snapshots" in row.column_names:
+    if "snapshots" in row.column_names and row["snapshots"][0].is_valid:
         fields |= {name: row[name][0].values.to_numpy() for name in SNAPSHOTS.names}
         fields["snapshots"] = fields["snapshots"].reshape(-1, 2, *scene.shape)
     interval = row["sample_interval"][0].as_py()

@@ -40,7 +40,9 @@ class Ensemble:
     scene: Scene
     seeds: range
     duration: float | None  #: s; None to end after the peak, see `simulate`
-    snapshot_times: tuple[float, ...] = ()  #: s, of the fields stored for the first seed
+    snapshot_times: tuple[
+        float, ...
+    ] = ()  #: s, of stored displacements, and fields of the first seed
 
     def batches(self, size: int) -> dict[int, range]:
         """Return the seeds of each batch, by number: batch i begins with seed i·size.
