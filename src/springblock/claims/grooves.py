@@ -39,9 +39,9 @@ def prominent(
 
 def two_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Test: when sliding along the grooves, the mean prominence of the lesser peak exceeds 1 % of
-    the largest force. A mean over runs includes their fluctuations, which decrease with the size of
-    the surface: the prominence in the force averaged over runs is 2.0, 0.9 and 0.2 % with pawls of
-    8, 10 and 13 blocks.
+    the largest force. Fluctuations of single runs, which are smaller on larger surfaces, add to
+    this mean. In the force averaged over runs, in which they cancel, the prominence is 2.0, 0.9 and
+    0.2 % with pawls of 8, 10 and 13 blocks.
     """
     for scene in slid_both_ways(evidence.records):
         yield prominent(evidence, scene, _TWO_PEAKS)
@@ -122,10 +122,10 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
     along the grooves of the second level, and is below 1 % when sliding across them. The failing
     case is sliding across grooves of the second level but along those of the third, where the
-    paper's explanation leads one to expect a second peak; but in the force averaged over runs its
-    prominence is 0.3 %, and the rest comes from the fluctuations of single runs. Without this
-    finding, which is a registered one, the statement would be reproduced. Along the grooves of the
-    second level it is 0.95 and 1.13 % in the averaged force.
+    paper's explanation leads one to expect a second peak; but its prominence is only 0.3 % in the
+    force averaged over runs, in which fluctuations of single runs cancel. Without this finding,
+    which is a registered one, the statement would be reproduced. When sliding along the grooves of
+    the second level, the prominence in the averaged force is 0.95 and 1.13 %.
     """
     for along, case in _third_levels(evidence):
         yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
@@ -163,7 +163,8 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
     are narrower than the pawls between them. If “narrow” meant half as wide as the pawls or less,
-    all cases would fail.
+    all these cases would fail; on six runs with pawls of 8 and grooves of 4 it would hold (0.0058
+    with a standard error of 0.0008).
     """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
@@ -175,7 +176,9 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
     quarters, which is longer along grooves than across between pawls of 4, the statement would be
-    reproduced in part.
+    reproduced in part. Most of the difference arises before t_max. After it, on 12 runs of each
+    surface, t_det differs less between neighbours in the sliding direction (median), as behind
+    faster fronts, along all of these grooves than across them.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

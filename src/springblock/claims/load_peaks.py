@@ -108,12 +108,13 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the detachment rate falls below half its mean, in the quietest 0.05 t_avg between the
-    peaks or on average from one peak to the other; the mean is over all detachments or over the
-    transition (from a tenth to nine tenths of them), since the paper does not say what the phase is
-    quieter than. While the force exceeds 95 % of its maximum, the rate falls as low on surfaces
-    without two peaks, too: in the quietest 0.05 t_avg it is 0.08 and 0.21 of the mean over the
-    transition on pillars of 58 and 30 blocks without grooves.
+    """Test: the detachment rate between the peaks is below half of a mean rate. The paper does not
+    say what the phase is quieter than: cases are the rate in the quietest window of 0.05 t_avg and
+    that of the whole phase, each relative to the mean rate from the first detachment to the last
+    and to that of the transition (from a tenth to nine tenths of the detachments). While the force
+    exceeds 95 % of its maximum, the rate falls as low on surfaces without two peaks, too: in the
+    quietest 0.05 t_avg it is 0.08 and 0.21 of the mean over the transition on pillars of 58 and 30
+    blocks without grooves.
     """
     name = "the detachment rate between the load peaks"
     intervals: dict[str, Callable[[Peaks], float]] = {
@@ -207,9 +208,10 @@ def small_force_suffices(peaks: Peaks) -> float:
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars of the same n_p, among pawls with which most runs have two peaks, the widest
     have a shorter time between the peaks than the narrowest. A time that depends on pillar length
-    alone would not show that the difference n_p - n_p2 matters. The difference that holds is a
-    twentieth of the time itself. The paper gives no sign: as a statement that the time differs, it
-    would hold at n_p = 58 and 118, with opposite signs, and not be settled.
+    alone would not show that the difference n_p - n_p2 matters. At n_p = 58, where this holds, the
+    two times differ by a twentieth. The paper does not say which of them is shorter: that they
+    differ holds at n_p = 58 and 118, with opposite signs, and is open at 115, so that this
+    statement would not be settled.
     """
     name = "the time between the load peaks over t_avg, with pawls of {} minus with pawls of {}"
     found = twice_peaked(surfaces.grooved(evidence.records))

@@ -83,9 +83,11 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(pillars, "the share of pillars whose parts detach in this order", ranges.NEARLY_ALL)
 def always_in_order(run: Record) -> float:
-    """Test: corners, edges across and along the sliding direction and centre detach in this
-    order, both on the border and on the second ring, on more than nine tenths of the individual
-    pillars. Pillars of 4 blocks have only the border.
+    """Test: corners, edges across and along the sliding direction and centre detach in this order,
+    both on the border and on the second ring, on more than nine tenths of the individual pillars.
+    Pillars of 4 blocks have only the border. If “always” meant the mean over pillars with other
+    scatters of the thresholds, the statement would be reproduced: at n_p = 6, 10 and 20 with
+    scatters of 0.02 and 0.2, mean times follow this order on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -130,7 +132,7 @@ def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors lie in the two outermost rings of blocks, and less than half detach
     before all of their eight neighbours (isolated).
     """
-    for scene, runs in _broad(evidence.records).items():
+    for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or adjacent to it", near_border, ranges.MOST),
             ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),

@@ -111,9 +111,9 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on one side of a pillar along x and on one along y, without corners, position explains
-    less than a fifth of the variance of t_det within the side. Without the three blocks at either
-    end the statement would hold.
+    """Test: on a side along x and on a side along y of the pillars, without corners, position
+    explains less than a fifth of the variance of t_det within the side. If three more blocks at
+    each end were left out, the statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -145,10 +145,10 @@ def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
     """Test: at r = 1 to 6, where l_c is fitted, the rms distance of c_x from exp(-r/l_c) is below
-    0.05, and below its distances from a power law of 1 + r and from a straight line, both of
-    amplitude 1; likewise for A exp(-r/l_c), with free amplitudes. Up to the last r before the
-    corners (7, 11 and 23 at n_p = 20, 30 and 60), A exp(-r/l_c) would hold at all three sizes, and
-    exp(-r/l_c) at n_p = 20 and be open at 30 and 60.
+    0.05, and below the distances of c_x from a power law of 1 + r and from a straight line, both of
+    amplitude 1; likewise for A exp(-r/l_c), with free amplitudes. If r went up to the last block
+    before the corners (7, 11 and 23 at n_p = 20, 30 and 60), A exp(-r/l_c) would hold at all three
+    sizes; exp(-r/l_c) would hold at n_p = 20 and be open at 30 and 60.
     """
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
@@ -185,10 +185,11 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p =
-    20. If all r had equal weights in both fits, l_c of exp(-r/l_c) would decrease from n_p = 20 to
-    60 by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, on which the paper finds l_c
-    difficult to estimate, are left out; compared with those of 10 (l_c = 2.2 and, with free
-    amplitude, 1.6 blocks, fitted to r = 3 only), the statement would be reproduced.
+    20. The fits weight each r by its error; with equal weights, l_c of exp(-r/l_c) would still
+    decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, on
+    which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were compared with
+    n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted to r = 3 only), the statement
+    would be reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
