@@ -144,7 +144,7 @@ CHANGES = [
     ("order_of_stress", PILLARS, mirrored, REFUTED),
     ("always_in_order", PILLARS[1:2], mirrored, REFUTED),
     ("edges_before_peak", PILLARS, shifted(-200), REFUTED),
-    ("region_of_precursors", PILLARS, shifted(100), PARTLY),
+    ("region_of_precursors", PILLARS, shifted(100), REFUTED),
     ("nucleation_near_edge", PILLARS, mirrored, REFUTED),
     ("centre_last", PILLARS, mirrored, REFUTED),
     ("larger_events", PILLARS, turned, REFUTED),
