@@ -83,7 +83,9 @@ def test_a_position_has_no_interval_where_its_ends_are_not_told_apart():
     found = position(sample, zero, one)
     assert found.value == pytest.approx(1.0 / 49.5)
     assert found.ci_low < found.value < found.ci_high
+    assert found.n == 2  # that of the smallest sample
     assert np.isnan(position(sample, zero, zero).ci_low)
+    assert np.isnan(position(sample[:1], zero, one).value)
 
 
 def test_a_magnitude_may_be_as_large_as_the_further_end_of_its_interval():

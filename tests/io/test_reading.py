@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -44,6 +45,8 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
     springblock(*BATCH[:-4], "--first-seed", 2, "--snapshot", TIMES[0], "--output", early)
     found = [(run.seed, len(run.snapshots)) for run in read_records([late, early])]
     assert found == [(2, 1), (9, 0), (10, 0)]
+    with pytest.raises(ValueError, match="both hold seed 9"):
+        read_records([late, early, Path(str(late))])
 
 
 def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):

@@ -70,3 +70,13 @@ def test_forces_on_all_blocks_add_up_to_friction(monkeypatch):
     before = [(row["edge"], row["core"]) for row in found["overshooting"][:2]]
     simulated = [(row["edge"], row["core"]) for row in found["simulation"][:2]]
     assert np.array(before) == pytest.approx(np.array(simulated), rel=0.05)
+
+
+def test_a_model_has_no_force_after_its_last_block_has_detached(monkeypatch):
+    last = np.array([301e-6 * MATERIAL.slider_velocity])  # position of the slider, m
+    monkeypatch.setattr(tables, "SEEDS_OF_GROOVES", 1)
+    monkeypatch.setattr(tables.models, "overshooting", lambda *_: tables.models.Curve(last, last))
+    rows = list(tables.budget_rows(Scene(24, n_p=10, n_s=14, n_p2=4, n_s2=2)))
+    ended = {np.isnan(row["edge"]) for row in rows if row["time"] > 301e-6}
+    assert ended == {False, True}  # in the simulation, and in the model
+    assert not any(np.isnan(row["edge"]) for row in rows if row["time"] < 301e-6)

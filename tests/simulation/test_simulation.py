@@ -9,7 +9,7 @@ import pytest
 from specimens import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
 from springblock.model.defaults import STEP
-from springblock.simulation.run import first_minimum
+from springblock.simulation.run import first_minimum, percent
 
 PAPER = Material()
 N = 12
@@ -288,6 +288,13 @@ def test_a_run_lasts_until_its_last_snapshot_but_does_not_end_before_its_time(ru
     assert intervals == len(run.time) - 1 if beyond < 0 else number <= intervals <= number + PAUSE
     shorter = simulate(scene, duration=number * 2e-7)
     assert watched.snapshots[1].tobytes() == shorter.displacement.tobytes()
+
+
+def test_detachments_in_percent_are_of_the_blocks_that_detach(run):
+    some = replace(run, t_det=np.where(run.t_det < np.nanmedian(run.t_det), run.t_det, np.nan))
+    count = np.count_nonzero(np.isfinite(some.t_det))
+    assert 0 < count < np.count_nonzero(some.contact)
+    assert percent(some, np.array([0, count])).tolist() == [0.0, 100.0]
 
 
 def test_a_run_is_summarised_in_one_line(run):
