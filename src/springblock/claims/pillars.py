@@ -360,15 +360,16 @@ def _larger_there(
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at every other pillar
-    size. Candidates for the size of lowest friction are all whose static friction may exceed the
-    lowest by no more than the numerical bias, 0.001. The difference is computed with each candidate
-    as the size of lowest friction, and the interval covers all results; it has no upper limit where
-    a candidate would be compared with itself, or where the results differ in sign. With the default
-    step, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010]. This step raises
-    friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations each; 100 also with a step of 5e-9
-    s); without this bias the difference, from unrounded values, is 0.0001 [-0.0004, 0.0006]. To
-    decide which is lower would take more than ten thousand realisations with a step of 5e-9 s. If
-    friction is lowest at 6 the statement fails, if at 7 it holds.
+    size. Sizes whose static friction, within its error, is no more than the numerical bias, 0.001,
+    above the lowest are all candidates for the size of lowest friction. The difference is computed
+    with each candidate in turn, and the interval covers all results. Where the outcome depends on
+    which candidate has the lowest friction, it has no upper limit: more realisations with the same
+    step would not decide the case. With the default step, static friction at n_p = 6 is lower than
+    at 7 by 0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7
+    (300 realisations each; 100 also with a step of 5e-9 s); without this bias the difference, from
+    unrounded values, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take more than ten
+    thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the statement fails, if
+    at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
