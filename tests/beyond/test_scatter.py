@@ -34,3 +34,9 @@ def test_the_page_says_what_scatter_changes(exponent, words, best, minimum):
     assert f"the decay length {words} on pillars of " in conclusion
     assert conclusion.endswith(f"the friction-minimising n_p, among 4, 10 and 20, {minimum}.")
     assert len(table.splitlines()) == 5
+
+
+@pytest.mark.parametrize(("runs", "are_known"), [(9, False), (10, True)])
+def test_ten_realisations_are_enough(runs, are_known):
+    few = {scene: every[:runs] for scene, every in scattered(lambda std: 2.0).items()}
+    assert bool(scatter.by_scatter(few)) == are_known

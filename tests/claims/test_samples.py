@@ -16,6 +16,7 @@ from springblock.claims.load_peaks import (
     mean_rate,
     quietest_rate,
     rate_between,
+    slips_again,
     small_force_suffices,
 )
 from springblock.claims.pillars import _over_t_avg, _rings
@@ -169,6 +170,19 @@ def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():
     assert mean_rate(run) == pytest.approx(11.0 / 45.0)
     # nine of eleven detach in 8 s; the deciles are at 20 and 28 s
     assert main_rate(run) == pytest.approx(0.8 * 11.0 / 8.0)
+
+
+def test_further_slips_are_divided_by_the_blocks_detached_at_the_lowest_force():
+    run = paper.record(ALONG, 0)
+    run = replace(run, **peaks((220.0, 0.60), (300.0, 0.65))(run))
+    between = (run.time >= 2.2e-4) & (run.time < 3.0e-4)
+    times = np.linspace(1.5e-4, 3.3e-4, run.t_det.size).reshape(run.t_det.shape)
+    run = replace(run, t_det=times, switches=run.detachments + between)
+    found = both_peaks(run)
+    detached = np.count_nonzero(run.t_det <= run.time[found.valley])
+    assert detached < np.count_nonzero(run.t_det <= run.time[found.second])
+    slips = np.count_nonzero(between[found.first : found.second])
+    assert slips_again.__wrapped__(found) == pytest.approx(slips / detached)
 
 
 def test_rates_between_load_peaks_are_per_second():

@@ -135,6 +135,12 @@ def test_differences_within_the_scatter_are_not_significant():
     assert single["order"]["peaks"]["unsettled"] == [0, 6]
 
 
+def test_findings_are_those_on_the_side_with_the_most_realisations():
+    few = [*realisations(0.8, seeds=2), *realisations(0.7, seeds=2, n_p=6, n_s=6)]
+    many = [row | Scene(60).row for row in realisations(0.8, seeds=9)]
+    assert set(findings.main_runs([*few, *many])) == {Scene(60)}
+
+
 def test_constants_of_their_own_are_left_out_of_the_findings():
     varied = realisations(0.5, varied=(("pressure", 1e5),))
     assert findings.main_runs(varied) == {}
