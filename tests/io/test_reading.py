@@ -8,9 +8,10 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from springblock import Surface, read, simulate
-from springblock.io.parquet import write
+from springblock import Setup, Surface, read, simulate
+from springblock.io.parquet import refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
+from springblock.io.schemas import SCENE, SETUP
 from springblock.model.scene import Scene
 
 BATCH = ("simulate", "--n-blocks", 6, "--n-p", 2, "--n-s", 1, "--first-seed", 9, "--last-seed", 10)
@@ -47,6 +48,21 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
     assert found == [(2, 1), (9, 0), (10, 0)]
     with pytest.raises(ValueError, match="both hold seed 9"):
         read_records([late, early, Path(str(late))])
+
+
+def test_constants_that_a_scene_varies_may_differ_in_one_study():
+    schema, varied = pa.schema([SCENE.field("varied"), *SETUP]), {"density": 1e3, "pressure": 2e5}
+    tables = [
+        (Path(f"{len(some)}"), rows_to_table([Scene(6, varied=some).row | constants], schema))
+        for some in ({}, varied)
+        for constants in [Setup().vary(some).constants]
+    ]
+    refuse_mixture(tables)
+    unnamed = rows_to_table([Scene(6).row | Setup().vary(varied).constants], schema)
+    with pytest.raises(
+        ValueError, match=r"is .* in 0 and .* in other; give runs of one study only"
+    ):
+        refuse_mixture([*tables, (Path("other"), unnamed)])
 
 
 def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):
