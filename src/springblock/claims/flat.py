@@ -140,9 +140,9 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     """Test: less than a tenth of the blocks detach before t_max. Blocks also detach without a
     front, where their own threshold is below the mean load: at t_max this holds for 0.05 of all
-    blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3 (of which
-    0.026 and 0.095 have mu_s < mu_d). Without these, the shares would be 0.09, 0.09 and 0.11, so
-    that only the largest scatter would fail.
+    blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3 (0.026 and
+    0.095 of all blocks have mu_s < mu_d). Without these, the shares would be 0.09, 0.09 and 0.11,
+    so that only the largest scatter would fail.
     """
     for name in _DECISIVE:
         for scene in varied(evidence, name):
@@ -276,8 +276,8 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
     (snapshot at 100 µs) than at the force minimum (112 µs). When the force has reached its dynamic
     level (160 µs) and later (290 µs), less than a tenth of the strain at the minimum is left (slope
     of the regression on it); or, if no strain is to remain, it varies less than half as much as at
-    the minimum. While the surface slides, other strains replace those at the minimum: they vary
-    more, with any bound up to 1.
+    the minimum. While the surface slides, new strains replace those at the minimum and vary more
+    than these did, so that the removal of all strains would fail with any bound up to 1.
     """
     for scene, all_runs in surfaces.flat(evidence.records).items():
         runs = [run for run in all_runs if len(run.snapshots)]

@@ -85,9 +85,9 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
 def always_in_order(run: Record) -> float:
     """Test: corners, edges across and along the sliding direction and centre detach in this order,
     both on the border and on the second ring, on more than nine tenths of the individual pillars.
-    Pillars of 4 blocks have only the border. If “always” meant the mean over pillars with other
-    scatters of the thresholds, the statement would be reproduced: at n_p = 6, 10 and 20 with
-    scatters of 0.02 and 0.2, mean times follow this order on both rings.
+    Pillars of 4 blocks have only the border. If “always” meant only that mean times follow this
+    order whatever the scatter of the thresholds, the statement would be reproduced: at n_p = 6, 10
+    and 20 with scatters of 0.02 and 0.2, mean times follow this order on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
