@@ -9,7 +9,13 @@ from claims import paper
 from claims.paper import ACROSS, ALONG, FLAT, PLAIN, peaks
 from springblock import draw_friction
 from springblock.analysis.estimate import Estimate
-from springblock.claims.flat import fronts, not_all_nucleate, single_events, weakest_first
+from springblock.claims.flat import (
+    fronts,
+    not_all_nucleate,
+    single_events,
+    strain_left,
+    weakest_first,
+)
 from springblock.claims.load_peaks import (
     both_peaks,
     main_rate,
@@ -170,6 +176,16 @@ def test_the_mean_detachment_rate_is_that_from_the_first_to_the_last():
     assert mean_rate(run) == pytest.approx(11.0 / 45.0)
     # nine of eleven detach in 8 s; the deciles are at 20 and 28 s
     assert main_rate(run) == pytest.approx(0.8 * 11.0 / 8.0)
+
+
+def test_strain_that_is_left_is_not_that_which_replaces_it():
+    rng = np.random.default_rng(0)
+    old, new = (np.cumsum(rng.standard_normal((60, 60)), axis=1) for _ in "on")
+    fields = np.zeros((3, 2, 60, 60))
+    fields[:, 0] = old, 0.5 * old + 0.1, new
+    left, scatter = strain_left(replace(RUN, snapshots=fields), 0)
+    assert left == pytest.approx([1.0, 0.5, 0.0], abs=0.05)
+    assert scatter == pytest.approx([1.0, 0.5, 1.0], abs=0.05)
 
 
 def test_further_slips_are_divided_by_the_blocks_detached_at_the_lowest_force():

@@ -52,17 +52,17 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
 
 def test_constants_that_a_scene_varies_may_differ_in_one_study():
     schema, varied = pa.schema([SCENE.field("varied"), *SETUP]), {"density": 1e3, "pressure": 2e5}
-    tables = [
-        (Path(f"{len(some)}"), rows_to_table([Scene(6, varied=some).row | constants], schema))
-        for some in ({}, varied)
-        for constants in [Setup().vary(some).constants]
-    ]
-    refuse_mixture(tables)
-    unnamed = rows_to_table([Scene(6).row | Setup().vary(varied).constants], schema)
-    with pytest.raises(
-        ValueError, match=r"is .* in 0 and .* in other; give runs of one study only"
-    ):
-        refuse_mixture([*tables, (Path("other"), unnamed)])
+    plain, named, unnamed = (
+        (Path(name), rows_to_table([scene.row | setup.constants], schema))
+        for name, scene, setup in (
+            ("plain", Scene(6), Setup()),
+            ("named", Scene(6, varied=varied), Setup().vary(varied)),
+            ("unnamed", Scene(6), Setup().vary(varied)),
+        )
+    )
+    refuse_mixture([plain, named])
+    with pytest.raises(ValueError, match=r"is .* in plain and .* in unnamed; give runs of one"):
+        refuse_mixture([plain, unnamed])
 
 
 def test_a_stored_run_is_summarised_in_one_line_and_may_have_no_snapshots(springblock, tmp_path):

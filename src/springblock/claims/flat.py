@@ -291,12 +291,12 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
         amount = "the scatter of the strain at {:.3g} µs, over that at the force minimum"
         share = "the share of the strain at the force minimum that is left at {:.3g} µs"
         for part, statistic, values, claimed, when in (
-            ("their appearance", amount, scatter, (-INF, 1.0), before),
-            ("the removal of those at the minimum", share, left, ranges.NEGLIGIBLE, after),
+            ("the appearance of residual strains", amount, scatter, (-INF, 1.0), before),
+            ("the removal of the strains at the minimum", share, left, ranges.NEGLIGIBLE, after),
             ("the removal of all strains", amount, scatter, ranges.FEWER_THAN_HALF, after),
         ):
             for time, sample in zip(1e6 * times[when], values[when], strict=True):
-                found, case = samples.mean(sample), {"strains": part}
+                found, case = samples.mean(sample), {"part": part}
                 yield found_on(scene, statistic.format(time), found, claimed, case=case)
 
 

@@ -177,10 +177,10 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
     quarters, which is longer along grooves than across between pawls of 4, the statement would be
-    reproduced in part. Most of the difference arises before t_max. After t_max (12 runs of each
-    surface), the median difference in t_det between neighbours in the sliding direction is smaller
-    when sliding along the grooves than when sliding across them, on all these surfaces, as expected
-    behind faster fronts.
+    reproduced in part. Most of the difference arises before t_max. After t_max (12 other runs of
+    each surface), the median difference in t_det between neighbours in the sliding direction is
+    smaller when sliding along the grooves than when sliding across them, on all these surfaces, as
+    expected behind faster fronts.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

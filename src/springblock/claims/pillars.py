@@ -86,8 +86,9 @@ def always_in_order(run: Record) -> float:
     """Test: corners, edges across and along the sliding direction and centre detach in this order,
     both on the border and on the second ring, on more than nine tenths of the individual pillars.
     Pillars of 4 blocks have only the border. If “always” meant only that mean times follow this
-    order whatever the scatter of the thresholds, the statement would be reproduced: at n_p = 6, 10
-    and 20 with scatters of 0.02 and 0.2, mean times follow this order on both rings.
+    order whatever the scatter of the thresholds, the statement would be reproduced: in 8 to 20
+    other runs each, at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2, mean times follow this
+    order on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -132,8 +133,9 @@ def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors lie in the two outermost rings of blocks, and less than half detach
     before all of their eight neighbours (isolated). Pillars of 4 to 10 blocks are left out, since
     most of their blocks are on the border or adjacent to it. On these, 0.82 and 0.68 of the
-    precursors are isolated at n_p = 4 and 5, 0.51 [0.49, 0.53] at n_p = 6, and 0.19 or fewer from
-    n_p = 7 on (95 %): with all sizes from 4 on, the statement would be reproduced in part.
+    precursors are isolated at n_p = 4 and 5, 0.51 [0.49, 0.53] at n_p = 6 (120 runs), and 0.19 or
+    fewer from n_p = 7 on (95 %): with all sizes from 4 on, the statement would be reproduced in
+    part.
     """
     for scene, runs in _broad(evidence.records).items():
         for what, quantity, claimed in (

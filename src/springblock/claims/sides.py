@@ -112,8 +112,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Test: on a side along x and on a side along y of the pillars, without corners, position
-    explains less than a fifth of the variance of t_det within the side. If three more blocks at
-    each end were left out, the statement would hold.
+    explains less than a fifth of the variance of t_det within the side. Without the three blocks at
+    each end the statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():

@@ -40,9 +40,8 @@ class Ensemble:
     scene: Scene
     seeds: range
     duration: float | None  #: s; None to end after the peak, see `simulate`
-    snapshot_times: tuple[
-        float, ...
-    ] = ()  #: s, of stored displacements, and fields of the first seed
+    #: s, of displacements stored for all seeds, and of fields for the first
+    snapshot_times: tuple[float, ...] = ()
 
     def batches(self, size: int) -> dict[int, range]:
         """Return the seeds of each batch, by number: batch i begins with seed i·size.
