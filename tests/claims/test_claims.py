@@ -30,6 +30,7 @@ from springblock.analysis.lowest import Lowest
 from springblock.claims import CLAIMS
 from springblock.claims.rule import Claim, Evidence, verdict
 from springblock.claims.stress import rank_correlation
+from springblock.claims.surfaces import from_edge
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
@@ -83,10 +84,10 @@ def patch(run: Record) -> dict[str, Any]:
     return {"t_det": t_det}
 
 
-def cornered(run: Record) -> dict[str, Any]:
-    """A corner of the surface detaches first."""
-    t_det = run.t_det.copy()
-    t_det[:5, :5] = 0.5 * run.t_max
+def lone(run: Record) -> dict[str, Any]:
+    """All precursors are apart from each other."""
+    t_det = np.maximum(run.t_det, 1.01 * run.t_max)
+    t_det[::3, ::3] = 0.9 * run.t_max
     return {"t_det": t_det}
 
 
@@ -136,7 +137,6 @@ CHANGES = [
     ("localized_stick_slip", [FLAT], all_again, REFUTED),
     ("residual_strains", [FLAT], with_strain(0, 1, 1, 0), PARTLY),
     ("residual_strains", [FLAT], with_strain(1, 1, 1, 0), REFUTED),
-    ("nucleation_anywhere", [FLAT], cornered, REFUTED),
     ("uniform", [FLAT], tilted, REFUTED),
     ("pillars_alike", PILLARS, tilted, REFUTED),
     ("small_pillars", PILLARS[:1], peaks((200.0, 0.78), width=40.0), REFUTED),
@@ -144,7 +144,8 @@ CHANGES = [
     ("order_of_stress", PILLARS, mirrored, REFUTED),
     ("always_in_order", PILLARS[1:2], mirrored, REFUTED),
     ("edges_before_peak", PILLARS, shifted(-200), REFUTED),
-    ("region_of_precursors", PILLARS, shifted(100), REFUTED),
+    ("region_of_precursors", PILLARS, shifted(100), PARTLY),
+    ("region_of_precursors", PILLARS, lone, REFUTED),
     ("nucleation_near_edge", PILLARS, mirrored, REFUTED),
     ("centre_last", PILLARS, mirrored, REFUTED),
     ("larger_events", PILLARS, turned, REFUTED),
@@ -255,6 +256,28 @@ def test_the_edges_of_a_pillar_are_its_two_outermost_rings():
     late_inside = moved(lambda run: np.where(inside, 1.1 * run.t_max, run.t_det))
     other = paper.evidence(paper.changed(records(), [large], late_inside))
     assert judge(BY_NAME["edges_before_peak"], other) == "reproduced"
+
+
+BY_CHANCE = 1.0 - (14 / 16) ** 2  # of the 16 x 16 positions of a patch, in the outermost row
+
+
+@pytest.mark.parametrize(
+    ("outermost", "inner", "expected"),
+    [(BY_CHANCE, 14, "reproduced"), (1.7 * BY_CHANCE, 14, REFUTED), (BY_CHANCE, 2, REFUTED)],
+)
+def test_fronts_begin_anywhere_if_neither_the_edge_nor_the_centre_is_preferred(
+    outermost, inner, expected, rng
+):
+    """Patches in the outermost row of positions, or among the `inner` x `inner` at the centre."""
+    runs, row = [], np.argwhere(from_edge(16) == 0)
+    for _ in range(2000):
+        centre = rng.integers(inner, size=2) + 8 - inner // 2
+        y, x = rng.choice(row) if rng.random() < outermost else centre
+        times = np.ones((20, 20))
+        times[y : y + 5, x : x + 5] = 0.5
+        runs.append(replace(records()[0], scene=Scene(20), t_det=times))
+    evidence = Evidence(records={Scene(20): runs})
+    assert judge(BY_NAME["nucleation_anywhere"], evidence) == expected
 
 
 @pytest.mark.parametrize(("share", "expected"), [(0.05, "reproduced"), (0.2, REFUTED)])

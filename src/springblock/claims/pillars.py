@@ -130,14 +130,10 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors lie in the two outermost rings of blocks, and less than half detach
-    before all of their eight neighbours (isolated). Pillars of 4 to 10 blocks are left out, since
-    most of their blocks are on the border or adjacent to it. On these, 0.82 and 0.68 of the
-    precursors are isolated at n_p = 4 and 5, 0.51 [0.49, 0.53] at n_p = 6 (120 runs), and 0.19 or
-    fewer from n_p = 7 on (95 %): with all sizes from 4 on, the statement would be reproduced in
-    part.
+    """Test: most precursors lie in the two outermost rings of blocks, to which up to n_p = 6 nearly
+    all blocks belong, and less than half detach before all of their eight neighbours (isolated).
     """
-    for scene, runs in _broad(evidence.records).items():
+    for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or adjacent to it", near_border, ranges.MOST),
             ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
