@@ -177,7 +177,11 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
     yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
     header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
-    header += ["friction-minimising size (µm)", "sizes (µm)", "fewest realisations"]
+    header += [
+        "friction-minimising size (µm)",
+        "sizes (µm)",
+        "realisations of the size with the fewest",
+    ]
     lines = []
     for at, sizes in surfaces.items():
         scatter = f"{at.scatter:g}" + (f", correlated over {at.length:g} µm" if at.length else "")
@@ -254,5 +258,6 @@ def _refined(compared: Comparisons, changed: Changes) -> str:
         f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items() if verb != usual
     ]
     if 2 * len(others) > len(found):  # no change is that of most
-        return ", ".join(f"{verb} ({compared[kind].words.lower()})" for kind, verb in found.items())
+        each = "; ".join(f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items())
+        return f"changes in a way that depends on the disorder ({each})"
     return f"{usual} (except with {'; '.join(others)})" if others else usual

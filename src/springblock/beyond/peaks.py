@@ -52,15 +52,18 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     contrasts = {key: _difference(angles[0.0], angles[90.0]) for key, angles in found.items()}
     more, less = _significant(list(contrasts.values()))
     along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
+    one_peak = [key for key in found if max(found[key][way].mean() for way in (0.0, 90.0)) < _TWO]
+    without, _ = _significant([contrasts[key] for key in one_peak])
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
     rank = "; on some of the others it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
-        f"than across them** on {more} of {len(found)} surfaces, and less prominent on "
-        f"{less or 'none'}. Of all {len(found)}, along the grooves, its prominence is largest with "
-        f"pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
+        f"than across them** on {more} of {len(found)} surfaces (on {without or 'none'} of these, "
+        f"both prominences are below {_TWO:g} %), and less prominent on {less or 'none'}. Of all "
+        f"{len(found)}, along the grooves, its prominence is largest with pawls of {most.n_p2} and "
+        f"grooves of {most.n_s2} blocks {place}, "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
         "further surfaces)."
     )
@@ -72,10 +75,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         yield (
             "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
             f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
-            f"and less prominent in {less or 'none'}. In the {len(two)} cases in which its "
-            f"prominence exceeds {_TWO:g} % on both, the differences are significant in "
-            f"{sum(_significant(two)) or 'none'}. The surfaces also differ in the "
-            "number of blocks in contact, with which fluctuations of the force decrease."
+            f"and less prominent in {less or 'none'}. Its prominence exceeds {_TWO:g} % on both in "
+            f"{len(two)} cases, in {sum(_significant(two)) or 'none'} of which the difference is "
+            "significant. The surfaces also differ in the number of blocks in contact, with which "
+            "fluctuations of the force decrease."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

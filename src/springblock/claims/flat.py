@@ -341,7 +341,7 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
         depth = surfaces.from_edge(flat.n_blocks - _PATCH + 1)
         row = float(np.mean(depth == 0))
         ranks = np.array([samples.first_patch(run.t_det, _PATCH) for run in runs])
-        edge = samples.proportion(ranks < row)
+        edge = samples.proportion((ranks < row).astype(float))
         everywhere, outermost = {"part": "all positions"}, {"part": "the outermost positions"}
         yield found_on(flat, rank, samples.mean(ranks), within(_SMALL, 0.5), case=everywhere)
         yield found_on(flat, outside, edge, within(_SMALL * row, row), case=outermost)

@@ -127,9 +127,10 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     which is a registered one, the statement would be reproduced. When sliding along the grooves of
     the second level, the prominence in the averaged force is 0.95 and 1.13 %.
     """
+    slid, grooves = "when sliding", "those of the second"
     for along, case in _third_levels(evidence):
-        yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, along the grooves")
-        statistic = f"{_LESSER}, across the grooves"
+        yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, {slid} along {grooves}")
+        statistic = f"{_LESSER}, {slid} across {grooves}"
         yield prominent(evidence, across(along), _ONE_PEAK, case, statistic)
 
 

@@ -109,24 +109,24 @@ def rate_between(peaks: Peaks) -> float:
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Test: the detachment rate between the peaks is below half of a mean rate. The paper does not
-    say what the phase is quieter than: cases are the rate in the quietest window of 0.05 t_avg and
-    that of the whole phase, each relative to the mean rate from the first detachment to the last
-    and to that of the transition (from a tenth to nine tenths of the detachments). While the force
-    exceeds 95 % of its maximum, the rate falls as low on surfaces without two peaks, too: in the
-    quietest 0.05 t_avg it is 0.08 and 0.21 of the mean over the transition on pillars of 58 and 30
-    blocks without grooves.
+    say what the phase is quieter than: cases are the lowest rate in a window of 0.05 t_avg and the
+    mean rate of the phase, each relative to the mean rate of all detachments (from the first to the
+    last) and to that of the transition (from a tenth to nine tenths of the detachments). While the
+    force exceeds 95 % of its maximum, the rate falls as low on surfaces without two peaks, too: the
+    lowest is 0.08 and 0.21 of the mean over the transition on pillars of 58 and 30 blocks without
+    grooves.
     """
-    name = "the detachment rate between the load peaks"
-    intervals: dict[str, Callable[[Peaks], float]] = {
-        "the quietest 0.05 t_avg": partial(quietest_rate, share=0.05),
-        "the whole phase": rate_between,
+    rates: dict[str, Callable[[Peaks], float]] = {
+        "lowest rate in 0.05 t_avg": partial(quietest_rate, share=0.05),
+        "mean rate": rate_between,
     }
-    means = {"of all detachments": mean_rate, "of the transition": main_rate}
-    for (part, rate), (span, mean), (scene, found) in product(
-        intervals.items(), means.items(), _grooved(evidence.records).items()
+    means = {"all detachments": mean_rate, "the transition": main_rate}
+    for (what, rate), (span, mean), (scene, found) in product(
+        rates.items(), means.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        case = {"interval": part, "mean": span, **surfaces.case_of(scene)}
+        name = f"the {what} of detachments between the load peaks, over the mean rate of {span}"
+        case = {"rate": what, "relative to": span, **surfaces.case_of(scene)}
         yield samples.found_on(scene, name, relative, ranges.FEWER_THAN_HALF, case=case)
 
 

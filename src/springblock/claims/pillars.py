@@ -107,7 +107,8 @@ def early_near_border(run: Record) -> float:
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max;
     or, as in the paper's figure, the mean time of every part of these rings is before t_max.
-    With a bound below 0.74 the statement would hold for single blocks for n_p of 7 and more.
+    At n_p = 4 these rings are the whole pillar. With a bound below 0.74 the statement would hold
+    for single blocks for n_p of 7 and more.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
@@ -157,7 +158,8 @@ def inside(run: Record) -> Array:
 def nucleation_near_edge(run: Record) -> float:
     """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach lies, on average, in the outer quarter of the area. The verdict is the same inside 1
-    to 4 rings and for patches of 2 to 5 blocks a side; on the flat surface about half of all
+    to 4 rings and for patches of 2 to 5 blocks a side. Nearly all first patches lie at the edge of
+    this area, for which the statistic has its smallest value; on the flat surface about half of all
     positions are nearer to the edge than the first patch.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
@@ -220,7 +222,9 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
         for name, quantity in quantities.items():
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
-            statistic = f"the difference in {name} from the flat surface, over that of the larger"
+            statistic = (
+                f"the difference in {name} from the flat surface, over that of larger pillars"
+            )
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
             yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
 
@@ -240,6 +244,9 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
+    """Test: on pillars with n_p >= 6, for which the paper finds precursors numerically relevant,
+    the force peak is wider than on the flat surface.
+    """
     return _above_flat(evidence, {_WIDTH: samples.width})
 
 
@@ -341,7 +348,7 @@ def _larger_there(
     scenes = _of_all_sizes(evidence)
     candidates = _lowest(evidence, scenes).alike if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in candidates)
-    there = f"{name} at n_p = {sizes} (lowest friction)"
+    there = f"{name} where static friction is lowest (n_p = {sizes})"
     others = scenes if every else scenes[:1] + scenes[-1:]
     for other in (scene for scene in others if candidates != [scene]):
         sample = over_runs(quantity, evidence.records[other])

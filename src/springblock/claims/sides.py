@@ -64,7 +64,7 @@ def _lengths(rows: Iterable[Row], name: str = "l_c", limits: str = "ci") -> dict
 
 def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
     """Test: c_x exceeds c_y at r = 3, and c_y has fallen below 1/e at r = 1, on sides of 20
-    blocks or more.
+    blocks or more; on shorter ones, r = 3 reaches the corners or the blocks beside them.
     """
     name = "c_x(r = 3) - c_y(r = 3) (sum of both intervals)"
     for scene, rows in pillars(evidence.correlation, _BROAD).items():
@@ -206,9 +206,9 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """Test: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
-    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. Of
-    these sides, 1, 2 and 6 % detach before t_max at n_p = 4, 5 and 6, and 94 % or more from n_p = 7
-    on; if only those before t_max are counted, as precursors, the verdict is the same.
+    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. Before
+    t_max, 1, 2 and 6 % of the sides detach at n_p = 4, 5 and 6, and 94 % or more from n_p = 7 on;
+    if only these are counted, as precursors, the verdict is the same.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):

@@ -6,6 +6,7 @@ elasticity and do not depend on the thresholds, so that their intervals have no 
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -59,11 +60,11 @@ def _along(evidence: Evidence, scene: Scene) -> Array:
 
 
 def edges_bear_more_across(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean stress on the edges of grooved pillars is larger when sliding across the
-    grooves; surfaces with grooves alone are not tested.
+    """Test: the mean stress on the edges of pawls is larger when sliding across the grooves, both
+    on surfaces with grooves alone and on grooved pillars.
     """
     name = f"the edge stress when sliding across the grooves minus that along them, {_OVER_MEAN}"
-    for along in slid_both_ways(evidence.stress):
+    for along in chain(*(slid_both_ways(evidence.stress, level) for level in (1, 2))):
         scenes, edges = (across(along), along), surfaces.edge(along.pattern.contact)
         more, less = (float(_modulus(evidence, s)[edges].mean()) for s in scenes)
         yield _exactly(name, more - less, ranges.POSITIVE, *scenes)
