@@ -122,8 +122,8 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     detached; chance forms about two. Between the smallest and the largest value of a parameter the
     number of fronts changes by more than a tenth of the number with the paper's constants. If
     fronts are counted when a tenth of the blocks have detached, where chance forms none, the change
-    is 0.58 (velocity), -0.98 (pressure) and -0.43 (scatter) of the number with the paper's
-    constants; for scatter the sign is then opposite to that in the test (0.32).
+    is 0.59 (velocity), -1.00 (pressure) and -0.44 (scatter) of the number with the paper's
+    constants; for scatter the sign is then opposite to that in the test (0.33).
     """
     for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):
         scenes = varied(evidence, name)
@@ -192,8 +192,8 @@ def weakest_first(run: Record) -> float:
 def not_all_nucleate(run: Record) -> float:
     """Test: of the blocks that detach before 0.9 t_max, between a tenth and nine tenths have no
     neighbour that detaches by t_max. The paper's precursors are all blocks that detach before
-    t_max, but the last of them have no time to trigger a front. Of all precursors, 0.263 [0.256,
-    0.269] have no such neighbour: the verdict is the same.
+    t_max, but the last of them have no time to trigger a front. Of all precursors, 0.263 [0.261,
+    0.266] have no such neighbour: the verdict is the same.
     """
     alone = np.all(~(samples.neighbours(run.t_det, np.inf) < run.t_max), axis=0)
     return share_of(alone, run.t_det < 0.9 * run.t_max)
@@ -248,7 +248,7 @@ def localized_stick_slip(run: Record) -> float:
     time as long as the transition, which lasts from a tenth to nine tenths of the first
     detachments. The number of slips is a mean over all intervals of this length in the rest of the
     run; the verdict is the same if only the first of them, or the first 2 to 50, are counted. If
-    the transition were to last from 5 to 95 % of the detachments, the number would be 0.117, and
+    the transition were to last from 5 to 95 % of the detachments, the number would be 0.118, and
     the statement would fail.
     """
     minimum = first_minimum(run.force)
@@ -309,9 +309,9 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
     """Test: in the core (here the blocks 10 or more from the edge), position explains less than a
     fifth of the variance of t_det; the outermost blocks detach early or late by less than a fifth
     of a standard deviation (a bound for small effects). The verdict is the same for the two
-    outermost rings. With a bound above 0.37 for the outermost blocks the statement would hold. As a
+    outermost rings. With a bound above 0.35 for the outermost blocks the statement would hold. As a
     general statement it would be reproduced in part. Over the whole surface, position explains
-    0.010 of the variance; with this measure alone the statement would hold.
+    0.009 of the variance; with this measure alone the statement would hold.
     """
     name = "the share of the variance of t_det explained by position (jackknife)"
     lateness, unit = "the mean t_det minus that of the core", "standard deviations of t_det"
@@ -329,9 +329,11 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """Test: on average, 30 to 70 % of all positions are nearer to the edge than the first patch of
     5 x 5 blocks to detach (50 % if all are equally likely), and this patch lies in the outermost
-    row of positions as often as by chance, within a fifth. The verdict is the same with a factor of
-    two instead of a fifth; with the first finding alone, which is insensitive to the 3 % of
-    positions in the outermost row, the statement would be reproduced, for patches of 1 to 17 blocks
+    row of positions as often as by chance (in 0.034 of the realisations), within a fifth. It lies
+    there 2.3 times as often; patches of 3, 9 and 17 blocks a side 2.0, 2.6 and 4.1 times, and the
+    first single block 1.4 times, not significantly more often than by chance. If a factor of two
+    were allowed, the case would be open. The first finding hardly depends on the outermost row, 3 %
+    of all positions; with it alone the statement would be reproduced, for patches of 1 to 17 blocks
     a side.
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"

@@ -127,11 +127,11 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     which is a registered one, the statement would be reproduced. When sliding along the grooves of
     the second level, the prominence in the averaged force is 0.95 and 1.13 %.
     """
-    slid, grooves = "when sliding", "those of the second"
     for along, case in _third_levels(evidence):
-        yield prominent(evidence, along, _TWO_PEAKS, case, f"{_LESSER}, {slid} along {grooves}")
-        statistic = f"{_LESSER}, {slid} across {grooves}"
-        yield prominent(evidence, across(along), _ONE_PEAK, case, statistic)
+        both = ("along", along, _TWO_PEAKS), ("across", across(along), _ONE_PEAK)
+        for way, scene, claimed in both:
+            statistic = f"{_LESSER}, when sliding {way} the grooves of the second level"
+            yield prominent(evidence, scene, claimed, case, statistic)
 
 
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:

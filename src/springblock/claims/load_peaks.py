@@ -117,15 +117,15 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     grooves.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
-        "lowest rate in 0.05 t_avg": partial(quietest_rate, share=0.05),
-        "mean rate": rate_between,
+        "lowest": partial(quietest_rate, share=0.05),
+        "mean": rate_between,
     }
     means = {"all detachments": mean_rate, "the transition": main_rate}
     for (what, rate), (span, mean), (scene, found) in product(
         rates.items(), means.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        name = f"the {what} of detachments between the load peaks, over the mean rate of {span}"
+        name = f"the {what} detachment rate between the load peaks, over the mean rate of {span}"
         case = {"rate": what, "relative to": span, **surfaces.case_of(scene)}
         yield samples.found_on(scene, name, relative, ranges.FEWER_THAN_HALF, case=case)
 

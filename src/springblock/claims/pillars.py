@@ -245,7 +245,7 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars with n_p >= 6, for which the paper finds precursors numerically relevant,
-    the force peak is wider than on the flat surface.
+    the force peak is wider than on the flat surface. So it is on pillars of 2 to 5 blocks.
     """
     return _above_flat(evidence, {_WIDTH: samples.width})
 

@@ -138,7 +138,7 @@ _PHRASES = {
     "side": "on {}",
     "sides": "on sides {}",
     "sliding": "sliding {}",
-    "rate": "for the {}",
+    "rate": "for the {} rate",
     "relative to": "relative to the mean rate of {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
