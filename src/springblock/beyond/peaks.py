@@ -54,14 +54,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
     one_peak = [key for key in found if max(found[key][way].mean() for way in (0.0, 90.0)) < _TWO]
     without, _ = _significant([contrasts[key] for key in one_peak])
+    small = f" (on {without} of these, both prominences are below {_TWO:g} %)" if without else ""
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
     rank = "; on some of the others it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
-        f"than across them** on {more} of {len(found)} surfaces (on {without or 'none'} of these, "
-        f"both prominences are below {_TWO:g} %), and less prominent on {less or 'none'}. Of all "
+        f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
+        f"{less or 'none'}. Of all "
         f"{len(found)}, along the grooves, its prominence is largest with pawls of {most.n_p2} and "
         f"grooves of {most.n_s2} blocks {place}, "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
