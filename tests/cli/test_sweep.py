@@ -43,6 +43,8 @@ def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock
     written = {file: file.stat().st_mtime_ns for file in folder.glob("realisations/**/*.parquet")}
     assert "springblock table" in swept(springblock, folder, "--seeds", 2)
     assert {file: file.stat().st_mtime_ns for file in written} == written
+    swept(springblock, folder, "--seeds", 6)
+    assert pq.read_table(folder / "realisations.parquet").num_rows == 24
 
 
 @pytest.mark.parametrize(

@@ -71,8 +71,9 @@ def test_colours_tell_when_a_block_has_detached(run):
     assert (image[~run.contact] == to_rgb(NO_CONTACT)).all()
 
 
-def test_what_is_still_to_come_is_not_seen_and_what_has_just_come_is_black(run):
-    before, now = np.nanpercentile(run.t_det, [30, 60])
+@pytest.mark.parametrize("shares", [(30, 60), (70, 90)])
+def test_what_is_still_to_come_is_not_seen_and_what_has_just_come_is_black(run, shares):
+    before, now = np.nanpercentile(run.t_det, shares)
     image = painted(run, until=now, since=before)
     recent = (run.t_det > before) & (run.t_det <= now)
     assert recent.any()

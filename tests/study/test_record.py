@@ -43,6 +43,14 @@ def test_all_configurations_of_a_folder_count():
         record.refuse_unknown(RESULTS, OTHER)
 
 
+def test_the_last_configuration_is_the_present_one():
+    for configuration in (OTHER, BEFORE):
+        record.begin(RESULTS, configuration, touched=False)
+        made = record.read(RESULTS)["made"]
+        assert made[-1]["configuration"] == configuration
+    assert len(made) == 2
+
+
 def test_batches_of_another_size_are_refused():
     with pytest.raises(ValueError, match=r"^realisations_per_job must remain 2, "):
         record.refuse_unknown(RESULTS, BEFORE | {"realisations_per_job": 3})
