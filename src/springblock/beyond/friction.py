@@ -81,7 +81,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     elif contact.low > size.high:
         words = "Static friction depends more on contact fraction than on the size of pillars"
     yield (
-        f"**{words}**: at the same contact fraction, it differs between sizes by up to "
+        f"**{words}** in the ranges simulated: at the same contact fraction, it differs between sizes by up to "
         f"{number(size)}; at the same size, between contact fractions by up to {number(contact)}."
     )
     header = ["n_s/n_p", "contact fraction (%)", "sizes n_p"]

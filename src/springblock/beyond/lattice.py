@@ -180,7 +180,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header += [
         "friction-minimising size (µm)",
         "sizes (µm)",
-        "realisations of the size with the fewest",
+        "fewest realisations of any size",
     ]
     lines = []
     for at, sizes in surfaces.items():

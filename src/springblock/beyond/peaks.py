@@ -54,17 +54,16 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
     one_peak = [key for key in found if max(found[key][way].mean() for way in (0.0, 90.0)) < _TWO]
     without, _ = _significant([contrasts[key] for key in one_peak])
-    small = f" (on {without} of these, both prominences are below {_TWO:g} %)" if without else ""
+    small = f" (on {without} of these, below {_TWO:g} % in both directions)" if without else ""
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
-    rank = "; on some of the others it is not significantly smaller" if alike[1:] else ""
+    rank = "; on some other surfaces it is not significantly less" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
-        f"{less or 'none'}. Of all "
-        f"{len(found)}, along the grooves, its prominence is largest with pawls of {most.n_p2} and "
-        f"grooves of {most.n_s2} blocks {place}, "
+        f"{less or 'none'}. When sliding along the grooves, it is most prominent with pawls of "
+        f"{most.n_p2} and grooves of {most.n_s2} blocks {place}, where it is "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
         "further surfaces)."
     )
@@ -74,12 +73,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
         yield (
-            "Hierarchy: when sliding along the same grooves, the lesser peak is significantly more "
-            f"prominent on pillars than over the whole surface in {more} of {len(pairs)} cases, "
-            f"and less prominent in {less or 'none'}. Its prominence exceeds {_TWO:g} % on both in "
-            f"{len(two)} cases, in {sum(_significant(two)) or 'none'} of which the difference is "
-            "significant. The surfaces also differ in the number of blocks in contact, with which "
-            "fluctuations of the force decrease."
+            "Hierarchy: of surfaces with the same grooves, along which they slide, those with pillars "
+            "have a significantly more prominent lesser peak than those without in "
+            f"{more} of {len(pairs)} cases, and a less prominent one in {less or 'none'}. In "
+            f"{len(two)} cases, its prominence exceeds {_TWO:g} % on both surfaces; in "
+            f"{sum(_significant(two)) or 'none'} of these is the difference significant. The surfaces "
+            "also differ in the number of blocks in contact; the more there are, the smaller are "
+            "fluctuations of the force."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []
