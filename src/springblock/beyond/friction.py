@@ -81,8 +81,9 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     elif contact.low > size.high:
         words = "Static friction depends more on contact fraction than on the size of pillars"
     yield (
-        f"**{words}** in the ranges simulated: at the same contact fraction, it differs between sizes by up to "
-        f"{number(size)}; at the same size, between contact fractions by up to {number(contact)}."
+        f"**{words}** in the ranges simulated: at the same contact fraction, it differs between "
+        f"sizes by up to {number(size)}; at the same size, between contact fractions by up to "
+        f"{number(contact)}."
     )
     header = ["n_s/n_p", "contact fraction (%)", "sizes n_p"]
     header += ["friction-minimising n_p", "lowest friction"]
