@@ -177,7 +177,7 @@ CHANGES = [
     ("grooved_order", [ALONG], mirrored, REFUTED),
     ("across_sticks_better", [BARE_ALONG], sticking(0.80), REFUTED),
     ("faster_along", [BARE_ACROSS], at_once, REFUTED),
-    ("number_of_fronts", [FEW[0], MANY[0]], at_once, REFUTED),
+    ("number_of_fronts", [FEW[0], MANY[0], FLAT], at_once, REFUTED),
     ("onset_in_any_case", MANY[1:2], shifted(9), REFUTED),
     ("damping", [FLAT], constant("gamma", 5e3), REFUTED),
     ("same_ratio", [STIFF], sticking(0.70), REFUTED),
