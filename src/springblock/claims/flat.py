@@ -122,7 +122,7 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     """Test: fronts are clusters of more than 20 detached blocks when half of all blocks have
     detached; chance forms about two. Among the simulated values of a parameter, the largest number
     of fronts exceeds the smallest by more than a tenth of the number with the paper's constants.
-    The number is not a monotonic function of the scatter: from 0.02 to 0.3 it changes by 0.32 of
+    The number is not a monotonic function of the scatter: from 0.02 to 0.3 it changes by 0.33 of
     the number with the paper's constants, and the sign of this change depends on how fronts are
     counted. The largest change does not: it is 0.49 or more for clusters of 10 to 100 blocks when
     10 to 60 % of all blocks have detached.
