@@ -111,6 +111,14 @@ def test_the_autocorrelation_is_gaussian_and_crosses_periodic_edges_only(periodi
         assert across.mean() == pytest.approx(np.exp(-1 / 16) if periodic else 0.0, abs=edge)
 
 
+def test_coefficients_correlated_over_the_whole_surface_scatter_from_seed_to_seed():
+    """By their standard deviation, within four standard errors of one independent area a seed."""
+    material, flat = replace(PAPER, correlation_length=1.2e-4), np.ones((12, 12), bool)
+    surfaces = [Surface.draw(flat, seed, material, periodic=True) for seed in range(400)]
+    z = (np.array([surface.mu_static for surface in surfaces]) - 1.0) / 0.1
+    assert np.mean(z**2) == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / 400))
+
+
 def test_a_rectangle_has_a_draw_for_each_block():
     mu_static, mu_dynamic = draw_friction((3, 5), 0)
     assert mu_static.shape == mu_dynamic.shape == (3, 5)
