@@ -1,5 +1,6 @@
 """The rule from intervals to verdicts, and what the table and the page make of it."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from springblock import Material, compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
 from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
 from springblock.claims import CLAIMS, register
-from springblock.claims.page import page
+from springblock.claims.page import _clearness, page
 from springblock.claims.rule import Claim, Evidence, Finding, boundary, verdict
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
@@ -287,3 +288,13 @@ def test_forces_before_any_slip_follow_from_elasticity(direction):
     prelude = compute_prelude(contact, direction=direction)
     computed = np.sqrt(prelude.peak[-1])
     np.testing.assert_allclose(modulus[contact], computed / computed.mean(), rtol=0.02)
+
+
+@pytest.mark.parametrize(
+    ("claimed", "margin"), [((1.0, math.inf), 5.0), ((-math.inf, 5.0), 3.0), ((1.0, 5.0), 3.0)]
+)
+def test_a_margin_is_in_units_of_the_arm_towards_the_limit(claimed, margin):
+    """The value 2 has the interval [1.8, 3]."""
+    row = {"value": 2.0, "together_low": 1.8, "together_high": 3.0}
+    row |= {"claimed_low": claimed[0], "claimed_high": claimed[1]}
+    assert _clearness(row)[0] == pytest.approx(margin)
