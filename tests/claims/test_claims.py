@@ -177,6 +177,7 @@ CHANGES = [
     ("grooved_order", [ALONG], mirrored, REFUTED),
     ("across_sticks_better", [BARE_ALONG], sticking(0.80), REFUTED),
     ("faster_along", [BARE_ACROSS], at_once, REFUTED),
+    ("number_of_fronts", [FEW[0], MANY[0]], at_once, "reproduced"),  # largest in between
     ("number_of_fronts", [FEW[0], MANY[0], FLAT], at_once, REFUTED),
     ("onset_in_any_case", MANY[1:2], shifted(9), REFUTED),
     ("damping", [FLAT], constant("gamma", 5e3), REFUTED),
@@ -263,11 +264,7 @@ BY_CHANCE = 1.0 - (10 / 20) ** 2  # of the blocks, less than 5 from the edge of 
 
 @pytest.mark.parametrize(
     ("near_edge", "inner", "expected"),
-    [
-        (BY_CHANCE, 10, "reproduced"),
-        (0.55, 10, REFUTED),
-        (0, 2, REFUTED),
-    ],
+    [(BY_CHANCE, 10, "reproduced"), (0.55, 10, REFUTED), (0, 2, REFUTED)],
 )
 def test_fronts_begin_anywhere_if_neither_the_edge_nor_the_centre_is_preferred(
     near_edge, inner, expected, rng

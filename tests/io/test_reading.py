@@ -44,8 +44,9 @@ def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_
     late, early = tmp_path / "batch-10.parquet", tmp_path / "batch-2.parquet"
     springblock(*BATCH, "--output", late)
     springblock(*BATCH[:-4], "--first-seed", 2, "--snapshot", TIMES[0], "--output", early)
-    found = [(run.seed, len(run.snapshots)) for run in read_records([late, early])]
+    found = [(run.seed, len(run.snapshots)) for run in read_records([late, early], snapshots=True)]
     assert found == [(2, 1), (9, 0), (10, 0)]
+    assert not any(len(run.snapshots) for run in read_records([late, early]))
     with pytest.raises(ValueError, match="both hold seed 9"):
         read_records([late, early, Path(str(late))])
 

@@ -177,11 +177,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
     yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
     header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
-    header += [
-        "friction-minimising size (µm)",
-        "sizes (µm)",
-        "fewest realisations of any size",
-    ]
+    header += ["friction-minimising size (µm)", "sizes (µm)", "fewest realisations of any size"]
     lines = []
     for at, sizes in surfaces.items():
         scatter = f"{at.scatter:g}" + (f", correlated over {at.length:g} µm" if at.length else "")

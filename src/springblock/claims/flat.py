@@ -30,7 +30,6 @@ _SMALL = 0.2  #: a small difference, in standard deviations (Cohen 1988)
 _PATCH = 5  #: side of the patch taken as a nucleation point, blocks
 _BURST = 0.02  #: window of the detachment rate over t_max
 _WINDOW = f"(window: {_BURST} t_max)"
-_OVER_USUAL = "over the number with the paper's constants"
 _BEFORE = "the share of blocks detached before t_max"
 
 _on_flat = partial(mean_over, surfaces.flat)
@@ -61,9 +60,9 @@ def step_suffices(evidence: Evidence) -> Iterator[Finding]:
 
 
 def shear_springs(evidence: Evidence) -> Iterator[Finding]:
-    """Test: K_s is within a tenth of the stiffness in shear, G l²/l_z, of the layer above a block
-    (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks moved with its
-    mid-plane; with this reading the statement would be reproduced.
+    """Test: K_s differs by less than a tenth from the stiffness in shear, G l²/l_z, of the layer
+    above a block (l: lattice spacing). The paper's K_s is that of half the layer, as if blocks
+    moved with its mid-plane; with this reading the statement would be reproduced.
     """
     if not evidence.records:
         return
@@ -119,27 +118,29 @@ def fronts(run: Run) -> float:
 
 
 def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
-    """Test: fronts are clusters of more than 20 detached blocks when half of all blocks have
-    detached; chance forms about two. Among the simulated values of a parameter, the largest number
-    of fronts exceeds the smallest by more than a tenth of the number with the paper's constants.
-    The number is not a monotonic function of the scatter: from 0.02 to 0.3 it changes by 0.33 of
-    the number with the paper's constants, and the sign of this change depends on how fronts are
-    counted. The largest change does not: it is 0.49 or more for clusters of 10 to 100 blocks when
-    10 to 60 % of all blocks have detached.
+    """Test: fronts are counted as clusters of more than 20 detached blocks at the time when half of
+    all blocks have detached; about two such clusters form by chance. Among the simulated values of
+    a parameter, the largest number of fronts exceeds the smallest by more than a tenth of the
+    number with the paper's constants. The number is not a monotonic function of the scatter: from
+    0.02 to 0.3 it changes by 0.33 of the number with the paper's constants, and the sign of this
+    change depends on how fronts are counted. The largest change exceeds the bound however they are
+    counted: it is 0.49 or more for clusters of 10 to 100 blocks when 10 to 60 % of all blocks have
+    detached.
     """
-    for flat, name in product(surfaces.flat(evidence.records), _DECISIVE):
-        usual = getattr(evidence.records[flat][0].material, name)
-        values = {scene: dict(scene.varied)[name] for scene in varied(evidence, name)}
-        if len(values) < 2:
-            continue
-        counts = {scene: over_runs(fronts, evidence.records[scene]) for scene in values}
-        counts[flat], values[flat] = over_runs(fronts, evidence.records[flat]), usual
-        fewest, *_, most = sorted(counts, key=lambda scene: float(counts[scene].mean()))
-        change = samples.relative(counts[most], counts[fewest], counts[flat])
-        span = f"from {name} = {values[fewest]:g} to {values[most]:g}"
-        statistic = f"the change in the number of fronts {span}, {_OVER_USUAL}"
-        source = in_files(*dict.fromkeys((fewest, most, flat)))
-        yield Finding({"constant": name}, statistic, change, (_AFFECTS, INF), source)
+    for flat, runs in surfaces.flat(evidence.records).items():
+        here = over_runs(fronts, runs)
+        for name in _DECISIVE:
+            others = varied(evidence, name)
+            if len(others) < 2:
+                continue
+            counts = {s: over_runs(fronts, evidence.records[s]) for s in others} | {flat: here}
+            fewest, *_, most = sorted(counts, key=lambda scene: float(np.mean(counts[scene])))
+            change = samples.relative(counts[most], counts[fewest], here)
+            low, high = (getattr(evidence.records[s][0].material, name) for s in (fewest, most))
+            span = f"from {name} = {low:g} to {high:g}, over the number with the paper's constants"
+            statistic = f"the change in the number of fronts {span}"
+            source = in_files(*dict.fromkeys((fewest, most, flat)))
+            yield Finding({"constant": name}, statistic, change, (_AFFECTS, INF), source)
 
 
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
@@ -163,8 +164,8 @@ def single_events(run: Run) -> float:
 
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors, which “are those occurring before t_max”, detach before all of their
-    eight neighbours; or, if events are counted, most clusters of precursors are a single block. Of
+    """Test: most precursors (“those occurring before t_max”) detach before all of their eight
+    neighbours; or, if events are counted, most clusters of precursors consist of a single block. Of
     the blocks that detach before 0.9 t_max, and of those before 0.99 t_max, most detach before
     their neighbours.
     """
@@ -191,7 +192,7 @@ def weakest_first(run: Record) -> float:
 
 
 @_on_flat(
-    "the share of blocks detached before 0.9 t_max without a neighbour detached by t_max",
+    "among the blocks detached before 0.9 t_max, the share without a neighbour detached by t_max",
     (1.0 - 0.9, 0.9),
 )
 def not_all_nucleate(run: Record) -> float:
@@ -237,8 +238,8 @@ def peaks_apart(run: Record) -> float:
 def average_is_propagation(run: Record) -> float:
     """Test: t_avg differs from the time of the largest detachment rate by less than half the
     duration of the transition, which is the time from a tenth to nine tenths of the detachments.
-    For comparison, t_max differs from t_avg by 0.77 of it. The verdict is the same for any bound
-    from 0.3 on, and for windows of 0.2 to 5 % of t_max.
+    For comparison, t_max differs from t_avg by 0.77 of it. With any bound from 0.3 on, the verdict
+    is the same for all windows of 0.2 to 5 % of t_max.
     """
     return (avalanche(run) - run.t_avg) / (samples.lasting(run) * run.t_max)
 
@@ -253,8 +254,8 @@ def localized_stick_slip(run: Record) -> float:
     time as long as the transition, which lasts from a tenth to nine tenths of the first
     detachments. The number of slips is a mean over all intervals of this length in the rest of the
     run; the verdict is the same if only the first of them, or the first 2 to 50, are counted. If
-    the transition were to last from 5 to 95 % of the detachments, the number would be 0.118, and
-    the statement would fail.
+    the transition were defined as lasting from 5 to 95 % of the detachments, the number would be
+    0.118, and the statement would fail.
     """
     minimum = first_minimum(run.force)
     if minimum is None:
@@ -280,9 +281,10 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
     """Test: the strain along the sliding direction varies less from block to block before t_max
     (snapshot at 100 µs) than at the force minimum (112 µs). When the force has reached its dynamic
     level (160 µs) and later (290 µs), less than a tenth of the strain at the minimum is left (slope
-    of the regression on it); or, if no strain is to remain, it varies less than half as much as at
-    the minimum. While the surface slides, new strains replace those at the minimum and vary more
-    than these did, so that the removal of all strains would fail with any bound up to 1.
+    of the regression of the later strain on that at the minimum); or, if no strain at all is to
+    remain, the strain varies less than half as much as at the minimum. While the surface slides,
+    new strains replace those at the minimum and vary more than these did, so that the removal of
+    all strains would fail with any bound up to 1.
     """
     for scene, all_runs in surfaces.flat(evidence.records).items():
         runs = [run for run in all_runs if len(run.snapshots)]
@@ -338,24 +340,23 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
 
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """Test: on average, 30 to 70 % of all positions are nearer to the edge than the first patch of
-    5 x 5 blocks to detach (50 % if all are equally likely), and the centre of this patch is less
-    than 10 blocks from the edge as often as by chance (in 0.306 of the realisations), within a
-    fifth. Nearer to the edge, patches do not show where a front began: a patch has its centre two
-    blocks or more from the edge, so that fronts that begin at the edge are counted further inside.
-    Less than 5 blocks from the edge are 0.145 of the centres, by chance 0.160; with this distance
-    the case would be open. The first finding is the same for patches of 1 to 17 blocks a side.
+    5 x 5 blocks to detach (50 % if all are equally likely), and the share of realisations in which
+    its centre is less than 10 blocks from the edge differs by less than a fifth from that by
+    chance, 0.306. With a distance of 5 blocks the share is 0.145, by chance 0.160, and the case
+    would be open. Shorter distances are not suitable: a patch has its centre two blocks or more
+    from the edge, so that fronts that begin at the edge are counted further inside. The outcome of
+    the first finding is the same for patches of 1 to 17 blocks a side.
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
     rank = f"the share of positions nearer to the edge than {first}"
+    near = "the share of realisations in which {} has its centre less than {} blocks from the edge"
     for flat, runs in surfaces.flat(evidence.records).items():
         margin = _margin(flat)
-        where = f"the centre of {first} less than {margin} blocks from the edge"
         ranks = np.array([samples.first_patch(run.t_det, _PATCH) for run in runs])
-        depth = surfaces.from_edge(flat.n_blocks - _PATCH + 1) + _PATCH // 2
-        near = (ranks < np.mean(depth < margin)).astype(float)
-        share = float(np.mean(surfaces.from_edge(flat.n_blocks) < margin))
-        parts = {"part": "all positions"}, {"part": "the blocks near the edge"}
-        yield found_on(flat, rank, samples.mean(ranks), within(_SMALL, 0.5), case=parts[0])
-        claimed = within(_SMALL * share, share)
-        name = f"the share of realisations with {where}"
-        yield found_on(flat, name, samples.proportion(near), claimed, case=parts[1])
+        case = {"part": "all positions"}
+        yield found_on(flat, rank, samples.mean(ranks), within(_SMALL, 0.5), case=case)
+        depth = surfaces.from_edge(flat.n_blocks - _PATCH + 1) + _PATCH // 2  # of the centres
+        found = samples.proportion((ranks < np.mean(depth < margin)).astype(float))
+        chance = float(np.mean(surfaces.from_edge(flat.n_blocks) < margin))
+        statistic, case = near.format(first, margin), {"part": "the blocks near the edge"}
+        yield found_on(flat, statistic, found, within(_SMALL * chance, chance), case=case)

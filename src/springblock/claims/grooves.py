@@ -119,13 +119,14 @@ def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
 
 
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean prominence of the lesser peak exceeds 1 % of the largest force when sliding
-    along the grooves of the second level, and is below 1 % when sliding across them. The failing
-    case is sliding across grooves of the second level but along those of the third, where the
-    paper's explanation leads one to expect a second peak; but its prominence is only 0.3 % in the
-    force averaged over runs, in which fluctuations of single runs cancel. Without this finding,
-    which is a registered one, the statement would be reproduced. When sliding along the grooves of
-    the second level, the prominence in the averaged force is 0.95 and 1.13 %.
+    """Test: on surfaces with three levels, the mean prominence of the lesser peak exceeds 1 % of
+    the largest force when sliding along the grooves of the second level, and is below 1 % when
+    sliding across them. The finding that fails is that for sliding across the grooves of the second
+    level but along those of the third, where the paper's explanation leads one to expect a second
+    peak; but its prominence is only 0.3 % in the force averaged over runs, in which fluctuations of
+    single runs cancel. Without this finding, which was registered, the statement would be
+    reproduced. When sliding along the grooves of the second level, the prominence in the averaged
+    force is 0.95 % with a third level across the second and 1.13 % with one along it.
     """
     for along, case in _third_levels(evidence):
         both = ("along", along, _TWO_PEAKS), ("across", across(along), _ONE_PEAK)
@@ -136,10 +137,11 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
 
 def peak_for_every_level(evidence: Evidence) -> Iterator[Finding]:
     """Test: with three levels, the mean prominence of the third most prominent peak exceeds 1 % of
-    the largest force. That of the second peak does, with 0.0163 (third level across the second) and
-    0.0219 (along it): if “multiple” meant two, the statement would be reproduced.
+    the largest force. That of the lesser peak, the second most prominent, does, with 1.63 % (third
+    level across the second) and 2.19 % (along it): if “multiple” meant two, the statement would be
+    reproduced.
     """
-    name = "the prominence of the third peak over the largest force"
+    name = "the prominence of the third most prominent peak over the largest force"
     for scene, case in _third_levels(evidence):
         yield prominent(evidence, scene, _TWO_PEAKS, case, name, rank=3)
 
@@ -149,10 +151,10 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     maximum for longer (smooth), and blocks detach in less time (rapid). Both times are divided by
     t_max; divided by t_avg, they give the same outcomes. Compared with plain pillars of 20 or 30
     blocks instead, the transition with pawls of 8 and 10 is both smoother and more rapid. Taken
-    separately, the transition is smooth at four of the five widths of pawls (the fifth is open),
-    and rapid at none.
+    separately, the transition is smoother with four of the five widths of pawls (the fifth is
+    open), and more rapid with none.
     """
-    smooth = ("the time above 95 % of the largest force", samples.width, ranges.POSITIVE)
+    smooth = ("the time with a force above 95 % of its maximum", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)
     for scene in slid_both_ways(evidence.records):
         plain = replace(scene, n_p2=0, n_s2=0)
@@ -164,9 +166,9 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
 def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
     are narrower than the pawls between them. If “narrow” meant half as wide as the pawls or less,
-    all cases of this study that meet this condition would fail. A further surface that meets it,
-    with pawls of 8 and grooves of 4, has six runs only; on these, friction is greater across the
-    grooves, by 0.0058 (standard error 0.0008).
+    all remaining cases would fail, and the statement would not be reproduced. One more surface
+    meets this condition (pawls of 8, grooves of 4), but with six runs it is no case; on these,
+    friction is greater across the grooves, by 0.0058 (standard error 0.0008).
     """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):
@@ -177,11 +179,11 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
-    quarters, which is longer along grooves than across between pawls of 4, the statement would be
-    reproduced in part. Most of the difference arises before t_max. After t_max (12 other runs of
-    each surface), the median difference in t_det between neighbours in the sliding direction is
-    smaller when sliding along the grooves than when sliding across them, on all these surfaces, as
-    expected behind faster fronts.
+    quarters, the statement would be reproduced in part: on pawls of 4, this time is longer along
+    the grooves than across them. Most of the difference in the time from a tenth to nine tenths
+    arises before t_max. After t_max (12 other runs of each surface), the median difference in t_det
+    between neighbours in the sliding direction is smaller when sliding along the grooves than when
+    sliding across them, on all these surfaces, as expected behind faster fronts.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

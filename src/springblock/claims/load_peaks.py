@@ -111,10 +111,10 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     """Test: the detachment rate between the peaks is below half of a mean rate. The paper does not
     say what the phase is quieter than: cases are the lowest rate in a window of 0.05 t_avg and the
     mean rate of the phase, each relative to the mean rate of all detachments (from the first to the
-    last) and to that of the transition (from a tenth to nine tenths of the detachments). While the
-    force exceeds 95 % of its maximum, the rate falls as low on surfaces without two peaks, too: the
-    lowest is 0.08 and 0.21 of the mean over the transition on pillars of 58 and 30 blocks without
-    grooves.
+    last) and to that of the transition (from a tenth to nine tenths of the detachments). On
+    surfaces without two peaks the rate falls even lower while the force exceeds 95 % of its
+    maximum: on pillars of 58 and 30 blocks without grooves, the lowest rate is 0.08 and 0.21 of the
+    mean rate of the transition.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
         "lowest": partial(quietest_rate, share=0.05),
@@ -178,10 +178,11 @@ def slips_again(peaks: Peaks) -> float:
     ranges.POSITIVE,
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
-    """Test: between the load peaks the surface bears more than if all blocks slid. After the
-    second peak the force falls below that of sliding blocks in every run. Only the force on the
-    whole surface is tested: in five runs on other seeds, when the core bears most, the edges bear
-    0.50 F_n per block, less than sliding blocks (`docs/mechanism.md`).
+    """Test: between the load peaks the surface bears more than if all blocks slid. After the second
+    peak the force falls below that of sliding blocks in every run. Only the force on the whole
+    surface is tested, not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n
+    per block when the core bears most, which is less than sliding blocks bear
+    (`docs/mechanism.md`).
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
@@ -196,9 +197,9 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Test: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the surface lost its stress, so that the
-    force fell to 0.6 F_n, the growth would exceed a tenth. Relative to the difference between
-    static friction and the mean mu_dynamic, the growth is 0.28 and 0.33 (pawls of 8 and 10), and at
-    most a tenth in only one run of 987.
+    force fell to that of sliding blocks, 0.6 of the normal force, the growth would exceed a tenth.
+    Relative to the difference between static friction and the mean mu_dynamic, the growth is 0.28
+    and 0.33 (pawls of 8 and 10), and at most a tenth in only one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())
@@ -206,14 +207,16 @@ def small_force_suffices(peaks: Peaks) -> float:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of the same n_p, among pawls with which most runs have two peaks, the widest
-    have a shorter time between the peaks than the narrowest. A time that depends on pillar length
-    alone would not show that the difference n_p - n_p2 matters. At n_p = 58, where this holds, the
-    two times differ by a twentieth. The paper does not say which of them is shorter: that they
-    differ holds at n_p = 58 and 118, with opposite signs, and is open at 115, so that this
-    statement would not be settled.
+    """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest than
+    with the narrowest of the pawls with which most runs have two peaks. A time that depends on
+    pillar length alone would not show that the difference n_p - n_p2 matters. At n_p = 58, where
+    this holds, the two times differ by a twentieth of their value. The paper does not say which of
+    them is shorter. A test that they merely differ would hold at n_p = 58 and 118, with opposite
+    signs, and be open at 115; the statement would then not be settled.
     """
-    name = "the time between the load peaks over t_avg, with pawls of {} minus with pawls of {}"
+    name = (
+        "the time between the load peaks over t_avg, with pawls of {} minus that with pawls of {}"
+    )
     found = twice_peaked(surfaces.grooved(evidence.records))
     by_length: dict[tuple[int, int, int], list[Scene]] = {}
     for scene in sorted(found, key=lambda scene: scene.n_p2):

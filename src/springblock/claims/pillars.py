@@ -86,8 +86,8 @@ def always_in_order(run: Record) -> float:
     """Test: corners, edges across and along the sliding direction and centre detach in this order,
     both on the border and on the second ring, on more than nine tenths of the individual pillars.
     Pillars of 4 blocks have only the border. If “always” meant only that mean times follow this
-    order whatever the scatter of the thresholds, the statement would be reproduced: in 8 to 20
-    other runs each, at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2, mean times follow this
+    order whatever the scatter of the thresholds, the statement would be reproduced: in other runs
+    at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2 (8 to 20 of each), mean times follow this
     order on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
@@ -105,10 +105,10 @@ def early_near_border(run: Record) -> float:
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max;
-    or, as in the paper's figure, the mean time of every part of these rings is before t_max.
-    At n_p = 4 these rings are the whole pillar. With a bound below 0.74 the statement would hold
-    for single blocks for n_p of 7 and more.
+    """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max; or,
+    as in the paper's figure, the mean time of every part of these rings is before t_max. At n_p = 4
+    these rings are the whole pillar. With a bound of 0.74 the statement would hold for single
+    blocks at n_p = 7 to 60.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
@@ -131,15 +131,16 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors lie in the two outermost rings of blocks, to which up to n_p = 6 nearly
-    all blocks belong, and less than half detach before all of their eight neighbours (isolated).
+    """Test: most precursors lie in the two outermost rings of blocks, and less than half of the
+    precursors are isolated: they detach before all of their eight neighbours. Up to n_p = 6, nearly
+    all blocks belong to these rings.
     """
     for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or adjacent to it", near_border, ranges.MOST),
             ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
         ):
-            name = f"the share of blocks detached before t_max that are {what}"
+            name = f"among the blocks detached before t_max, the share that are {what}"
             yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
 
 
@@ -151,7 +152,7 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of the positions inside the two outermost rings that lie further outwards than the "
+    "the share of the positions enclosed by the two outermost rings that lie further out than the "
     f"first {_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )
@@ -159,7 +160,7 @@ def nucleation_near_edge(run: Record) -> float:
     """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach lies, on average, in the outer quarter of the area. The verdict is the same inside 1
     to 4 rings and for patches of 2 to 5 blocks a side. Nearly all first patches lie at the edge of
-    this area, for which the statistic has its smallest value; on the flat surface about half of all
+    this area, where the statistic has its smallest value; on the flat surface about half of all
     positions are nearer to the edge than the first patch.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
@@ -204,11 +205,11 @@ def warning(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak are
-    nearer to those of the flat surface than to those of larger pillars. Each size of the larger
-    pillars is a case, since the paper does not say with which it compares; those of 20 blocks or
-    more are themselves nearer to the flat surface than those of 7 to 10. Static friction may
-    differ, as in the paper.
+    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak differ
+    from those of the flat surface by less than half as much, in magnitude, as those of larger
+    pillars do. Each size of the larger pillars is a case, since the paper does not say which of
+    them it means; those of 20 blocks or more are themselves nearer to the flat surface than those
+    of 7 to 10. Static friction may differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -223,7 +224,8 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
             statistic = (
-                f"the difference in {name} from the flat surface, over that of larger pillars"
+                f"the difference of {name} from that on the flat surface, over the same "
+                "difference of larger pillars"
             )
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
             yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
@@ -245,7 +247,7 @@ def many_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars with n_p >= 6, for which the paper finds precursors numerically relevant,
-    the force peak is wider than on the flat surface. So it is on pillars of 2 to 5 blocks.
+    the force peak is wider than on the flat surface. It is also wider on pillars of 2 to 5 blocks.
     """
     return _above_flat(evidence, {_WIDTH: samples.width})
 
@@ -302,15 +304,17 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
-    paper's scatter of the thresholds and with others, which change l_c. Candidates are all sizes
-    whose static friction may exceed the lowest by no more than the numerical bias, 0.001. With
-    other scatters only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the
-    error of so coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c).
-    One case holds, that of the paper's scatter with A exp(-r/l_c). With l_c fitted at n_p = 20 or
-    60 this case would be open (ratios up to 2.05 and 2.02), and the statement not reproduced. With
-    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
-    fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open; with l_c
-    fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    paper's scatter of the thresholds and with others, which change l_c. Candidates for the size of
+    lowest friction are all sizes whose static friction, within its error, exceeds the lowest by at
+    most 0.001, a bound of the numerical bias. With other scatters only n_p = 3, 6, 10, 20 and 30
+    were simulated; the intervals do not include the error of so coarse a choice. l_c is fitted at
+    n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that of the paper's scatter
+    with A exp(-r/l_c); if the statement were read as existential (“can”), it would be reproduced.
+    With l_c fitted at n_p = 20 or 60 this case would be open (ratios up to 2.05 and 2.02), and the
+    statement not reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of
+    30 blocks on which it is fitted. With l_c fitted at n_p = 20, the four cases of these scatters
+    would be open; with l_c fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A
+    exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -319,7 +323,7 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
         sizes = [scene.n_p for scene in _lowest(evidence, candidates).alike]
         fit = Correlation(side_times(runs, broad.pattern, surfaces.ALONG)).length()
         minimum = f"n_p = {' or '.join(map(str, sizes))}"
-        name = f"the size of lowest static friction, {minimum}, over l_c at n_p = {broad.n_p}"
+        name = f"the size of lowest static friction ({minimum}) over l_c at n_p = {broad.n_p}"
         for curve, fitted in ((ranges.PLAIN, fit.fitted), (ranges.SCALED, fit.tail)):
             value, low, high = map(float, fitted)
             case: Case = {_SCATTER: scatter, "fit": curve}
@@ -348,7 +352,7 @@ def _larger_there(
     scenes = _of_all_sizes(evidence)
     candidates = _lowest(evidence, scenes).alike if scenes else []
     sizes = " or ".join(str(scene.n_p) for scene in candidates)
-    there = f"{name} where static friction is lowest (n_p = {sizes})"
+    there = f"{name}, at the n_p of lowest static friction ({sizes})"
     others = scenes if every else scenes[:1] + scenes[-1:]
     for other in (scene for scene in others if candidates != [scene]):
         sample = over_runs(quantity, evidence.records[other])
@@ -359,22 +363,23 @@ def _larger_there(
             # which candidate it is decides, not the number of realisations
             joint = AnyOf.these(*found, replace(found[0], ci_high=ranges.INF))
         source = surfaces.in_files(*candidates, other)
-        statistic = f"{there} minus that at n_p = {other.n_p}"
+        statistic = f"{there}, minus that at n_p = {other.n_p}"
         yield Finding(surfaces.case_of(other), statistic, joint, ranges.POSITIVE, source)
 
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: there are more precursors where static friction is lowest than at every other pillar
-    size. Sizes whose static friction, within its error, is no more than the numerical bias, 0.001,
-    above the lowest are all candidates for the size of lowest friction. The difference is computed
-    with each candidate in turn, and the interval covers all results. Where the outcome depends on
-    which candidate has the lowest friction, it has no upper limit: more realisations with the same
-    step would not decide the case. With the default step, static friction at n_p = 6 is lower than
-    at 7 by 0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7
-    (300 realisations each; 100 also with a step of 5e-9 s); without this bias the difference, from
-    unrounded values, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take more than ten
-    thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the statement fails, if
-    at 7 it holds.
+    """Test: there are more precursors where static friction is lowest than at any other pillar
+    size. Candidates for the size of lowest friction are all sizes whose static friction, within its
+    error, exceeds the lowest by at most 0.001, a bound of the numerical bias. The difference is
+    computed with each candidate in turn, except with the size itself, and the interval covers all
+    results. It has no upper limit where the outcome depends on which candidate has the lowest
+    friction, and in the cases of the candidates themselves: more realisations with the same step
+    would not decide these cases. With the default step, static friction at n_p = 6 is lower than at
+    7 by 0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
+    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
+    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
+    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
+    lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
@@ -382,17 +387,17 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: the width of the force peak, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
-    friction are all whose static friction may exceed the lowest by no more than the numerical bias,
-    0.001.
+    friction are all sizes whose static friction, within its error, exceeds the lowest by at most
+    0.001, a bound of the numerical bias.
     """
-    return _larger_there(evidence, f"{_SUPPORTED}, over t_avg,", _over_t_avg(samples.width))
+    return _larger_there(evidence, f"{_SUPPORTED}, over t_avg", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """Test: the duration of the transition, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
-    friction are all whose static friction may exceed the lowest by no more than the numerical bias,
-    0.001.
+    friction are all sizes whose static friction, within its error, exceeds the lowest by at most
+    0.001, a bound of the numerical bias.
     """
-    name = "the time from a tenth to nine tenths of the detachments, over t_avg,"
+    name = "the time from a tenth to nine tenths of the detachments, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

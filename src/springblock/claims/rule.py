@@ -137,13 +137,13 @@ _PHRASES = {
     "surface": "on {}",
     "side": "on {}",
     "sides": "on sides {}",
-    "sliding": "sliding {}",
+    "sliding": "when sliding {}",
     "rate": "for the {} rate",
     "relative to": "relative to the mean rate of {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
-    "fit": "for the fit of {}",
+    "fit": "with the fit of {}",
     "third level": "with third-level {}",
 }
 

@@ -100,7 +100,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
     event; corners are left out. Chance is the mean number on sides whose blocks come from different
     realisations.
     """
-    name = "the size of an event in excess of chance, on sides along x minus along y"
+    name = "the size of an event in excess of chance, on sides along x minus that on sides along y"
     for scene in pillars(evidence.records):
         excess = []
         for side in "xy":
@@ -186,10 +186,10 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p =
     20. The fits weight each r by its error; with equal weights, l_c of exp(-r/l_c) would still
-    decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks, on
-    which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were compared with
-    n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted to r = 3 only), the statement
-    would be reproduced.
+    decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks or
+    fewer, on which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were
+    compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted to r = 3 only),
+    the statement would be reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
@@ -206,9 +206,9 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """Test: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
-    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. Before
-    t_max, 1, 2 and 6 % of the sides detach at n_p = 4, 5 and 6, and 94 % or more from n_p = 7 on;
-    if only these are counted, as precursors, the verdict is the same.
+    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. The
+    share of sides that detach before t_max is 1, 2 and 6 % at n_p = 4, 5 and 6, and 94 % or more
+    from n_p = 7 on; if only such sides are counted, as precursors, the verdict is the same.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):

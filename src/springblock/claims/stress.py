@@ -141,7 +141,8 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """Test: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. The largest stress, however, is smaller with grooves than without on all these pillars.
+    grooves. It is larger on all these pillars; the largest stress, which is not tested, is smaller
+    with grooves than without.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):

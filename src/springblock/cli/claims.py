@@ -57,7 +57,7 @@ def claims(
     tested.
     """
     refuse_mixture((file, load(file)) for file in (batches[0], *correlation, *correlation_length))
-    found = by_scene(read_records(batches))
+    found = by_scene(read_records(batches, snapshots=True))
     records = {scene: runs for scene, runs in found.items() if len(runs) >= ENOUGH}
     evidence = Evidence(
         records=records,

@@ -49,12 +49,15 @@ def read(path: str | Path) -> list[Record]:
     ValueError
         If the file is damaged, or lacks a column of such tables.
     """
-    return read_records([Path(path)])
+    return read_records([Path(path)], snapshots=True)
 
 
-def read_records(paths: Iterable[Path]) -> list[Record]:
-    """Read stored realisations in ascending order of seeds."""
-    table = read_tables(paths, BATCH, SNAPSHOTS)
+def read_records(paths: Iterable[Path], snapshots: bool = False) -> list[Record]:
+    """Read stored realisations in ascending order of seeds.
+
+    Their snapshots, each as large as a realisation, are read on request only.
+    """
+    table = read_tables(paths, BATCH, *([SNAPSHOTS] if snapshots else []))
     records = [_record(table.slice(i, 1)) for i in range(table.num_rows)]
     return sorted(records, key=lambda record: record.seed)
 
