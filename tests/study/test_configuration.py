@@ -69,6 +69,14 @@ def test_a_constant_may_be_an_axis_of_a_grid():
     assert Scene(9, varied={"slider_velocity": 1e-3, "gamma": 0, "step": 1e-8}) in scenes
 
 
+def test_a_constant_that_the_study_changes_is_named_where_it_is_the_papers():
+    faster = changed("material.slider_velocity", to=1e-3)
+    axis = {"slider_velocity": [5e-4, 1e-3]}
+    faster["scenes"] = {"own": {"n_blocks": [9], "material": axis, "direction": ["x"], "seeds": 1}}
+    found = [e.scene for e in ensembles(faster)["own"]]
+    assert found == [Scene(9, varied={"slider_velocity": 5e-4}), Scene(9)]
+
+
 def test_a_law_may_be_an_axis_with_its_constant():
     axes = {"law": ["slip_weakening"], "slip_distance": [1e-8, 1e-7]}
     grid = {"n_blocks": [9], "material": axes, "direction": ["x"], "seeds": 1}

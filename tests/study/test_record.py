@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from springblock.study import record
+from springblock.study import audit, record
 
 RESULTS = Path("results")
 BEFORE = {"step": 2e-8, "realisations_per_job": 2}
@@ -49,6 +49,13 @@ def test_the_last_configuration_is_the_present_one():
         made = record.read(RESULTS)["made"]
         assert made[-1]["configuration"] == configuration
     assert len(made) == 2
+
+
+def test_files_are_checked_with_the_constants_of_the_last_configuration():
+    constants = {"integrator": "leapfrog", "sample_interval": 2e-7, "material": {}}
+    for configuration in (BEFORE, OTHER):
+        record.begin(RESULTS, configuration | constants, touched=False)
+        assert audit._constants(RESULTS)["step"] == configuration["step"]
 
 
 def test_batches_of_another_size_are_refused():
