@@ -21,6 +21,7 @@ SURFACES = {
     "grooved": GROOVED.contact,
     "oblong": GROOVED.contact[:20],
     "one row": np.array([[True, False, True]]),
+    "one pillar in a corner": np.pad(np.ones((6, 5), bool), ((50, 4), (4, 51))),
 }
 
 
@@ -131,6 +132,7 @@ def test_blocks_are_those_of_the_mask(name):
     left, right, bottom, top = (round(edge + 0.5) for edge in (left, right, bottom, top))
     np.testing.assert_array_equal(detail.images[0].get_array(), contact[bottom:top, left:right])
     assert contact[bottom:top, left:right].any()
+    assert (top - bottom, right - left) == tuple(np.minimum(contact.shape, 24))
 
 
 @pytest.mark.parametrize(

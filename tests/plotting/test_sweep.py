@@ -89,8 +89,8 @@ def test_points_are_means_and_bars_t_intervals(two_lines):
 
 def test_distances_grow_with_pillars():
     made = [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, n_p), 0.7)]
-    made += [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, 2 * n_p), 0.7)]
-    assert list(lines(made, "n_p")) == ["$n_{s}$/$n_{p}$ = 1", "$n_{s}$/$n_{p}$ = 2"]
+    made += [row for n_p in (6, 10, 20) for row in rows(Scene(120, n_p, 3 * n_p // 2), 0.7)]
+    assert list(lines(made, "n_p")) == ["$n_{s}$/$n_{p}$ = 1", "$n_{s}$/$n_{p}$ = 1.5"]
 
 
 def test_a_panel_for_each_observable(two_lines):
