@@ -230,6 +230,10 @@ def test_a_film_is_told_in_words(tmp_path):
     said = media.in_words(run)
     assert said.startswith("N = 12, sliding direction x. Pillars n_p/n_s = 3/3 (seed 4). 36 blocks")
     assert f"The force is largest at {1e6 * run.t_max:.1f} µs" in said
+    early = np.where(np.arange(144).reshape(12, 12) % 7 == 0, 0.0, np.nan)  # a few, and no others
+    few = np.where(run.contact, early, np.nan)
+    share = 100.0 * np.isfinite(few).sum() / 36
+    assert media.in_words(replace(run, t_det=few)).endswith(f"when {share:.1f} % have detached.")
     still = replace(run, t_det=np.full_like(run.t_det, np.nan))  # ends before a block detaches
     assert media.in_words(still).endswith("None of them detaches.")
 

@@ -24,7 +24,7 @@ rule claims:
     benchmark:
         f"{RESULTS}/benchmarks/claims.tsv"
     resources:
-        mem_mb=4000,
+        mem_mb=6000,
         runtime=10,
     params:
         code=code("claims"),
@@ -51,7 +51,7 @@ use rule accuracy as beyond with:
     benchmark:
         f"{RESULTS}/benchmarks/beyond.tsv"
     resources:
-        mem_mb=4000,
+        mem_mb=5000,
         runtime=10,
     params:
         code=code("beyond"),

@@ -21,7 +21,7 @@ rule correlation:
     group:
         "correlations"
     resources:
-        mem_mb=1200,
+        mem_mb=2000,
         runtime=5,
     params:
         code=code("analyse"),

@@ -17,7 +17,7 @@ for figure in [*FIGURES, *SWEEPS]:
         group:
             "figures"
         resources:
-            mem_mb=1200,
+            mem_mb=3000,
             runtime=5,
         params:
             code=code("plot"),
