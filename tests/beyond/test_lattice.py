@@ -142,3 +142,8 @@ def test_the_best_sizes_are_compared_among_those_on_all_lattices():
     }
     *_, size, _ = answers(some)
     assert f"Same scatter on every lattice: {UNCHANGED} (120 µm at l = 10 µm, 120 µm at" in size
+
+
+def test_decay_lengths_are_those_on_the_largest_pillars():
+    conclusion = next(answers(lattices(eighty, lambda *_: 40.0, runs=10)))
+    assert "the decay length on pillars of 240 µm, in µm, " in conclusion
