@@ -10,6 +10,8 @@ from springblock.beyond.question import UNCHANGED, direction, number
 def test_numbers_are_written_to_what_the_interval_leaves():
     assert number(Interval(*map(np.array, (0.12345, 0.1, 0.2)))) == "0.12 [0.10, 0.20]"
     assert number(Interval(*map(np.array, (123.4, 110.0, 150.0))), " µm") == "123 [110, 150] µm"
+    assert number(Interval(*map(np.array, (-0.064, -0.13, 0.002)))) == "-0.064 [-0.130, 0.002]"
+    assert number(Interval(*map(np.array, (0.5, 0.0, 1.0)))) == "0.5 [0.0, 1.0]"
     assert number(Interval(*map(np.array, (0.5, 0.5, 0.5))), " µm") == "0.5 µm"
 
 

@@ -139,8 +139,9 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
         found[f"share of precursors {where} (%)"] = possible
         if broad in sizes:
-            more = f"on pillars of {broad:g} µm minus that {where}"
-            found[f"static friction {more}"] = difference_interval(force[broad], force[best])
+            sizes_compared = f"between pillars of {broad:g} µm and of {best:g} µm"
+            apart = difference_interval(force[broad], force[best])
+            found[f"difference in static friction {sizes_compared}"] = apart
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
@@ -168,13 +169,15 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         for each in quantities
     }
     moves = _moves(compared)
-    yield _conclusion(compared, changed, moves, larger[-1])
+    yield _conclusion(compared, changed, moves)
     cells = [
         [name, *(by[kind][1] if kind in by else "" for kind in compared)]
         for name, by in changed.items()
     ]
     yield markdown_table(["change of", *(each.words for each in compared.values())], cells)
-    bullets = (f"- {compared[kind].words}: {words}." for kind, (_, words) in moves.items())
+    bullets = (
+        f"- {compared[kind].words}: {verb}, {places}." for kind, (verb, places) in moves.items()
+    )
     yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
     header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
     header += ["friction-minimising size (µm)", "sizes (µm)", "fewest realisations of any size"]
@@ -208,7 +211,10 @@ def changes(compared: Comparisons, values: Mapping[Lattice, Interval]) -> Change
 
 
 def _moves(compared: Comparisons) -> Changes:
-    """Return how the friction-minimising size changes for l <= l_z, among sizes common to all."""
+    """Return whether the friction-minimising size changes for l <= l_z, and its values.
+
+    Sizes compared are those common to all surfaces of a comparison.
+    """
     changed = {}
     for kind, each in compared.items():
         fine = {at: sizes for at, sizes in each.fine.items() if len(sizes) >= _SIZES}
@@ -219,41 +225,37 @@ def _moves(compared: Comparisons) -> Changes:
             }
             verb = "changes" if are_apart(best.values()) else UNCHANGED
             axis = "l" if each.axis == "spacing" else "l_z"
-            places = (
+            places = [
                 f"{size} µm at {axis} = {getattr(at, each.axis):g} µm" for at, size in best.items()
-            )
+            ]
             among = listed([f"{size:g}" for size in common])
-            changed[kind] = verb, f"{verb} ({', '.join(places)}; sizes compared: {among} µm)"
+            changed[kind] = verb, f"{listed(places)} (sizes compared: {among} µm)"
     return changed
 
 
-def _conclusion(
-    compared: Comparisons, changed: Mapping[str, Changes], moves: Changes, broad: float
-) -> str:
-    """Write how the friction-minimising size, friction and a decay length change."""
-    length = f"decay length on pillars of {broad:g} µm"
-    values = [
-        f"{name} {_refined(compared, by)}"
-        for name, by in changed.items()
-        if name.startswith("static friction")
-    ]
-    if by := changed.get(f"{length} (µm)"):
-        values.append(f"the {length}, in µm, {_refined(compared, by)}")
-    _, thicker = moves.get("layer", ("", "is not compared"))
+def _conclusion(compared: Comparisons, changed: Mapping[str, Changes], moves: Changes) -> str:
+    """Write how the friction-minimising size, friction and the decay length in µm change."""
+    thicker, places = moves.get("layer", ("is not compared", ""))
+    (friction,) = (name for name in changed if name.startswith("static friction"))
+    values = [f"{friction} {_refined(compared, changed[friction])}"]
+    lengths = [name for name in changed if name.startswith("decay") and name.endswith("(µm)")]
+    for name in lengths[-1:]:
+        what = name.removesuffix(" (µm)")
+        values.append(f"the {what}, in µm, {_refined(compared, changed[name])}")
     return (
-        f"**On thicker layers, the friction-minimising size** {thicker}. **On finer lattices** "
-        f"with l <= l_z, it {_refined(compared, moves)}; {'; '.join(values)}."
+        f"**On thicker layers, the friction-minimising size {thicker}; on finer lattices, with "
+        f"l <= l_z, it {_refined(compared, moves)}.** "
+        + (f"It is {places}. " if places else "")
+        + f"On finer lattices, {'; '.join(values)}."
     )
 
 
 def _refined(compared: Comparisons, changed: Changes) -> str:
-    """Write the change by most refinements of the lattice, and those by the others."""
-    found = {kind: verb for kind, (verb, _) in changed.items() if kind != "layer"}
-    usual = mode(found.values()) if found else "is not compared"
-    others = [
-        f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items() if verb != usual
-    ]
-    if 2 * len(others) > len(found):  # no change is that of most
-        each = "; ".join(f"{compared[kind].words.lower()}: {verb}" for kind, verb in found.items())
-        return f"changes in a way that depends on the disorder ({each})"
-    return f"{usual} (except with {'; '.join(others)})" if others else usual
+    """Write the change on finer lattices, by disorder where it depends on it."""
+    kinds: dict[str, list[str]] = {}
+    for kind, (verb, _) in changed.items():
+        if kind != "layer":
+            kinds.setdefault(verb, []).append(compared[kind].words.lower())
+    if len(kinds) < 2:
+        return next(iter(kinds), "is not compared")
+    return listed([f"{verb} ({listed(each)})" for verb, each in kinds.items()])

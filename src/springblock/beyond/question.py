@@ -74,13 +74,18 @@ def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | N
 
 
 def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
-    """Write a value with its 95 % interval, to two digits of its width."""
+    """Write a value with its 95 % interval, to two digits of its width.
+
+    To more if the sign of a limit would otherwise be lost.
+    """
     value, low, high = (factor * float(each) for each in interval)
     if high == low:  # exact
         return f"{value:.4g}{unit}"
     if not np.isfinite([low, high]).all():
         return f"{value:.3g} [no interval]{unit}"
     digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
+    while digits < _DIGITS and any(limit and not round(limit, digits) for limit in (low, high)):
+        digits += 1
     return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 

@@ -295,7 +295,7 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
         minimum = int(np.abs(times - np.mean(minima)).argmin())
         left, scatter = np.array([strain_left(run, minimum) for run in runs]).transpose(1, 2, 0)
         before, after = times < min(run.t_max for run in runs), times > times[minimum]
-        amount = "the scatter of the strain at {:.3g} µs, over that at the force minimum"
+        amount = "the standard deviation of the strain at {:.3g} µs, over that at the force minimum"
         share = "the share of the strain at the force minimum that is left at {:.3g} µs"
         for part, statistic, values, claimed, when in (
             ("the appearance of residual strains", amount, scatter, (-INF, 1.0), before),

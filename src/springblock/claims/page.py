@@ -133,9 +133,8 @@ def _clearness(row: Row) -> tuple[float, float]:
 
 def _in_words(row: Row, part: Sequence[Row]) -> str:
     """Write a finding as a sentence, with the keys of its case that distinguish it."""
-    common = set.intersection(*(set(other["case"].split(", ")) for other in part))
-    where = [key.split(" = ", 1) for key in row["case"].split(", ") if key not in common]
-    statistic = row["statistic"]
+    statistic, all_keys = row["statistic"], [_keys(other) for other in part]
+    where = [key for key in _keys(row) if not all(key in keys for keys in all_keys)]
     new = [pair for pair in where if not _says(statistic, *pair)]
     subject = f"{' '.join(phrase(*pair) for pair in new)}, {statistic}" if new else statistic
     return f"{capitalised(subject)}{',' if ',' in statistic else ''} is {_value(row)}"
@@ -189,7 +188,13 @@ def _opened(part: Sequence[Row]) -> list[str]:
 def _cells(row: Row) -> list[str]:
     needed = f": {_needed(row)}" if row["outcome"] == "open" else ""
     outcome = f"{row['outcome']}{needed}"
-    return [row["case"], row["statistic"], _value(row), _range(row), outcome]
+    case = " ".join(phrase(*key) for key in _keys(row))
+    return [case, row["statistic"], _value(row), _range(row), outcome]
+
+
+def _keys(row: Row) -> list[list[str]]:
+    """Return the keys and values of a case."""
+    return [key.split(" = ", 1) for key in row["case"].split(", ") if key]
 
 
 def _value(row: Row) -> str:

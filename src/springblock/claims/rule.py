@@ -139,7 +139,7 @@ _PHRASES = {
     "sides": "on sides {}",
     "sliding": "when sliding {}",
     "rate": "for the {} rate",
-    "relative to": "relative to the mean rate of {}",
+    "relative to": "relative to {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",
