@@ -217,7 +217,7 @@ def test_the_table_has_a_row_for_each_finding_and_one_for_what_is_missing():
         (SOME, "**Reproduced** (general statement). A difference is 1.5 [1, 2] s (claimed: > 0)."),
         (SOME, "**Not tested** (universal statement). Missing: surfaces with 20 realisations "),
         ([growing([(-1.0, 2.0)], n=1000)], "about 26000 realisations would settle it"),
-        ([growing([HOLDS] * 5)], "| n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
+        ([growing([HOLDS] * 5)], "| at n_p = 4 | 1.5 [0.843, 2.16] s | > 0 | holds |"),
         (
             [growing([HOLDS, FAILS, (-9.0, -8.0)])],  # the clearest failure
             "It holds at n_p = 0; it fails at n_p = 1 and 2. At n_p = 2, a difference is -8.5 [",

@@ -243,10 +243,10 @@ def _conclusion(compared: Comparisons, changed: Mapping[str, Changes], moves: Ch
         what = name.removesuffix(" (µm)")
         values.append(f"the {what}, in µm, {_refined(compared, changed[name])}")
     return (
-        f"**On thicker layers, the friction-minimising size {thicker}; on finer lattices, with "
-        f"l <= l_z, it {_refined(compared, moves)}.** "
-        + (f"It is {places}. " if places else "")
-        + f"On finer lattices, {'; '.join(values)}."
+        f"**On thicker layers, the friction-minimising size {thicker}**"
+        + (f": it is {places}" if places else "")
+        + f". **On finer lattices, with l <= l_z, it {_refined(compared, moves)}.** There, "
+        f"{'; '.join(values)}."
     )
 
 
@@ -258,4 +258,4 @@ def _refined(compared: Comparisons, changed: Changes) -> str:
             kinds.setdefault(verb, []).append(compared[kind].words.lower())
     if len(kinds) < 2:
         return next(iter(kinds), "is not compared")
-    return listed([f"{verb} ({listed(each)})" for verb, each in kinds.items()])
+    return ", ".join(f"{verb} ({listed(each)})" for verb, each in kinds.items())

@@ -146,9 +146,8 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
 def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     """Test: less than a tenth of the blocks detach before t_max. Blocks also detach without a
     front, where their own threshold is below the mean load: at t_max this holds for 0.05 of all
-    blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3 (0.026 and
-    0.095 of all blocks have mu_s < mu_d). Without these, the shares would be 0.09, 0.09 and 0.11,
-    so that only the largest scatter would fail.
+    blocks at the largest velocity, and for 0.14 and 0.25 with scatters of 0.2 and 0.3. Without
+    these, the shares would be 0.09, 0.09 and 0.11, so that only the largest scatter would fail.
     """
     for name in _DECISIVE:
         for scene in varied(evidence, name):

@@ -166,9 +166,9 @@ def external_bear_more(evidence: Evidence) -> Iterator[Finding]:
 
 
 def equal_parts(evidence: Evidence) -> Iterator[Finding]:
-    """Test: four to six tenths of the contact blocks are beside a block without contact. The
-    verdict is the same for an edge two blocks wide, which is half of the surface with pawls of 8
-    and of 10.
+    """Test: four to six tenths of the contact blocks are beside a block without contact. With edges
+    two blocks wide it would hold only with pawls of 8 and 10 blocks, and the verdict would be the
+    same.
     """
     name = "the share of the contact blocks that belong to the edge"
     for scene in slid_both_ways(evidence.stress):
