@@ -35,7 +35,7 @@ def test_the_page_counts_surfaces_with_more_along_than_across(monkeypatch):
     assert (
         "pawls of 4 and grooves of 2 blocks over the whole surface, where it is 94.99" in conclusion
     )
-    assert "than those without in 0 of 1 cases, and a less prominent one in 1. In 0 " in hierarchy
+    assert "than the one without in 0 of 1 pairs, and a less prominent one in 1. In 0 " in hierarchy
     assert "1 % on both surfaces; in none of these is the difference significant." in hierarchy
     assert len(table.splitlines()) == 4
     monkeypatch.setattr(peaks, "_TWO", 97.0)

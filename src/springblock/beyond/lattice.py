@@ -139,9 +139,8 @@ def measures(sizes: Sizes, best: float, middle: float, broad: float) -> dict[str
         possible = Interval(*np.clip(mean_interval(shares), 0.0, 100.0))
         found[f"share of precursors {where} (%)"] = possible
         if broad in sizes:
-            sizes_compared = f"between pillars of {broad:g} µm and of {best:g} µm"
-            apart = difference_interval(force[broad], force[best])
-            found[f"difference in static friction {sizes_compared}"] = apart
+            more = f"on pillars of {broad:g} µm minus that {where}"
+            found[f"static friction {more}"] = difference_interval(force[broad], force[best])
     for size in (middle, broad):
         if size in sizes and (blocks := side_length(sizes[size])):
             spacing, where = MICRO * sizes[size][0].material.spacing, f"on pillars of {size:g} µm"
@@ -180,7 +179,11 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     )
     yield "**The friction-minimising size:**\n\n" + "\n".join(bullets)
     header = ["scatter", "l (µm)", "l_z (µm)", *quantities]
-    header += ["friction-minimising size (µm)", "sizes (µm)", "fewest realisations of any size"]
+    header += [
+        "friction-minimising size (µm)",
+        "sizes (µm)",
+        "realisations of the size with the fewest",
+    ]
     lines = []
     for at, sizes in surfaces.items():
         scatter = f"{at.scatter:g}" + (f", correlated over {at.length:g} µm" if at.length else "")
@@ -236,7 +239,7 @@ def _moves(compared: Comparisons) -> Changes:
 def _conclusion(compared: Comparisons, changed: Mapping[str, Changes], moves: Changes) -> str:
     """Write how the friction-minimising size, friction and the decay length in µm change."""
     thicker, places = moves.get("layer", ("is not compared", ""))
-    (friction,) = (name for name in changed if name.startswith("static friction"))
+    friction = next(name for name in changed if name.startswith("static friction"))
     values = [f"{friction} {_refined(compared, changed[friction])}"]
     lengths = [name for name in changed if name.startswith("decay") and name.endswith("(µm)")]
     for name in lengths[-1:]:

@@ -73,13 +73,13 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
         yield (
-            "Hierarchy: of surfaces with the same grooves, along which they slide, those with "
-            "pillars have a significantly more prominent lesser peak than those without in "
-            f"{more} of {len(pairs)} cases, and a less prominent one in {less or 'none'}. In "
-            f"{len(two)} cases, its prominence exceeds {_TWO:g} % on both surfaces; in "
+            "Hierarchy: of two surfaces that slide along the same grooves, the one with pillars has "
+            f"a significantly more prominent lesser peak than the one without in {more} of "
+            f"{len(pairs)} pairs, and a less prominent one in {less or 'none'}. In "
+            f"{len(two)} pairs, its prominence exceeds {_TWO:g} % on both surfaces; in "
             f"{sum(_significant(two)) or 'none'} of these is the difference significant. The "
-            "surfaces also differ in the number of blocks in contact; the more there are, the "
-            "smaller are fluctuations of the force."
+            "surfaces of a pair also differ in the number of blocks in contact; the more there "
+            "are, the smaller are fluctuations of the force."
         )
     header = ["n_p", "n_s2", "n_p2", *(f"{angle:g}°" for angle in shown), "0° minus 90°"]
     lines = []

@@ -28,6 +28,9 @@ _AFFECTS = 0.1  #: smallest relative change that counts as an effect
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 _SMALL = 0.2  #: a small difference, in standard deviations (Cohen 1988)
 _PATCH = 5  #: side of the patch taken as a nucleation point, blocks
+#: The share of first patches near the edge, by chance, between those of all patches (0) and of all
+#: blocks (1); measured on periodic surfaces of 120 x 120 blocks that were cut open.
+_INWARD = 0.63
 _BURST = 0.02  #: window of the detachment rate over t_max
 _WINDOW = f"(window: {_BURST} t_max)"
 _BEFORE = "the share of blocks detached before t_max"
@@ -91,7 +94,11 @@ def damping(run: Record) -> float:
 
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
-    than 5 %, and t_max < t_avg.
+    than 5 %, and t_max < t_avg. The moduli are 4 and 16 times the paper's. With still larger ones,
+    fronts cross the surface ever faster, while some blocks detach before them: t_max - t_avg
+    increases to -0.0005 of t_max at 1e11 Pa, -0.0001 at 2e11 Pa, 0.0002 at 4e11 Pa and 0.0004 at
+    1e12 Pa (20 other runs each, standard errors of 0.0001). At the last two, with pressures of 2
+    and 5 GPa, the statement would not be reproduced.
     """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
@@ -123,9 +130,9 @@ def number_of_fronts(evidence: Evidence) -> Iterator[Finding]:
     a parameter, the largest number of fronts exceeds the smallest by more than a tenth of the
     number with the paper's constants. The number is not a monotonic function of the scatter: from
     0.02 to 0.3 it changes by 0.33 of the number with the paper's constants, and the sign of this
-    change depends on how fronts are counted. The largest change exceeds the bound however they are
-    counted: it is 0.49 or more for clusters of 10 to 100 blocks when 10 to 60 % of all blocks have
-    detached.
+    change depends on how fronts are counted. The change between the scatters with the fewest and
+    the most fronts exceeds the bound however they are counted: it is 0.49 or more for clusters of
+    10 to 100 blocks when 10 to 60 % of all blocks have detached.
     """
     for flat, runs in surfaces.flat(evidence.records).items():
         here = over_runs(fronts, runs)
@@ -164,9 +171,9 @@ def single_events(run: Run) -> float:
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors (“those occurring before t_max”) detach before all of their eight
-    neighbours; or, if events are counted, most clusters of precursors consist of a single block. Of
-    the blocks that detach before 0.9 t_max, and of those before 0.99 t_max, most detach before
-    their neighbours.
+    neighbours; or, if events are counted, most clusters of precursors consist of a single block.
+    With only the blocks that detach before 0.9 t_max, or before 0.99 t_max, as precursors, the test
+    would also hold for blocks.
     """
     blocks = ("the share of precursors that detach before all eight neighbours", samples.isolated)
     events = ("the share of clusters of precursors that are a single block", single_events)
@@ -280,10 +287,10 @@ def residual_strains(evidence: Evidence) -> Iterator[Finding]:
     """Test: the strain along the sliding direction varies less from block to block before t_max
     (snapshot at 100 µs) than at the force minimum (112 µs). When the force has reached its dynamic
     level (160 µs) and later (290 µs), less than a tenth of the strain at the minimum is left (slope
-    of the regression of the later strain on that at the minimum); or, if no strain at all is to
-    remain, the strain varies less than half as much as at the minimum. While the surface slides,
-    new strains replace those at the minimum and vary more than these did, so that the removal of
-    all strains would fail with any bound up to 1.
+    of the regression of the later strain on that at the minimum); or, if strains that have formed
+    since must be absent, too, the strain varies less than half as much as at the minimum. While the
+    surface slides, new strains replace those at the minimum and vary more than these did, so that
+    the removal of all strains would fail with any bound up to 1.
     """
     for scene, all_runs in surfaces.flat(evidence.records).items():
         runs = [run for run in all_runs if len(run.snapshots)]
@@ -339,11 +346,14 @@ def uniform(evidence: Evidence) -> Iterator[Finding]:
 
 def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """Test: on average, 30 to 70 % of all positions are nearer to the edge than the first patch of
-    5 x 5 blocks to detach (50 % if all are equally likely), and the share of realisations in which
-    its centre is less than 10 blocks from the edge differs by less than a fifth from that by
-    chance, 0.306. With a distance of 5 blocks the share is 0.145, by chance 0.160, and the case
-    would be open. Shorter distances are not suitable: a patch has its centre two blocks or more
-    from the edge, so that fronts that begin at the edge are counted further inside. The outcome of
+    5 x 5 blocks to detach (that with the earliest mean t_det; 50 % if all are equally likely), and
+    the share of realisations in which its centre is less than 10 blocks from the edge differs by
+    less than a fifth from that by chance, 0.287. The latter is the share on 300 periodic surfaces
+    that are cut open at random places. It lies between the share of all patches (0.257) and that of
+    all blocks (0.306) that are so near to the edge, since some of the fronts that begin in the two
+    outermost rows are counted further inside. With a distance of 5 blocks the share is 0.145, by
+    chance 0.136, and the case would be open, too. In 1,200 further runs and these 400 together, the
+    share of the test is 0.299 [0.274, 0.326], and the statement would be reproduced. The outcome of
     the first finding is the same for patches of 1 to 17 blocks a side.
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
@@ -356,6 +366,7 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
         yield found_on(flat, rank, samples.mean(ranks), within(_SMALL, 0.5), case=case)
         depth = surfaces.from_edge(flat.n_blocks - _PATCH + 1) + _PATCH // 2  # of the centres
         found = samples.proportion((ranks < np.mean(depth < margin)).astype(float))
-        chance = float(np.mean(surfaces.from_edge(flat.n_blocks) < margin))
+        blocks = np.mean(surfaces.from_edge(flat.n_blocks) < margin)
+        chance = float((1.0 - _INWARD) * np.mean(depth < margin) + _INWARD * blocks)
         statistic, case = near.format(first, margin), {"part": "the blocks near the edge"}
         yield found_on(flat, statistic, found, within(_SMALL * chance, chance), case=case)

@@ -210,9 +210,10 @@ def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest than
     with the narrowest of the pawls with which most runs have two peaks. A time that depends on
     pillar length alone would not show that the difference n_p - n_p2 matters. At n_p = 58, where
-    this holds, the two times differ by a twentieth of their value. The paper does not say which of
-    them is shorter. A test that they merely differ would hold at n_p = 58 and 118, with opposite
-    signs, and be open at 115; the statement would then not be settled.
+    the test holds, the two times differ by a twentieth of their value. That the smaller difference
+    gives the shorter time is an assumption; the paper does not say so. A test that they merely
+    differ would hold at n_p = 58 and 118, with opposite signs, and be open at 115; the statement
+    would then not be settled.
     """
     name = (
         "the time between the load peaks over t_avg, with pawls of {} minus that with pawls of {}"

@@ -67,10 +67,10 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean times over pillars and realisations are in this order, on the border and on
-    the second ring; the centre is the innermost block, or 2 x 2 blocks. The corners of the second
-    ring detach after the edges of the border along x, by 0.007 t_max at n_p = 30 and by more on
-    smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003 [-0.007, 0.0004] of
-    t_max; as a case of its own it would leave the statement not settled.
+    the second ring; the centre is the innermost block, or 2 x 2 blocks. The delay of the corners of
+    the second ring behind those edges of the border that lie along x is not part of the test: it is
+    0.007 t_max at n_p = 30 and more on smaller pillars. At n_p = 60 its sign is open, with -0.003
+    [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not settled.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -131,8 +131,8 @@ def near_border(run: Record) -> float:
 
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
-    """Test: most precursors lie in the two outermost rings of blocks, and less than half of the
-    precursors are isolated: they detach before all of their eight neighbours. Up to n_p = 6, nearly
+    """Test: most precursors lie in the two outermost rings of blocks, and less than half of them
+    are isolated, that is, detach before all of their neighbours in contact. Up to n_p = 6, nearly
     all blocks belong to these rings.
     """
     for scene, runs in pillars(evidence.records).items():
@@ -158,9 +158,10 @@ def inside(run: Record) -> Array:
 )
 def nucleation_near_edge(run: Record) -> float:
     """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
-    to detach lies, on average, in the outer quarter of the area. The verdict is the same inside 1
-    to 4 rings and for patches of 2 to 5 blocks a side. Nearly all first patches lie at the edge of
-    this area, where the statistic has its smallest value; on the flat surface about half of all
+    to detach (that with the earliest mean t_det) lies, on average, in the outer quarter of the
+    area. The verdict is the same inside 1 to 4 rings and for patches of 2 to 5 blocks a side.
+    Nearly all first patches lie at the edge of this area, where the statistic has its smallest
+    value (half of the positions equally far out are counted); on the flat surface about half of all
     positions are nearer to the edge than the first patch.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
@@ -205,11 +206,12 @@ def warning(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak differ
-    from those of the flat surface by less than half as much, in magnitude, as those of larger
-    pillars do. Each size of the larger pillars is a case, since the paper does not say which of
-    them it means; those of 20 blocks or more are themselves nearer to the flat surface than those
-    of 7 to 10. Static friction may differ, as in the paper.
+    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak (the
+    time with a force above 95 % of its maximum, over t_max) differ from those of the flat surface
+    by less than half as much, in magnitude, as those of larger pillars do. Each size of the larger
+    pillars is a case, since the paper does not say which of them it means; those of 20 blocks or
+    more are themselves nearer to the flat surface than those of 7 to 10. Static friction may
+    differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -310,11 +312,11 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     were simulated; the intervals do not include the error of so coarse a choice. l_c is fitted at
     n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that of the paper's scatter
     with A exp(-r/l_c); if the statement were read as existential (“can”), it would be reproduced.
-    With l_c fitted at n_p = 20 or 60 this case would be open (ratios up to 2.05 and 2.02), and the
-    statement not reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of
-    30 blocks on which it is fitted. With l_c fitted at n_p = 20, the four cases of these scatters
-    would be open; with l_c fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A
-    exp(-r/l_c) would fail.
+    With l_c fitted at n_p = 20 or 60 this case would be open (the intervals end at 2.05 and 2.02);
+    as no case would hold then, the statement would not be reproduced. With scatters of 0.02 and
+    0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted. With l_c fitted at
+    n_p = 20, the four cases of these scatters would be open; with l_c fitted at n_p = 10, those of
+    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -372,9 +374,9 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     size. Candidates for the size of lowest friction are all sizes whose static friction, within its
     error, exceeds the lowest by at most 0.001, a bound of the numerical bias. The difference is
     computed with each candidate in turn, except with the size itself, and the interval covers all
-    results. It has no upper limit where the outcome depends on which candidate has the lowest
-    friction, and in the cases of the candidates themselves: more realisations with the same step
-    would not decide these cases. With the default step, static friction at n_p = 6 is lower than at
+    results. Where the outcome depends on which candidate has the lowest friction, and for the
+    candidates themselves, its upper limit is set to infinity: more realisations with the same step
+    would not decide such cases. With the default step, static friction at n_p = 6 is lower than at
     7 by 0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
     realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
     the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is

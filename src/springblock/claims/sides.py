@@ -112,8 +112,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Test: on a side along x and on a side along y of the pillars, without corners, position
-    explains less than a fifth of the variance of t_det within the side. Without the three blocks at
-    each end the statement would hold.
+    explains less than a fifth of the variance of t_det within the side. Without the three outermost
+    blocks at each end, corners included, the statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -188,8 +188,8 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     20. The fits weight each r by its error; with equal weights, l_c of exp(-r/l_c) would still
     decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks or
     fewer, on which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were
-    compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted to r = 3 only),
-    the statement would be reproduced.
+    compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted only up to r =
+    3), the statement would be reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
@@ -206,8 +206,8 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """Test: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
-    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. The
-    share of sides that detach before t_max is 1, 2 and 6 % at n_p = 4, 5 and 6, and 94 % or more
+    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. Of all
+    sides along x, 1, 2 and 6 % have detached before t_max at n_p = 4, 5 and 6, and 94 % or more
     from n_p = 7 on; if only such sides are counted, as precursors, the verdict is the same.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
@@ -259,9 +259,10 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 
 
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the correlation extends over less than a block: c(r = 1) on external sides parallel
-    to the grooves and on edges along the grooves is below 1/e. The verdict is the same for any
-    bound from 0.23 to 0.5; when sliding along the grooves, c(r = 1) exceeds 0.5.
+    """Test: the correlation extends over less than a block: c(r = 1) on external sides parallel to
+    the grooves and on edges along the grooves is below 1/e. The verdict is the same for any bound
+    above 0.23; one above 0.5 would say nothing, since c(r = 1) exceeds 0.5 when sliding along the
+    grooves.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         found = _correlations(evidence.correlation[across(scene)])[side, 1]

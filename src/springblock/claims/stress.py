@@ -79,8 +79,9 @@ def trivial_stress(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on every pillar, the rms deviation of the stress from that on the mean pillar is at
-    most a fifth of the standard deviation of the stress over the blocks of the mean pillar.
+    """Test: on every pillar, the rms deviation of the stress from that on the mean pillar (the mean
+    over all pillars, block by block) is at most a fifth of the standard deviation of the stress
+    over the blocks of the mean pillar.
     """
     largest = "the largest rms deviation of a pillar's stress from the mean pillar's"
     name = f"{largest}, over the latter's standard deviation"
@@ -141,8 +142,8 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
 
 def more_uniform(evidence: Evidence) -> Iterator[Finding]:
     """Test: the standard deviation of the stress is smaller than on the same pillars without
-    grooves. It is larger on all these pillars; the largest stress, which is not tested, is smaller
-    with grooves than without.
+    grooves. With grooves it is larger in all cases; the largest stress, which is not tested, is
+    smaller with grooves than without.
     """
     name = "the standard deviation of the stress over its mean, with grooves minus without"
     for scene in surfaces.grooved(evidence.stress):
