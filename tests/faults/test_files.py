@@ -74,11 +74,12 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
 
 def test_a_file_that_is_set_aside_again_replaces_no_other(study, springblock):
     aside = study.results / "set-aside" / TABLE
-    for content in (b"once", b"twice"):
+    for content in (b"once", b"twice", b"thrice"):
         (study.results / TABLE).write_bytes(content)
         springblock("repair", study.results)
     assert aside.read_bytes() == b"once"
     assert aside.with_name(f"{aside.name}.again").read_bytes() == b"twice"
+    assert aside.with_name(f"{aside.name}.again.again").read_bytes() == b"thrice"
 
 
 def test_files_are_compared_with_the_last_configuration_of_a_study(study):

@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 import studies
+from springblock.model.blockmap import BlockMap
 from springblock.model.scene import Scene
 from springblock.study.configuration import (
     Ensemble,
@@ -167,6 +168,19 @@ def test_masks_are_an_axis_of_a_grid(surfaces):
     assert {scene.shape for scene in scenes} == {(3, 3), (3, 5)}
     assert {scene.level for scene in scenes} == {-1}
     assert sum(not scene.varied for scene in scenes) == 4  # with the study's own constants
+
+
+@pytest.mark.parametrize(("constants", "spacing"), [({}, 2e-5), ({"spacing": [5e-6]}, 5e-6)])
+def test_topographies_are_cut_at_the_spacing_of_the_lattice(
+    surfaces, monkeypatch, constants, spacing
+):
+    """That of the study, unless a group has its own."""
+    own = surfaces(topography="measured.opd", bearing_area=0.5, material=constants)
+    own["material"] = own["material"] | {"spacing": 2e-5}
+    corner, cuts = BlockMap.mask(Path("corner.npy")), []
+    monkeypatch.setattr(BlockMap, "of_topography", lambda cut, _: cuts.append(cut) or corner)
+    ensembles(own)
+    assert {cut.spacing for cut in cuts} == {spacing}
 
 
 @pytest.mark.parametrize(

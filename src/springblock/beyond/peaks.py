@@ -73,8 +73,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
         yield (
-            "Hierarchy: of two surfaces that slide along the same grooves, the one with pillars has "
-            f"a significantly more prominent lesser peak than the one without in {more} of "
+            "Hierarchy: of two surfaces that slide along the same grooves, the one with pillars "
+            f"has a significantly more prominent lesser peak than the one without in {more} of "
             f"{len(pairs)} pairs, and a less prominent one in {less or 'none'}. In "
             f"{len(two)} pairs, its prominence exceeds {_TWO:g} % on both surfaces; in "
             f"{sum(_significant(two)) or 'none'} of these is the difference significant. The "
