@@ -97,8 +97,8 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     than 5 %, and t_max < t_avg. The moduli are 4 and 16 times the paper's. With still larger ones,
     fronts cross the surface ever faster, while some blocks detach before them: t_max - t_avg
     increases to -0.0005 of t_max at 1e11 Pa, -0.0001 at 2e11 Pa, 0.0002 at 4e11 Pa and 0.0004 at
-    1e12 Pa (20 other runs each, standard errors of 0.0001). At the last two, with pressures of 2
-    and 5 GPa, the statement would not be reproduced.
+    1e12 Pa (20 other runs each, standard errors of 0.0001). The last two, with pressures of 2 and 5
+    GPa, which few solids bear, are not cases; with them, the statement would not be reproduced.
     """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
