@@ -97,8 +97,9 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     than 5 %, and t_max < t_avg. The moduli are 4 and 16 times the paper's. With still larger ones,
     fronts cross the surface ever faster, while some blocks detach before them: t_max - t_avg
     increases to -0.0005 of t_max at 1e11 Pa, -0.0001 at 2e11 Pa, 0.0002 at 4e11 Pa and 0.0004 at
-    1e12 Pa (20 other runs each, standard errors of 0.0001). The last two, with pressures of 2 and 5
-    GPa, which few solids bear, are not cases; with them, the statement would not be reproduced.
+    1e12 Pa (20 other runs each, standard errors of 0.0001). These are not cases, which are the
+    registered ones: with 1e11 Pa the statement would still be reproduced, with 2e11 Pa (a pressure
+    of 1 GPa) not settled, and with the last two not reproduced.
     """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
@@ -349,12 +350,14 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     5 x 5 blocks to detach (that with the earliest mean t_det; 50 % if all are equally likely), and
     the share of realisations in which its centre is less than 10 blocks from the edge differs by
     less than a fifth from that by chance, 0.287. The latter is the share on 300 periodic surfaces
-    that are cut open at random places. It lies between the share of all patches (0.257) and that of
-    all blocks (0.306) that are so near to the edge, since some of the fronts that begin in the two
-    outermost rows are counted further inside. With a distance of 5 blocks the share is 0.145, by
-    chance 0.136, and the case would be open, too. In 1,200 further runs and these 400 together, the
-    share of the test is 0.299 [0.274, 0.326], and the statement would be reproduced. The outcome of
-    the first finding is the same for patches of 1 to 17 blocks a side.
+    that are cut open at random places (standard error: 0.0012). It lies between the share of all
+    patches (0.257) and that of all blocks (0.306) that are so near to the edge, since some of the
+    fronts that begin in the two outermost rows are counted further inside; with the latter as
+    chance the statement would be reproduced, with the former not settled. With a distance of 5
+    blocks the share is 0.145, by chance 0.136, and the case would be open, too. In 1,200 further
+    runs and these 400 together, the share of the test is 0.299 [0.274, 0.326], and the statement
+    would be reproduced. The outcome of the first finding is the same for patches of 1 to 17 blocks
+    a side.
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
     rank = f"the share of positions nearer to the edge than {first}"
