@@ -103,8 +103,8 @@ def comparisons(surfaces: Surfaces) -> dict[str, Comparison]:
     length = [at for at in thick if at.length]
     none = [at for at in thick if not at.scatter]
     parts = {
-        "block": ("Same scatter on every lattice", "spacing", block),
-        "area": ("Same disorder per area", "spacing", area),
+        "block": ("The same scatter on every lattice", "spacing", block),
+        "area": ("The same disorder per area", "spacing", area),
         "length": ("Correlated coefficients", "spacing", length),
         "none": ("No disorder", "spacing", none),
         "layer": (f"Thicker layers, l = {common.spacing:g} µm", "thickness", layers),
@@ -241,10 +241,9 @@ def _conclusion(compared: Comparisons, changed: Mapping[str, Changes], moves: Ch
     thicker, places = moves.get("layer", ("is not compared", ""))
     friction = next(name for name in changed if name.startswith("static friction"))
     values = [f"{friction} {_refined(compared, changed[friction])}"]
-    lengths = [name for name in changed if name.startswith("decay") and name.endswith("(µm)")]
-    for name in lengths[-1:]:
-        what = name.removesuffix(" (µm)")
-        values.append(f"the {what}, in µm, {_refined(compared, changed[name])}")
+    if lengths := [name for name in changed if name.startswith("decay") and "(µm)" in name]:
+        length = lengths[-1].replace(" (µm)", ", in µm,")
+        values.append(f"the {length} {_refined(compared, changed[lengths[-1]])}")
     return (
         f"**On thicker layers, the friction-minimising size {thicker}**"
         + (f": it is {places}" if places else "")
@@ -261,4 +260,4 @@ def _refined(compared: Comparisons, changed: Changes) -> str:
             kinds.setdefault(verb, []).append(compared[kind].words.lower())
     if len(kinds) < 2:
         return next(iter(kinds), "is not compared")
-    return ", ".join(f"{verb} ({listed(each)})" for verb, each in kinds.items())
+    return listed([f"{verb} with {listed(each)}" for verb, each in kinds.items()])

@@ -29,7 +29,7 @@ _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 _SMALL = 0.2  #: a small difference, in standard deviations (Cohen 1988)
 _PATCH = 5  #: side of the patch taken as a nucleation point, blocks
 #: The share of first patches near the edge, by chance, between those of all patches (0) and of all
-#: blocks (1); measured on periodic surfaces of 120 x 120 blocks that were cut open.
+#: blocks (1): 0.63 ± 0.03, on periodic surfaces of 120 x 120 blocks that were cut open.
 _INWARD = 0.63
 _BURST = 0.02  #: window of the detachment rate over t_max
 _WINDOW = f"(window: {_BURST} t_max)"
@@ -94,12 +94,12 @@ def damping(run: Record) -> float:
 
 def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
-    than 5 %, and t_max < t_avg. The moduli are 4 and 16 times the paper's. With still larger ones,
-    fronts cross the surface ever faster, while some blocks detach before them: t_max - t_avg
-    increases to -0.0005 of t_max at 1e11 Pa, -0.0001 at 2e11 Pa, 0.0002 at 4e11 Pa and 0.0004 at
-    1e12 Pa (20 other runs each, standard errors of 0.0001). These are not cases, which are the
-    registered ones: with 1e11 Pa the statement would still be reproduced, with 2e11 Pa (a pressure
-    of 1 GPa) not settled, and with the last two not reproduced.
+    than 5 %, and t_max < t_avg. The cases are the registered moduli, 4 and 16 times the paper's.
+    With still larger ones, fronts cross the surface ever faster, while some blocks detach before
+    them: t_max - t_avg increases to -0.00050 of t_max at 1e11 Pa, -0.00009 at 2e11 Pa, 0.00021 at
+    4e11 Pa and 0.00042 at 1e12 Pa (20 other runs each, standard errors of 0.00007 to 0.0001). As a
+    further case, 1e11 Pa would leave the statement reproduced, 2e11 Pa (a pressure of 1 GPa) would
+    leave it not settled, and either of the last two would refute it.
     """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
@@ -350,7 +350,7 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     5 x 5 blocks to detach (that with the earliest mean t_det; 50 % if all are equally likely), and
     the share of realisations in which its centre is less than 10 blocks from the edge differs by
     less than a fifth from that by chance, 0.287. The latter is the share on 300 periodic surfaces
-    that are cut open at random places (standard error: 0.0012). It lies between the share of all
+    that are cut open at random places (standard error: 0.0013). It lies between the share of all
     patches (0.257) and that of all blocks (0.306) that are so near to the edge, since some of the
     fronts that begin in the two outermost rows are counted further inside; with the latter as
     chance the statement would be reproduced, with the former not settled. With a distance of 5

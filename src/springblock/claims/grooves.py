@@ -169,9 +169,9 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
     are narrower than the pawls between them. If “narrow” meant half as wide as the pawls or less,
     all remaining cases would fail, and the statement would not be reproduced. Pawls of 8 between
-    grooves of 4, which also meet this condition, were not part of the study: in 20 other runs,
-    friction is greater across these grooves, by 0.0072 (standard error 0.0005). As a further case,
-    they would leave the statement reproduced in part.
+    grooves of 4, which also meet this condition, are not among the cases: in 20 other runs,
+    friction is greater across these grooves, by 0.0072 (standard error 0.0005). With them, the
+    statement would be reproduced in part.
     """
     name = "static friction across the grooves minus that along them (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

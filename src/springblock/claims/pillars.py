@@ -390,7 +390,7 @@ def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: the width of the force peak, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
     friction are all sizes whose static friction, within its error, exceeds the lowest by at most
-    0.001, a bound of the numerical bias.
+    0.001, a bound of the numerical bias; the interval covers all of them.
     """
     return _larger_there(evidence, f"{_SUPPORTED}, over t_avg", _over_t_avg(samples.width))
 
@@ -399,7 +399,7 @@ def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """Test: the duration of the transition, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
     friction are all sizes whose static friction, within its error, exceeds the lowest by at most
-    0.001, a bound of the numerical bias.
+    0.001, a bound of the numerical bias; the interval covers all of them.
     """
     name = "the time from a tenth to nine tenths of the detachments, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

@@ -131,7 +131,10 @@ def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
     divided by the largest magnitude that it can have where several blocks bear equal stress, is
     below -0.5.
     """
-    name = "the rank correlation of initial stress and mean t_det on a pillar, over its bound"
+    name = (
+        "the rank correlation of initial stress and mean t_det on a pillar, over its largest "
+        "possible magnitude"
+    )
     for scene, runs in pillars(evidence.records).items():
         if scene in evidence.stress:
             stress = _pillar_stress(evidence, scene).mean(axis=0).ravel()
