@@ -20,7 +20,7 @@ from springblock.io.records import Record
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
-_AT_VALLEY = "at the lowest force between the load peaks"
+_BY_VALLEY = "by the time of the lowest force between the load peaks"
 
 
 @dataclass(frozen=True)
@@ -108,13 +108,14 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the detachment rate between the peaks is below half of a mean rate. The paper does not
-    say what the phase is quieter than: cases are the lowest rate in a window of 0.05 t_avg and the
-    mean rate of the phase, each relative to the mean rate of all detachments (from the first to the
-    last) and to that of the transition (from a tenth to nine tenths of the detachments). On
-    surfaces without two peaks the rate falls even lower while the force exceeds 95 % of its
-    maximum: on pillars of 58 and 30 blocks without grooves, the lowest rate is 0.08 and 0.21 of the
-    mean rate of the transition.
+    """Test: the detachment rate between the peaks is below half of a reference. The rate is the
+    lowest in a window of 0.05 t_avg, or the mean from one peak to the other; since the paper does
+    not say what the phase is quieter than, the reference is the mean rate from the first to the
+    last detachment (“all detachments”), or that from a tenth to nine tenths of them (“the
+    transition”). All four combinations are cases. Low rates also occur without a second peak: on
+    pillars of 58 and 30 blocks without grooves, the lowest rate while the force exceeds 95 % of its
+    maximum is 0.08 and 0.21 of that of the transition, less than between the load peaks of grooved
+    pillars.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
         "lowest": partial(quietest_rate, share=0.05),
@@ -125,9 +126,9 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
         rates.items(), means.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        name = f"the {what} detachment rate between the load peaks, over the mean rate of {span}"
-        case = {"rate": what, "relative to": span, **surfaces.case_of(scene)}
-        yield samples.found_on(scene, name, relative, ranges.FEWER_THAN_HALF, case=case)
+        ratio = f"the {what} detachment rate between the peaks over that of {span}"
+        case = {"ratio": ratio, **surfaces.case_of(scene)}
+        yield samples.found_on(scene, ratio, relative, ranges.FEWER_THAN_HALF, case=case)
 
 
 def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
@@ -136,36 +137,34 @@ def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
     return float(np.mean(times <= peaks.run.time[peaks.valley]))  # NaN: never
 
 
-@mean_over(_grooved, f"the share of edge blocks detached {_AT_VALLEY}", ranges.NEARLY_ALL)
+@mean_over(_grooved, f"the share of edge blocks detached {_BY_VALLEY}", ranges.NEARLY_ALL)
 def edges_make_first_peak(peaks: Peaks) -> float:
-    """Test: more than nine tenths of the edge blocks have detached at the lowest force between
-    the peaks. A bound below 0.84 would be met with pawls of 8 and of 10 blocks, one above 0.92 with
-    neither.
+    """Test: more than nine tenths of the edge blocks have detached by the time of the lowest force
+    between the peaks. A bound below 0.84 would be met with pawls of 8 and of 10 blocks, one above
+    0.92 with neither.
     """
     return share_detached(peaks, edge)
 
 
-@mean_over(
-    _grooved, f"the share of core blocks that have not detached {_AT_VALLEY}", ranges.NEARLY_ALL
-)
+@mean_over(_grooved, f"the share of core blocks not detached {_BY_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
-    """Test: at the lowest force between the peaks more than nine tenths of the core blocks have not
-    yet detached. On the 16 surfaces with two load peaks that are not cases here the share is 0.87
-    to 0.98; it is below 0.9 on pillars of 25 blocks with pawls of 7 and on pillars of 30 blocks
-    with pawls of 6.
+    """Test: by the time of the lowest force between the peaks, more than nine tenths of the core
+    blocks have not detached. On the 16 other surfaces with two load peaks, which are not cases
+    here, the share is 0.87 to 0.98; it is below 0.9 on pillars of 25 blocks with pawls of 7 and on
+    pillars of 30 blocks with pawls of 6.
     """
     return 1.0 - share_detached(peaks, core)
 
 
 @mean_over(
     _grooved,
-    "the number of further slips between the load peaks per block detached at the lowest force",
+    f"the number of further slips between the load peaks per block detached {_BY_VALLEY}",
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
     """Test: between the load peaks there is more than one further slip for every two blocks that
-    have detached; one block may slip several times. With a bound of one for every ten blocks the
-    statement would hold.
+    have detached by the time of the lowest force; one block may slip several times. With a bound of
+    one for every ten blocks the statement would hold.
     """
     run, between = peaks.run, slice(peaks.first, peaks.second)
     repeated = run.switches[between] - run.detachments[between]
@@ -179,10 +178,9 @@ def slips_again(peaks: Peaks) -> float:
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Test: between the load peaks the surface bears more than if all blocks slid. After the second
-    peak the force falls below that of sliding blocks in every run. Only the force on the whole
-    surface is tested, not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n
-    per block when the core bears most, which is less than sliding blocks bear
-    (`docs/mechanism.md`).
+    peak the force is lower than this in every run. Only the force on the whole surface is tested,
+    not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n per block when the
+    core bears most, which is less than sliding blocks bear (`docs/mechanism.md`).
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
@@ -196,10 +194,10 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 )
 def small_force_suffices(peaks: Peaks) -> float:
     """Test: from its lowest value between the load peaks until nine tenths of the blocks have
-    detached, the force grows by less than a tenth. If the surface lost its stress, so that the
-    force fell to that of sliding blocks, 0.6 of the normal force, the growth would exceed a tenth.
-    Relative to the difference between static friction and the mean mu_dynamic, the growth is 0.28
-    and 0.33 (pawls of 8 and 10), and at most a tenth in only one run of 987.
+    detached, the force grows by less than a tenth. If the force fell between the peaks to that of a
+    surface that slides as a whole, 0.6 of the normal force, the growth would exceed a tenth.
+    Relative to the difference between static friction and the mean mu_dynamic, the mean growth is
+    0.28 and 0.33 (pawls of 8 and 10), and it is a tenth or less in only one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())
@@ -207,13 +205,13 @@ def small_force_suffices(peaks: Peaks) -> float:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest than
-    with the narrowest of the pawls with which most runs have two peaks. A time that depends on
-    pillar length alone would not show that the difference n_p - n_p2 matters. At n_p = 58, where
-    the test holds, the two times differ by a twentieth of their value. That the smaller difference
-    gives the shorter time is an assumption; the paper does not say so. A test that they merely
-    differ would hold at n_p = 58 and 118, with opposite signs, and be open at 115; the statement
-    would then not be settled.
+    """Test: of the widths of pawls on which most runs have two peaks, the widest has a shorter time
+    between the peaks than the narrowest, on pillars of the same n_p. Pillars of different n_p are
+    not compared: a time that depends on n_p alone would not show that the difference n_p - n_p2
+    matters. At n_p = 58, where the test holds, the two times differ by a twentieth of their value.
+    That the smaller difference gives the shorter time is an assumption; the paper does not say so.
+    If the test were only whether the two times differ, it would hold at n_p = 58 and 118 (with
+    opposite signs) and be open at 115, and the statement would not be settled.
     """
     name = (
         "the time between the load peaks over t_avg, with pawls of {} minus that with pawls of {}"

@@ -176,7 +176,8 @@ def _opened(part: Sequence[Row]) -> list[str]:
         return [data]
     shared = len({row["statistic"] for row in part}) == 1
     title = f"{len(part)} findings" + (f": {part[0]['statistic']}" if shared else "")
-    value = f"value [{100.0 - 5.0 / len(part):.4g} % interval, 95 % jointly]"
+    level = f"{100.0 - 5.0 / len(part):.4g} % interval, 95 % jointly"
+    value = "value (exact)" if all(map(_is_exact, part)) else f"value [{level}]"
     header = ["case", "statistic", value, "claimed", "outcome"]
     lines = [header, *map(_cells, part)]
     if shared:  # by the title
@@ -198,8 +199,13 @@ def _keys(row: Row) -> list[list[str]]:
 
 
 def _value(row: Row) -> str:
+    limits = f" [{row['together_low']:.3g}, {row['together_high']:.3g}]"
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    return f"{row['value']:.3g} [{row['together_low']:.3g}, {row['together_high']:.3g}]{unit}"
+    return f"{row['value']:.3g}{'' if _is_exact(row) else limits}{unit}"
+
+
+def _is_exact(row: Row) -> bool:
+    return row["realisations"] == 0
 
 
 def _range(row: Row) -> str:

@@ -30,8 +30,7 @@ _PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
 _PRECURSORS = "the share of contact blocks that detach before t_max"
-_SUPPORTED = "the time with a force above 95 % of its maximum"
-_WIDTH = f"{_SUPPORTED}, over t_max"
+_WIDTH = "the width of the force peak"
 _RELEVANT = 6  #: n_p from which on the paper finds precursors “numerically relevant”
 _LARGE = 60  #: n_p of the paper's example of very large pillars
 _SCATTER = "mu_static_std"
@@ -42,7 +41,9 @@ _large = partial(pillars, smallest=_LARGE)
 
 
 def pillars_alike(evidence: Evidence) -> Iterator[Finding]:
-    """Test: position explains less than a fifth of the variance of a pillar's mean t_det."""
+    """Test: the position of a pillar on the surface explains less than a fifth of the variance of
+    its mean t_det.
+    """
     name = "the share of the variance of a pillar's mean t_det explained by position (jackknife)"
     for scene, runs in pillars(evidence.records).items():
         times = np.array([[part.mean() for part in pillars_of(r.t_det, scene)] for r in runs])
@@ -68,9 +69,10 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean times over pillars and realisations are in this order, on the border and on
     the second ring; the centre is the innermost block, or 2 x 2 blocks. The delay of the corners of
-    the second ring behind those edges of the border that lie along x is not part of the test: it is
-    0.007 t_max at n_p = 30 and more on smaller pillars. At n_p = 60 its sign is open, with -0.003
-    [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not settled.
+    the second ring behind those edges of the border that lie along x is not part of the test: at
+    n_p = 30 it is 0.007 t_max, and on smaller pillars it is longer. At n_p = 60 its sign is open,
+    with -0.003 [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not
+    settled.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -87,8 +89,8 @@ def always_in_order(run: Record) -> float:
     both on the border and on the second ring, on more than nine tenths of the individual pillars.
     Pillars of 4 blocks have only the border. If “always” meant only that mean times follow this
     order whatever the scatter of the thresholds, the statement would be reproduced: in other runs
-    at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2 (8 to 20 of each), mean times follow this
-    order on both rings.
+    at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2 (8 to 20 runs for each size and scatter),
+    mean times follow this order on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -132,15 +134,17 @@ def near_border(run: Record) -> float:
 
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors lie in the two outermost rings of blocks, and less than half of them
-    are isolated, that is, detach before all of their neighbours in contact. Up to n_p = 6, nearly
-    all blocks belong to these rings.
+    are isolated, that is, detach before all of their neighbours in contact (as does the first block
+    of a region). With the criterion that no neighbour detaches before t_max, these shares would be
+    0.67, 0.44 and 0.2 at n_p = 4, 5 and 6, and 0.02 or less on larger pillars, so that n_p = 4
+    would still fail. Up to n_p = 6, nearly all blocks belong to these rings.
     """
     for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
             ("on the border or adjacent to it", near_border, ranges.MOST),
             ("isolated", samples.isolated, ranges.FEWER_THAN_HALF),
         ):
-            name = f"among the blocks detached before t_max, the share that are {what}"
+            name = f"the share of the blocks detached before t_max that are {what}"
             yield found_on(scene, name, samples.share(over_runs(quantity, runs)), claimed)
 
 
@@ -159,20 +163,24 @@ def inside(run: Record) -> Array:
 def nucleation_near_edge(run: Record) -> float:
     """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach (that with the earliest mean t_det) lies, on average, in the outer quarter of the
-    area. The verdict is the same inside 1 to 4 rings and for patches of 2 to 5 blocks a side.
-    Nearly all first patches lie at the edge of this area, where the statistic has its smallest
-    value (half of the positions equally far out are counted); on the flat surface about half of all
-    positions are nearer to the edge than the first patch.
+    positions; of those equally far out, half are counted as further out. Nearly all first patches
+    lie at the very edge of the area, where the share is smallest; on the flat surface it is about a
+    half. The verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to 5 blocks
+    a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
+    """Test: on pillars of 10 blocks or more, the centre, half as wide as the area enclosed by the
+    two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, where the area is 3
+    to 5 blocks wide, the test would hold as well.
+    """
     name = "t_det/t_max of the centre minus that of the area between it and the two outermost rings"
-    for scene, runs in pillars(evidence.records, 10).items():  # smaller ones have no centre inside
+    for scene, runs in pillars(evidence.records, 10).items():
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
-        middle = surfaces.from_edge(wide) >= wide // 4  # half as wide as the inside
+        middle = surfaces.from_edge(wide) >= wide // 4
         later = samples.mean(times[:, middle].mean(axis=1) - times[:, ~middle].mean(axis=1))
         yield found_on(scene, name, later, ranges.POSITIVE)
 
@@ -192,7 +200,8 @@ def peak_after_average(run: Record) -> float:
 )
 def front_after_peak(run: Record) -> float:
     """Test: more than nine tenths of the blocks enclosed by the two outermost rings detach after
-    t_max.
+    t_max. On pillars of 7 to 30 blocks this share is also 0.91 to 0.93: what is peculiar to very
+    large pillars is the size of this part.
     """
     return float(np.mean(inside(run) > run.t_max))
 
@@ -207,16 +216,16 @@ def warning(run: Run) -> float:
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak (the
-    time with a force above 95 % of its maximum, over t_max) differ from those of the flat surface
-    by less than half as much, in magnitude, as those of larger pillars do. Each size of the larger
-    pillars is a case, since the paper does not say which of them it means; those of 20 blocks or
-    more are themselves nearer to the flat surface than those of 7 to 10. Static friction may
-    differ, as in the paper.
+    time during which the force exceeds 95 % of its maximum, over t_max) differ from those of the
+    flat surface by less than half as much, in magnitude, as those of larger pillars do. Each size
+    of the larger pillars is a case, since the paper does not say which of them it means; those of
+    20 blocks or more are themselves nearer to the flat surface than those of 7 to 10. Static
+    friction may differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
         "the share of precursors": samples.before_peak,
-        "the width of the force peak": samples.width,
+        _WIDTH: samples.width,
     }
     small = [scene for scene in pillars(evidence.records, 0) if scene.n_p < surfaces.SMALLEST]
     larger = pillars(evidence.records)
@@ -243,15 +252,16 @@ def _above_flat(evidence: Evidence, quantities: Mapping[str, Quantity]) -> Itera
 
 
 def many_precursors(evidence: Evidence) -> Iterator[Finding]:
-    time = "the time from the first detachment to t_max, over t_max"
+    time = "the time between the first detachment and t_max, over t_max"
     return _above_flat(evidence, {_PRECURSORS: samples.before_peak, time: warning})
 
 
 def rounded_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: on pillars with n_p >= 6, for which the paper finds precursors numerically relevant,
-    the force peak is wider than on the flat surface. It is also wider on pillars of 2 to 5 blocks.
+    the force peak is wider than on the flat surface. Its width is the time during which the force
+    exceeds 95 % of its maximum. The peak is also wider on pillars of 2 to 5 blocks.
     """
-    return _above_flat(evidence, {_WIDTH: samples.width})
+    return _above_flat(evidence, {f"{_WIDTH}, over t_max": samples.width})
 
 
 def _lowest(evidence: Evidence, scenes: Iterable[Scene]) -> Lowest:
@@ -275,11 +285,13 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
 
 
 def sharper_again(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the force peak is narrower than at the size with the lowest mean static friction."""
+    """Test: the force peak is narrower (statement 37 defines its width) than at the size with the
+    lowest mean static friction.
+    """
     scenes = _of_all_sizes(evidence)
     if scenes:
         best, largest = _lowest(evidence, scenes[:-1]).place, scenes[-1]
-        name = f"{_WIDTH}, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
+        name = f"{_WIDTH}, over t_max, at n_p = {largest.n_p} minus that at n_p = {best.n_p}"
         yield samples.compared(
             evidence, name, samples.width, largest, best, ranges.NEGATIVE, case={}
         )
@@ -287,8 +299,9 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
-    """Test: less than a tenth of the blocks are precursors. The two outermost rings alone hold
-    13 % of the blocks at n_p = 60.
+    """Test: less than a tenth of the blocks are precursors. The two outermost rings alone hold 13 %
+    of the blocks at n_p = 60; with only the precursors in these rings, 0.114 of the blocks, the
+    verdict would be the same.
     """
     return samples.before_peak(run)
 
@@ -307,16 +320,16 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. Candidates for the size of
-    lowest friction are all sizes whose static friction, within its error, exceeds the lowest by at
-    most 0.001, a bound of the numerical bias. With other scatters only n_p = 3, 6, 10, 20 and 30
-    were simulated; the intervals do not include the error of so coarse a choice. l_c is fitted at
-    n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that of the paper's scatter
-    with A exp(-r/l_c); if the statement were read as existential (“can”), it would be reproduced.
-    With l_c fitted at n_p = 20 or 60 this case would be open (the intervals end at 2.05 and 2.02);
-    as no case would hold then, the statement would not be reproduced. With scatters of 0.02 and
-    0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted. With l_c fitted at
-    n_p = 20, the four cases of these scatters would be open; with l_c fitted at n_p = 10, those of
-    exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    lowest friction are all sizes whose static friction, given its statistical error, may exceed the
+    lowest by no more than 0.001, an upper bound on the numerical bias. With other scatters only n_p
+    = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the error of so coarse a
+    choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that
+    of the paper's scatter with A exp(-r/l_c); if the statement were read as existential (“can”), it
+    would be reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the intervals
+    end at 2.05 and 2.02); as no case would hold then, the statement would not be reproduced. With
+    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
+    fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open; with l_c
+    fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -371,35 +384,36 @@ def _larger_there(
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at any other pillar
-    size. Candidates for the size of lowest friction are all sizes whose static friction, within its
-    error, exceeds the lowest by at most 0.001, a bound of the numerical bias. The difference is
-    computed with each candidate in turn, except with the size itself, and the interval covers all
-    results. Where the outcome depends on which candidate has the lowest friction, and for the
-    candidates themselves, its upper limit is set to infinity: more realisations with the same step
-    would not decide such cases. With the default step, static friction at n_p = 6 is lower than at
-    7 by 0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
-    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
-    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
-    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
-    lowest at 6 the statement fails, if at 7 it holds.
+    size. Candidates for the size of lowest friction are all sizes whose static friction, given its
+    statistical error, may exceed the lowest by no more than 0.001, an upper bound on the numerical
+    bias. Each size is compared with all candidates other than itself, and the interval covers all
+    differences. Where the outcome depends on which candidate has the lowest friction, and where the
+    size is itself a candidate, the upper limit of the interval is set to infinity: more
+    realisations with the same step would not decide such cases. With the default step, static
+    friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010]. This step raises friction by
+    0.0002 at 6 and by 0.0006 at 7 (300 realisations of each size, 100 of which were repeated with a
+    step of 5e-9 s); without this bias the difference, calculated before rounding, is 0.0001
+    [-0.0004, 0.0006]. To decide which is lower would take more than ten thousand realisations with
+    a step of 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the width of the force peak, divided by t_avg, is larger where static friction is
-    lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
-    friction are all sizes whose static friction, within its error, exceeds the lowest by at most
-    0.001, a bound of the numerical bias; the interval covers all of them.
+    """Test: the width of the force peak (see statement 37), divided by t_avg, is larger where
+    static friction is lowest than on the smallest and on the largest pillars. Candidates for the
+    size of lowest friction are all sizes whose static friction, given its statistical error, may
+    exceed the lowest by no more than 0.001, an upper bound on the numerical bias; the interval
+    covers all of them.
     """
-    return _larger_there(evidence, f"{_SUPPORTED}, over t_avg", _over_t_avg(samples.width))
+    return _larger_there(evidence, f"{_WIDTH}, over t_avg", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """Test: the duration of the transition, divided by t_avg, is larger where static friction is
     lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
-    friction are all sizes whose static friction, within its error, exceeds the lowest by at most
-    0.001, a bound of the numerical bias; the interval covers all of them.
+    friction are all sizes whose static friction, given its statistical error, may exceed the lowest
+    by no more than 0.001, an upper bound on the numerical bias; the interval covers all of them.
     """
     name = "the time from a tenth to nine tenths of the detachments, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

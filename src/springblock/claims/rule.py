@@ -138,8 +138,6 @@ _PHRASES = {
     "side": "on {}",
     "sides": "on sides {}",
     "sliding": "when sliding {}",
-    "rate": "for the {} rate",
-    "relative to": "relative to {}",
     "E in Pa": "at E = {} Pa",
     "integrator": "with {}",
     "mu_static_std": "at mu_static_std = {}",

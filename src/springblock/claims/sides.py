@@ -95,10 +95,10 @@ def _sides_of(evidence: Evidence, scene: Scene, side: str) -> tuple[Array, Array
 
 
 def larger_events(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the mean number of blocks per event, in excess of chance, is larger on sides along
-    the sliding direction. Neighbours that detach within 0.5 % of t_max of each other belong to one
-    event; corners are left out. Chance is the mean number on sides whose blocks come from different
-    realisations.
+    """Test: the mean number of blocks per event, in excess of chance, is larger on sides along the
+    sliding direction. Neighbours whose detachment times differ by at most 0.5 % of t_max belong to
+    one event; corners are left out. Chance is the mean number on sides whose blocks come from
+    different realisations.
     """
     name = "the size of an event in excess of chance, on sides along x minus that on sides along y"
     for scene in pillars(evidence.records):
@@ -112,8 +112,8 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Test: on a side along x and on a side along y of the pillars, without corners, position
-    explains less than a fifth of the variance of t_det within the side. Without the three outermost
-    blocks at each end, corners included, the statement would hold.
+    explains less than a fifth of the variance of t_det within the side. If the corners and the two
+    blocks next to each were left out, the statement would hold.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -125,7 +125,7 @@ def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
 
 
 def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
-    """Return the rms distance of c(r), (b, r) from r = 1 on, from the best curve of each kind.
+    """Return the rms deviation of c(r), (b, r) from r = 1 on, from the best curve of each kind.
 
     Exponentials, power laws and straight lines, each with a length on a grid, and with an amplitude
     that is free or 1; (b,) each.
@@ -144,29 +144,29 @@ def misfits(correlation: Array, is_free: bool = True) -> list[Array]:
 
 
 def exponential(evidence: Evidence) -> Iterator[Finding]:
-    """Test: at r = 1 to 6, where l_c is fitted, the rms distance of c_x from exp(-r/l_c) is below
-    0.05, and below the distances of c_x from a power law of 1 + r and from a straight line, both of
-    amplitude 1; likewise for A exp(-r/l_c), with free amplitudes. If r went up to the last block
-    before the corners (7, 11 and 23 at n_p = 20, 30 and 60), A exp(-r/l_c) would hold at all three
-    sizes; exp(-r/l_c) would hold at n_p = 20 and be open at 30 and 60.
+    """Test: at r = 1 to 6, where l_c is fitted, the rms deviation of c_x from exp(-r/l_c) is below
+    0.05, and below those from a power law in 1 + r and from a straight line, both of amplitude 1;
+    likewise for A exp(-r/l_c), with free amplitudes. If r went up to the last block before the
+    corners (7, 11 and 23 at n_p = 20, 30 and 60), A exp(-r/l_c) would hold at all three sizes;
+    exp(-r/l_c) would hold at n_p = 20 and be open at 30 and 60.
     """
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
     ):
         found = Correlation(side_times(runs, scene.pattern, ALONG))
-        distances = partial(_distances, found, is_free)
-        intervals = np.transpose(bootstrap_interval(distances, len(runs)))
+        deviations = partial(_deviations, found, is_free)
+        intervals = np.transpose(bootstrap_interval(deviations, len(runs)))
         names = ("", " minus that from the best power law", " minus that from the best line")
         claims = ((-INF, 0.05), ranges.NEGATIVE, ranges.NEGATIVE)
         for more, claimed, each in zip(names, claims, intervals, strict=True):
             apart = Estimate.of(Interval(*each), len(runs))
-            statistic = f"the rms distance of c_x from the best exponential{more}"
+            statistic = f"the rms deviation of c_x from the best exponential{more}"
             case = {"fit": curve, **case_of(scene)}
             yield found_on(scene, statistic, apart, claimed, case=case)
 
 
-def _distances(found: Correlation, is_free: bool, weights: Array) -> Array:
-    """Return the distance from the exponential, and that minus those from the other curves."""
+def _deviations(found: Correlation, is_free: bool, weights: Array) -> Array:
+    """Return the deviation from the exponential, and that minus those from the other curves."""
     exponential, *others = misfits(found.weighted(weights)[:, 1 : LAST + 1], is_free)
     return np.column_stack([exponential, *(exponential - other for other in others)])
 
@@ -185,11 +185,11 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p =
-    20. The fits weight each r by its error; with equal weights, l_c of exp(-r/l_c) would still
-    decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). Pillars of about 10 blocks or
-    fewer, on which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were
-    compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted only up to r =
-    3), the statement would be reproduced.
+    20. The fits weight each c(r) by the inverse square of its error; with equal weights, l_c of
+    exp(-r/l_c) would still decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %).
+    Pillars of about 10 blocks or fewer, on which the paper finds l_c difficult to estimate, are
+    left out; if n_p = 60 were compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6
+    blocks, fitted only up to r = 3), the statement would be reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
@@ -206,9 +206,10 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
 def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     """Test: sides along the sliding direction, of 10 blocks or fewer and without their corners,
     detach in one event more often than sides whose blocks come from different realisations
-    (chance). Neighbours that detach within 0.5 % of t_max of each other belong to one event. Of all
-    sides along x, 1, 2 and 6 % have detached before t_max at n_p = 4, 5 and 6, and 94 % or more
-    from n_p = 7 on; if only such sides are counted, as precursors, the verdict is the same.
+    (chance). Neighbours whose detachment times differ by at most 0.5 % of t_max belong to one
+    event. At n_p = 4, 5 and 6, only 1, 2 and 6 % of the sides along x have detached before t_max,
+    and from n_p = 7 on 94 % or more; if only these sides are counted, since only they consist of
+    precursors, the verdict is the same.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):
@@ -261,8 +262,8 @@ def same_length(evidence: Evidence) -> Iterator[Finding]:
 def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """Test: the correlation extends over less than a block: c(r = 1) on external sides parallel to
     the grooves and on edges along the grooves is below 1/e. The verdict is the same for any bound
-    above 0.23; one above 0.5 would say nothing, since c(r = 1) exceeds 0.5 when sliding along the
-    grooves.
+    above 0.23. When sliding along the grooves, c(r = 1) exceeds 0.5; a higher bound would not
+    distinguish the two directions.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):
         found = _correlations(evidence.correlation[across(scene)])[side, 1]
