@@ -182,7 +182,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header += [
         "friction-minimising size (µm)",
         "sizes (µm)",
-        "realisations of the size with the fewest",
+        "fewest realisations of a size",
     ]
     lines = []
     for at, sizes in surfaces.items():
@@ -247,8 +247,8 @@ def _conclusion(compared: Comparisons, changed: Mapping[str, Changes], moves: Ch
     return (
         f"**On thicker layers, the friction-minimising size {thicker}**"
         + (f": it is {places}" if places else "")
-        + f". **On finer lattices, with l <= l_z, it {_refined(compared, moves)}.** There, "
-        f"{'; '.join(values)}."
+        + f". **On finer lattices, with l <= l_z, it {_refined(compared, moves)}.** As the "
+        f"lattice is refined, {'; '.join(values)}."
     )
 
 
@@ -260,4 +260,4 @@ def _refined(compared: Comparisons, changed: Changes) -> str:
             kinds.setdefault(verb, []).append(compared[kind].words.lower())
     if len(kinds) < 2:
         return next(iter(kinds), "is not compared")
-    return listed([f"{verb} with {listed(each)}" for verb, each in kinds.items()])
+    return listed([f"{verb} for {listed(each)}" for verb, each in kinds.items()])

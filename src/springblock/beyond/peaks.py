@@ -58,12 +58,12 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
-    rank = "; on some other surfaces it is not significantly less" if alike[1:] else ""
+    rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
-        f"{less or 'none'}. When sliding along the grooves, it is most prominent with pawls of "
-        f"{most.n_p2} and grooves of {most.n_s2} blocks {place}, where it is "
+        f"{less or 'none'}. For sliding along the grooves, its prominence is largest with pawls "
+        f"of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
         "further surfaces)."
     )
@@ -73,11 +73,12 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
         yield (
-            "Hierarchy: of two surfaces that slide along the same grooves, the one with pillars "
-            f"has a significantly more prominent lesser peak than the one without in {more} of "
-            f"{len(pairs)} pairs, and a less prominent one in {less or 'none'}. In "
-            f"{len(two)} pairs, its prominence exceeds {_TWO:g} % on both surfaces; in "
-            f"{sum(_significant(two)) or 'none'} of these is the difference significant. The "
+            f"Hierarchy: {len(pairs)} pairs of surfaces have the same grooves, one surface with "
+            "pillars and one without. For sliding along the grooves, the lesser peak is "
+            f"significantly more prominent on the surface with pillars in {more} pairs, and less "
+            f"prominent in {less or 'none'}. In {len(two)} pairs, the prominence of the lesser "
+            f"peak exceeds {_TWO:g} % on both surfaces; the difference is significant in "
+            f"{sum(_significant(two)) or 'none'} of these. The "
             "surfaces of a pair also differ in the number of blocks in contact; the more there "
             "are, the smaller are fluctuations of the force."
         )
