@@ -37,7 +37,9 @@ def test_the_page_counts_surfaces_with_more_along_than_across(monkeypatch):
     assert "1 % on both surfaces; the difference is significant in none of these." in hierarchy
     assert len(table.splitlines()) == 4
     monkeypatch.setattr(peaks, "_TWO", 97.0)
-    said = "across them** on 1 of 2 surfaces (on 1 of these, below 97 % in both directions), and"
+    said = (
+        "on 1 of 2 surfaces (on 1 of these, its prominence is below 97 % in both directions), and"
+    )
     assert said in next(peaks.answers(made))
 
 

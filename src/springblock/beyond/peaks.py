@@ -54,7 +54,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     along = {key: mean_interval(angles[0.0]) for key, angles in found.items()}
     one_peak = [key for key in found if max(found[key][way].mean() for way in (0.0, 90.0)) < _TWO]
     without, _ = _significant([contrasts[key] for key in one_peak])
-    small = f" (on {without} of these, below {_TWO:g} % in both directions)" if without else ""
+    low = f"on {without} of these, its prominence is below {_TWO:g} % in both directions"
+    small = f" ({low})" if without else ""
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
