@@ -126,7 +126,7 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
         rates.items(), means.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        ratio = f"the {what} detachment rate between the peaks over that of {span}"
+        ratio = f"the {what} rate between the peaks over that of {span}"
         case = {"ratio": ratio, **surfaces.case_of(scene)}
         yield samples.found_on(scene, ratio, relative, ranges.FEWER_THAN_HALF, case=case)
 
