@@ -32,9 +32,9 @@ _FULL_SIZE = Path(__file__).with_name("full_size.md")  #: the section on the stu
 
 #: Opening, and the section on full size, of a study without errors at full size.
 _UNKNOWN = """Errors at full size were not measured. On small surfaces the default step biases means
-by at most {most:.1f} % (far ends of 95 % intervals); “Ensembles of small surfaces” compares this
-with the standard error of a mean over {ensemble} seeds. Quote means with their intervals over
-seeds, and compare no single runs.
+by at most {most:.1f} % (the ends of 95 % intervals that are farther from zero); “Ensembles of small
+surfaces” compares this with the standard error of a mean over {ensemble} seeds. Quote means with
+their intervals over seeds, and compare no single runs.
 """
 
 _WITHOUT = """This study was run without `production: true`, which measures errors on surfaces of
@@ -43,8 +43,9 @@ the study's size in a quarter of an hour.
 
 _OPENING = """With the default step of {step:.0e} s, results of ensembles are biased by at most
 {biases}
-on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars only). Each bound is
-the far end of a 95 % interval plus the largest bias that the finest step may have. The standard
+on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars only). Biases
+are measured against the finest step; each bound is the end farther from zero of the 95 % interval,
+plus the largest bias that the finest step may itself have. The standard
 error of a mean over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}.
 It exceeds the estimated bias for {larger} of the {n} combinations of quantity and surface. Quote

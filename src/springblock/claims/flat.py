@@ -103,7 +103,7 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     have detached long before: (t_max - t_avg)/t_max increases, to -0.00050 at 1e11 Pa, -0.00009 at
     2e11 Pa, 0.00021 at 4e11 Pa and 0.00042 at 1e12 Pa (20 other runs each, standard errors of
     0.00007 to 0.0001). As a further case, 1e11 Pa would leave the statement reproduced, 2e11 Pa (a
-    pressure of 1 GPa) would leave it not settled, and either of the last two would refute it.
+    pressure of 1 GPa) would leave it not settled, and 4e11 or 1e12 Pa would refute it.
     """
     flats = surfaces.flat(evidence.records)
     for flat, scene in product(flats, varied(evidence, "youngs_modulus", "pressure")):
@@ -360,15 +360,15 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """Test: the first patch is that of 5 x 5 blocks with the earliest mean t_det. On average, 30 to
     70 % of all positions are nearer to the edge than this patch (50 % if all are equally likely),
     and the share of realisations in which its centre is less than 10 blocks from the edge differs
-    by less than a fifth from that expected by chance, 0.287, which was measured on 300 periodic
-    surfaces cut open at random places (standard error: 0.0013). It lies between the share of all
-    patches (0.257) and that of all blocks (0.306) that are so near to the edge, since some of the
-    fronts that begin in the two outermost rows are counted further inside. If 0.306 were taken as
-    the share by chance, the statement would be reproduced; with 0.257 it would not be settled. With
-    a distance of 5 blocks the share is 0.145, by chance 0.136, and the case would be open, too.
-    Over 1,200 further runs and these 400, the tested share is 0.299 [0.274, 0.326], and the
-    statement would be reproduced. The outcome of the first finding is the same for patches of 1 to
-    17 blocks a side.
+    from the share expected by chance by less than a fifth of the latter. The share expected by
+    chance, 0.287 (standard error: 0.0013), was measured on 300 periodic surfaces cut open at random
+    places. It lies between the share of all patches (0.257) and that of all blocks (0.306) that are
+    so near to the edge, since some of the fronts that begin in the two outermost rows are counted
+    further inside. If 0.306 were taken as the share by chance, the statement would be reproduced;
+    with 0.257 it would not be settled. With a distance of 5 blocks the share is 0.145, by chance
+    0.136, and the case would be open, too. Over 1,200 further runs and these 400, the tested share
+    is 0.299 [0.274, 0.326], and the statement would be reproduced. The outcome of the first finding
+    is the same for patches of 1 to 17 blocks a side.
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
     rank = f"the share of positions nearer to the edge than {first}"

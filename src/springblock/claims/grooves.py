@@ -123,12 +123,13 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """Test: on surfaces with three levels, the mean prominence of the lesser peak exceeds 1 % of
     the largest force when sliding along the grooves of the second level, and is below 1 % when
     sliding across them. One finding fails: that for sliding across the grooves of the second level,
-    along those of the third. The test claims a single peak in this case, too, although the paper's
-    explanation leads one to expect a second, since the surface slides along grooves, those of the
-    third level; in the force averaged over runs, in which fluctuations of single runs cancel, its
-    prominence is only 0.3 %. Without this case, which is part of the registered test, the statement
-    would be reproduced. When sliding along the grooves of the second level, the prominence in the
-    averaged force is 0.95 % with a third level across the second and 1.13 % with one along it.
+    along those of the third. The test claims a single peak there, too, although the paper's
+    explanation leads one to expect a second, since the surface slides along grooves of the third
+    level. In the force averaged over runs, in which fluctuations of single runs cancel, the
+    prominence is only 0.3 %. Without this finding, which is part of the registered test, the
+    statement would be reproduced. When sliding along the grooves of the second level, the
+    prominence in the averaged force is 0.95 % with a third level across the second and 1.13 % with
+    one along it.
     """
     for along, case in _third_levels(evidence):
         both = ("along", along, _TWO_PEAKS), ("across", across(along), _ONE_PEAK)

@@ -195,9 +195,10 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 def small_force_suffices(peaks: Peaks) -> float:
     """Test: from its lowest value between the load peaks until nine tenths of the blocks have
     detached, the force grows by less than a tenth. If the force fell between the peaks to that of a
-    surface that slides as a whole, 0.6 of the normal force, the growth would exceed a tenth.
-    Relative to the difference between static friction and the mean mu_dynamic, the mean growth is
-    0.28 and 0.33 (pawls of 8 and 10), and it is a tenth or less in only one run of 987.
+    surface that slides as a whole, 0.6 of the normal force, the growth would exceed a tenth. If the
+    growth were divided by the drop of the force from static to dynamic friction instead, its mean
+    would be 0.28 and 0.33 (pawls of 8 and 10), and it would be a tenth or less in only one run of
+    987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())

@@ -135,9 +135,9 @@ def near_border(run: Record) -> float:
 def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors lie in the two outermost rings of blocks, and less than half of them
     are isolated, that is, detach before all of their neighbours in contact (as does the first block
-    of a region). With the criterion that no neighbour detaches before t_max, these shares would be
-    0.67, 0.44 and 0.2 at n_p = 4, 5 and 6, and 0.02 or less on larger pillars, so that n_p = 4
-    would still fail. Up to n_p = 6, nearly all blocks belong to these rings.
+    of a region). If only blocks without a neighbour that detaches before t_max counted as isolated,
+    their share would be 0.67, 0.44 and 0.2 at n_p = 4, 5 and 6, and 0.02 or less on larger pillars,
+    so that n_p = 4 would still fail. Up to n_p = 6, nearly all blocks belong to these rings.
     """
     for scene, runs in pillars(evidence.records).items():
         for what, quantity, claimed in (
@@ -164,17 +164,17 @@ def nucleation_near_edge(run: Record) -> float:
     """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
     to detach (that with the earliest mean t_det) lies, on average, in the outer quarter of the
     positions; of those equally far out, half are counted as further out. Nearly all first patches
-    lie at the very edge of the area, where the share is smallest; on the flat surface it is about a
-    half. The verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to 5 blocks
-    a side.
+    lie at the very edge of the area, where the share of positions further out is smallest; on the
+    flat surface this share is about a half. The verdict is the same if 1, 3 or 4 rings are left
+    out, and for patches of 2 to 5 blocks a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of 10 blocks or more, the centre, half as wide as the area enclosed by the
-    two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, where the area is 3
-    to 5 blocks wide, the test would hold as well.
+    """Test: on pillars of 10 blocks or more, the centre, about half as wide as the area enclosed by
+    the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, with a centre of
+    1 to 3 blocks a side, the test would hold as well.
     """
     name = "t_det/t_max of the centre minus that of the area between it and the two outermost rings"
     for scene, runs in pillars(evidence.records, 10).items():
@@ -320,16 +320,16 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. Candidates for the size of
-    lowest friction are all sizes whose static friction, given its statistical error, may exceed the
-    lowest by no more than 0.001, an upper bound on the numerical bias. With other scatters only n_p
-    = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the error of so coarse a
-    choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that
-    of the paper's scatter with A exp(-r/l_c); if the statement were read as existential (“can”), it
-    would be reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the intervals
-    end at 2.05 and 2.02); as no case would hold then, the statement would not be reproduced. With
-    scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is
-    fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open; with l_c
-    fitted at n_p = 10, those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    lowest friction are all sizes whose excess over the lowest friction may, by its interval, be
+    0.001 or less, an upper bound on the numerical bias. With other scatters only n_p = 3, 6, 10, 20
+    and 30 were simulated; the intervals do not include the error of so coarse a choice. l_c is
+    fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that of the paper's
+    scatter with A exp(-r/l_c); if the statement were read as existential (“can”), it would be
+    reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the intervals end at 2.05
+    and 2.02); as no case would hold then, the statement would not be reproduced. With scatters of
+    0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted. With l_c
+    fitted at n_p = 20, the four cases of these scatters would be open; with l_c fitted at n_p = 10,
+    those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -384,36 +384,32 @@ def _larger_there(
 
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at any other pillar
-    size. Candidates for the size of lowest friction are all sizes whose static friction, given its
-    statistical error, may exceed the lowest by no more than 0.001, an upper bound on the numerical
-    bias. Each size is compared with all candidates other than itself, and the interval covers all
-    differences. Where the outcome depends on which candidate has the lowest friction, and where the
-    size is itself a candidate, the upper limit of the interval is set to infinity: more
-    realisations with the same step would not decide such cases. With the default step, static
-    friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010]. This step raises friction by
-    0.0002 at 6 and by 0.0006 at 7 (300 realisations of each size, 100 of which were repeated with a
-    step of 5e-9 s); without this bias the difference, calculated before rounding, is 0.0001
-    [-0.0004, 0.0006]. To decide which is lower would take more than ten thousand realisations with
-    a step of 5e-9 s. If friction is lowest at 6 the statement fails, if at 7 it holds.
+    size. Statement 41 defines the candidates for the size of lowest friction. Each size is compared
+    with all candidates other than itself, and the interval covers all differences. The upper limit
+    of the interval is set to infinity if the outcome depends on which candidate has the lowest
+    friction, or if the size is itself a candidate: more realisations with the same step would not
+    decide such cases. With the default step, static friction at n_p = 6 is lower than at 7 by
+    0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
+    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
+    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
+    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
+    lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
 
 def roundest_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: the width of the force peak (see statement 37), divided by t_avg, is larger where
-    static friction is lowest than on the smallest and on the largest pillars. Candidates for the
-    size of lowest friction are all sizes whose static friction, given its statistical error, may
-    exceed the lowest by no more than 0.001, an upper bound on the numerical bias; the interval
-    covers all of them.
+    static friction is lowest than on the smallest and on the largest pillars. The interval covers
+    all candidates for the size of lowest friction (see statement 41).
     """
     return _larger_there(evidence, f"{_WIDTH}, over t_avg", _over_t_avg(samples.width))
 
 
 def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     """Test: the duration of the transition, divided by t_avg, is larger where static friction is
-    lowest than on the smallest and on the largest pillars. Candidates for the size of lowest
-    friction are all sizes whose static friction, given its statistical error, may exceed the lowest
-    by no more than 0.001, an upper bound on the numerical bias; the interval covers all of them.
+    lowest than on the smallest and on the largest pillars. The interval covers all candidates for
+    the size of lowest friction (see statement 41).
     """
     name = "the time from a tenth to nine tenths of the detachments, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))

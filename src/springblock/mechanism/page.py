@@ -138,7 +138,7 @@ def _of_budget(table: pd.DataFrame) -> Fields:
         falls[direction, model] = runs[:, -1]
     simulated = table[table["model"] == "simulation"]
     by_seed = simulated.groupby(["direction", "seed"])["edge_event"]
-    header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, when the core's is largest"]
+    header = ["grooves", "model", "edges, maximum", "at (µs)", "edges, at the core's maximum"]
     header += ["core, maximum", "at (µs)", "fall of the load (%)"]
     return {
         "budget_seeds": table["seed"].nunique(),
