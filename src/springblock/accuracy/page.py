@@ -44,19 +44,20 @@ the study's size in a quarter of an hour.
 _OPENING = """With the default step of {step:.0e} s, results of ensembles are biased by at most
 {biases}
 on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars only). Biases
-are measured against the finest step; each bound is the end farther from zero of the 95 % interval,
-plus the largest bias that the finest step may itself have. The standard
+are measured against a step of {finest:.0e} s; each bound is the end farther from zero of the 95 %
+interval, plus the largest bias that this step may itself have. The standard
 error of a mean over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}.
-It exceeds the estimated bias for {larger} of the {n} combinations of quantity and surface. Quote
+It exceeds the estimate of the bias, which is smaller than its bound, for {larger} of the {n}
+combinations of quantity and surface. Quote
 means with their intervals over seeds, and include the bias in the error where hundreds of
 realisations are pooled. Compare ensembles, not single runs: on patterned surfaces of this size
-single runs differ even between the two finest steps.
+single runs differ even between steps of {following:.0e} and {finest:.0e} s.
 """
 
 #: Names of quantities that are not called by their symbol.
 _NAMES = {
-    "force": "force before t_max, largest error",
+    "force": "force before t_max (largest error of each run)",
     "static_friction": "static friction",
     "t_det before horizon": "t_det before the horizon",
 }
@@ -134,6 +135,7 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
     if not rows:
         most = max(max(abs(row["ci_low"]), abs(row["ci_high"])) for row in small)
         return _UNKNOWN.format(most=_PERCENT * most, **_KNOWN)
+    finest, following = _finest(rows)
     cases = budget.measured(rows, (*MEANS, LENGTH))
     larger = [_scatter(case) > Bias.of(at(STEP, case)).estimate for case in cases.values()]
     return _OPENING.format(
@@ -142,8 +144,15 @@ def _opening(rows: Sequence[Row], small: Sequence[Row]) -> str:
         larger=sum(larger),
         n=len(larger),
         n_blocks=rows[0]["n_blocks"],
+        finest=finest,
+        following=following,
         **_KNOWN,
     )
+
+
+def _finest(rows: Sequence[Row]) -> list[float]:
+    """Return the two finest steps."""
+    return sorted({row["step"] for row in rows})[:2]
 
 
 def _largest(share: Callable[[list[Row]], float], cases: Cases) -> str:
@@ -162,7 +171,7 @@ def _full_size(rows: Sequence[Row], flat: Sequence[Row]) -> str:
     """
     if not rows:
         return _WITHOUT
-    finest, following = sorted({row["step"] for row in rows})[:2]
+    finest, following = _finest(rows)
     pillars = select(rows, quantity="t_avg", scene="pillared")
     default, fine = at(STEP, pillars), at(_FINE, pillars)
     missed = {row["quantity"]: row["error"] for row in select(flat, step=finest)}

@@ -49,8 +49,8 @@ def two_peaks(evidence: Evidence) -> Iterator[Finding]:
 
 def only_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: at angles of 15 to 90° to the grooves, the mean prominence of the lesser peak is below
-    1 % of the largest force. In the force averaged over runs, the prominence is 2.5, 1.9, 1.3, 0.7,
-    0.3 and 0.1 % at 15, 30, ... 90°.
+    1 % of the largest force. In the force averaged over runs, the prominence with pawls of 8 blocks
+    is 2.5, 1.9, 1.3, 0.7, 0.3 and 0.1 % at 15, 30, ... 90°.
     """
     along = slid_both_ways(evidence.records)
     scenes = [scene for scene in evidence.records if replace(scene, direction=ALONG) in along]
@@ -155,7 +155,8 @@ def rapid_but_smooth(evidence: Evidence) -> Iterator[Finding]:
     Both times are divided by t_max; divided by t_avg, they give the same outcomes. If the two
     criteria are taken separately, the transition is smoother with four of the five widths of pawls
     (the fifth is open), and more rapid with none. Compared with pillars of 20 or 30 blocks without
-    grooves instead, the transition with pawls of 8 and 10 is both smoother and more rapid.
+    grooves instead, the transition with pawls of 8 and 10 is both smoother and more rapid, and the
+    statement would be reproduced in part.
     """
     smooth = ("the width of the force peak", samples.width, ranges.POSITIVE)
     rapid = (_LASTING, samples.lasting, ranges.NEGATIVE)
@@ -207,5 +208,5 @@ def pillar_length_matters(evidence: Evidence) -> Iterator[Finding]:
         first, last = (samples.friction(evidence, scene) for scene in (shortest, longest))
         change = samples.magnitude(samples.relative(last, first, first))
         sizes = f"from n_p = {shortest.n_p} to {longest.n_p}"
-        name = f"the relative change of static friction {sizes}"
+        name = f"the magnitude of the relative change of static friction {sizes}"
         yield found_on(shortest, name, change, (0.01, ranges.INF), beside=[longest])

@@ -108,14 +108,14 @@ def rate_between(peaks: Peaks) -> float:
 
 
 def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
-    """Test: the detachment rate between the peaks is below half of a reference. The rate is the
-    lowest in a window of 0.05 t_avg, or the mean from one peak to the other; since the paper does
-    not say what the phase is quieter than, the reference is the mean rate from the first to the
-    last detachment (“all detachments”), or that from a tenth to nine tenths of them (“the
-    transition”). All four combinations are cases. Low rates also occur without a second peak: on
-    pillars of 58 and 30 blocks without grooves, the lowest rate while the force exceeds 95 % of its
-    maximum is 0.08 and 0.21 of that of the transition, less than between the load peaks of grooved
-    pillars.
+    """Test: the detachment rate between the peaks is below half of a reference. The rate is either
+    the lowest of those in windows of 0.05 t_avg, or the mean from one peak to the other; since the
+    paper does not say what the phase is quieter than, the reference is the mean rate from the first
+    to the last detachment (“all detachments”), or that from a tenth to nine tenths of them (“the
+    transition”). All four combinations are tested, with pawls of 8 and of 10 blocks. Low rates also
+    occur without a second peak: on pillars of 58 and 30 blocks without grooves, the lowest rate
+    while the force exceeds 95 % of its maximum is 0.08 and 0.21 of the mean rate of the transition,
+    less than between the load peaks of grooved pillars.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
         "lowest": partial(quietest_rate, share=0.05),
@@ -126,7 +126,7 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
         rates.items(), means.items(), _grooved(evidence.records).items()
     ):
         relative = samples.mean([rate(peaks) / mean(peaks.run) for peaks in found])
-        ratio = f"the {what} rate between the peaks over that of {span}"
+        ratio = f"the {what} rate between the peaks over the mean rate of {span}"
         case = {"ratio": ratio, **surfaces.case_of(scene)}
         yield samples.found_on(scene, ratio, relative, ranges.FEWER_THAN_HALF, case=case)
 
@@ -149,9 +149,11 @@ def edges_make_first_peak(peaks: Peaks) -> float:
 @mean_over(_grooved, f"the share of core blocks not detached {_BY_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
     """Test: by the time of the lowest force between the peaks, more than nine tenths of the core
-    blocks have not detached. On the 16 other surfaces with two load peaks, which are not cases
-    here, the share is 0.87 to 0.98; it is below 0.9 on pillars of 25 blocks with pawls of 7 and on
-    pillars of 30 blocks with pawls of 6.
+    blocks have not detached. The mean of this share over the time between the peaks is 0.93; at the
+    second peak it is 0.83 and 0.85 (pawls of 8 and 10), so that a test at this time would fail. On
+    the 16 other surfaces with two load peaks, which are not cases here, the share is 0.87 to 0.98;
+    on pillars of 25 blocks with pawls of 7 and of 30 with pawls of 6 it is below 0.9, and with
+    these as cases the statement would be reproduced in part.
     """
     return 1.0 - share_detached(peaks, core)
 
@@ -178,9 +180,10 @@ def slips_again(peaks: Peaks) -> float:
 )
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Test: between the load peaks the surface bears more than if all blocks slid. After the second
-    peak the force is lower than this in every run. Only the force on the whole surface is tested,
-    not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n per block when the
-    core bears most, which is less than sliding blocks bear (`docs/mechanism.md`).
+    peak the force falls below this value in every run. Only the force on the whole surface is
+    tested, not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n per block
+    when the core bears most, which is less than sliding blocks bear (`docs/mechanism.md`). If
+    “whole” meant all parts, the statement would fail.
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
@@ -188,17 +191,17 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 
 @mean_over(
     _grooved,
-    "the growth of the force from its lowest value between the peaks to 90 % detachment, over that "
-    "value",
+    "the growth of the force from its lowest value between the peaks to its largest until 90 % "
+    "detachment, over the former",
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """Test: from its lowest value between the load peaks until nine tenths of the blocks have
-    detached, the force grows by less than a tenth. If the force fell between the peaks to that of a
-    surface that slides as a whole, 0.6 of the normal force, the growth would exceed a tenth. If the
-    growth were divided by the drop of the force from static to dynamic friction instead, its mean
-    would be 0.28 and 0.33 (pawls of 8 and 10), and it would be a tenth or less in only one run of
-    987.
+    """Test: from its lowest value between the load peaks to its largest value until nine tenths of
+    the blocks have detached, the force grows by less than a tenth. If the force fell between the
+    peaks to that of a surface that slides as a whole, 0.6 of the normal force, the growth would
+    exceed a tenth. If the growth were divided by the drop of the force from static to dynamic
+    friction instead, its mean would be 0.28 and 0.33 (pawls of 8 and 10), and it would be a tenth
+    or less in only one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())
@@ -206,13 +209,14 @@ def small_force_suffices(peaks: Peaks) -> float:
 
 
 def interval_follows_lengths(evidence: Evidence) -> Iterator[Finding]:
-    """Test: of the widths of pawls on which most runs have two peaks, the widest has a shorter time
-    between the peaks than the narrowest, on pillars of the same n_p. Pillars of different n_p are
-    not compared: a time that depends on n_p alone would not show that the difference n_p - n_p2
-    matters. At n_p = 58, where the test holds, the two times differ by a twentieth of their value.
-    That the smaller difference gives the shorter time is an assumption; the paper does not say so.
-    If the test were only whether the two times differ, it would hold at n_p = 58 and 118 (with
-    opposite signs) and be open at 115, and the statement would not be settled.
+    """Test: on pillars of the same n_p, the time between the peaks is shorter with the widest pawls
+    than with the narrowest, among the widths with which most runs have two peaks. Pillars of
+    different n_p are not compared: a time that depends on n_p alone would not show that the
+    difference n_p - n_p2 matters. At n_p = 58, where the test holds, the two times differ by a
+    twentieth of their value. That the smaller n_p - n_p2, with the wider pawls, gives the shorter
+    time is an assumption; the paper does not say so. If the test were only whether the two times
+    differ, it would hold at n_p = 58 and 118 (with opposite signs) and be open at 115, and the
+    statement would not be settled.
     """
     name = (
         "the time between the load peaks over t_avg, with pawls of {} minus that with pawls of {}"

@@ -178,11 +178,10 @@ def _opened(part: Sequence[Row]) -> list[str]:
     title = f"{len(part)} findings" + (f": {part[0]['statistic']}" if shared else "")
     level = f"{100.0 - 5.0 / len(part):.4g} % interval, 95 % jointly"
     value = "value (exact)" if all(map(_is_exact, part)) else f"value [{level}]"
-    header = ["case", "statistic", value, "claimed", "outcome"]
-    lines = [header, *map(_cells, part)]
-    if shared:  # by the title
-        lines = [[first, *rest] for first, _, *rest in lines]
-    table = markdown_table(lines[0], lines[1:])
+    header = ["case", "" if shared else "statistic", value, "claimed", "outcome"]
+    columns = zip(header, *map(_cells, part), strict=True)
+    titles, *lines = zip(*(each for each in columns if each[0] and any(each[1:])), strict=True)
+    table = markdown_table(titles, lines)
     return [f"<details><summary>{title}</summary>", table, data, "</details>"]
 
 

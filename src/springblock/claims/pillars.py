@@ -68,11 +68,11 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean times over pillars and realisations are in this order, on the border and on
-    the second ring; the centre is the innermost block, or 2 x 2 blocks. The delay of the corners of
-    the second ring behind those edges of the border that lie along x is not part of the test: at
-    n_p = 30 it is 0.007 t_max, and on smaller pillars it is longer. At n_p = 60 its sign is open,
-    with -0.003 [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not
-    settled.
+    the second ring; the centre is the innermost block, or 2 x 2 blocks. The edges of a ring are its
+    rows and columns without the corners. Whether the second ring begins only after the border, that
+    is, its corners after the border's edges along x, is not part of the test: this delay is 0.007
+    t_max at n_p = 30, and longer on smaller pillars. At n_p = 60 its sign is open, with -0.003
+    [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not settled.
     """
     for scene, runs in pillars(evidence.records).items():
         maps = pillar_map(runs, scene.pattern)
@@ -83,14 +83,17 @@ def detachment_order(evidence: Evidence) -> Iterator[Finding]:
             yield from samples.in_order(scene, times)
 
 
-@share_over(pillars, "the share of pillars whose parts detach in this order", ranges.NEARLY_ALL)
+@share_over(
+    pillars, "the share of pillars whose parts detach in this order (mean t_det)", ranges.NEARLY_ALL
+)
 def always_in_order(run: Record) -> float:
-    """Test: corners, edges across and along the sliding direction and centre detach in this order,
-    both on the border and on the second ring, on more than nine tenths of the individual pillars.
-    Pillars of 4 blocks have only the border. If “always” meant only that mean times follow this
-    order whatever the scatter of the thresholds, the statement would be reproduced: in other runs
-    at n_p = 6, 10 and 20 with scatters of 0.02 and 0.2 (8 to 20 runs for each size and scatter),
-    mean times follow this order on both rings.
+    """Test: on more than nine tenths of the single pillars, corners, edges across and along the
+    sliding direction and centre detach in this order, by the mean t_det of each part, both on the
+    border and on the second ring. Pillars of 4 blocks have only the border and the centre. If
+    “always” meant only that means over pillars and realisations follow this order whatever the
+    scatter of the thresholds, the statement would be reproduced: in other runs at n_p = 6, 10 and
+    20 with scatters of 0.02 and 0.2 (8 to 20 runs for each size and scatter), these means follow it
+    on both rings.
     """
     rings = [list(parts.values()) for _, parts in _rings(run.scene.n_p)]
     ordered = [
@@ -108,9 +111,10 @@ def early_near_border(run: Record) -> float:
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max; or,
-    as in the paper's figure, the mean time of every part of these rings is before t_max. At n_p = 4
-    these rings are the whole pillar. With a bound of 0.74 the statement would hold for single
-    blocks at n_p = 7 to 60.
+    as in the paper's figure, the mean time of every part of these rings is before t_max; the last
+    part, which decides, is the edges along x of the second ring (of the border at n_p = 4, where
+    the two rings are the whole pillar, and the second one is its centre). With a bound of 0.74 the
+    statement would hold for single blocks at n_p = 7 to 60.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
@@ -161,22 +165,23 @@ def inside(run: Record) -> Array:
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Test: among the blocks enclosed by the two outermost rings, the first patch of 3 x 3 blocks
-    to detach (that with the earliest mean t_det) lies, on average, in the outer quarter of the
-    positions; of those equally far out, half are counted as further out. Nearly all first patches
-    lie at the very edge of the area, where the share of positions further out is smallest; on the
-    flat surface this share is about a half. The verdict is the same if 1, 3 or 4 rings are left
-    out, and for patches of 2 to 5 blocks a side.
+    """Test: among the blocks enclosed by the two outermost rings, less than a quarter of the
+    possible positions, on average, lie further out than the first patch of 3 x 3 blocks to detach
+    (that with the earliest mean t_det); half of those equally far out are counted as further out.
+    Nearly all first patches lie at the very edge of the area, where the share of positions further
+    out is smallest; on the flat surface this share is about a half. The verdict is the same if 1, 3
+    or 4 rings are left out, and for patches of 2 to 5 blocks a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of 10 blocks or more, the centre, about half as wide as the area enclosed by
-    the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, with a centre of
-    1 to 3 blocks a side, the test would hold as well.
+    """Test: on pillars of 10 blocks or more, the central part, about half as wide as the area
+    enclosed by the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, with
+    a central part of 1 to 3 blocks a side, the test would hold as well.
     """
-    name = "t_det/t_max of the centre minus that of the area between it and the two outermost rings"
+    around = "the area between it and the two outermost rings"
+    name = f"t_det/t_max of the central part minus that of {around}"
     for scene, runs in pillars(evidence.records, 10).items():
         times = np.stack([(inside(run) / run.t_max).mean(axis=0) for run in runs])
         wide = times.shape[-1]
@@ -235,8 +240,8 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
             statistic = (
-                f"the difference of {name} from that on the flat surface, over the same "
-                "difference of larger pillars"
+                f"the difference of {name} from that on the flat surface, over this difference "
+                "on the larger pillars (magnitudes)"
             )
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
             yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
@@ -280,7 +285,7 @@ def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     # The size of the minimum is chosen by the same means, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
         best = _lowest(evidence, scenes[1:-1]).place
-        name = f"static friction at n_p = {end.n_p} minus the lowest mean (n_p = {best.n_p})"
+        name = f"static friction at n_p = {end.n_p} minus that at n_p = {best.n_p}, the lowest mean"
         yield samples.compared(evidence, name, samples.static_friction, end, best, case={})
 
 
@@ -319,17 +324,19 @@ def _by_scatter(evidence: Evidence) -> dict[float, list[Scene]]:
 
 def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
-    paper's scatter of the thresholds and with others, which change l_c. Candidates for the size of
-    lowest friction are all sizes whose excess over the lowest friction may, by its interval, be
-    0.001 or less, an upper bound on the numerical bias. With other scatters only n_p = 3, 6, 10, 20
-    and 30 were simulated; the intervals do not include the error of so coarse a choice. l_c is
-    fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case holds, that of the paper's
-    scatter with A exp(-r/l_c); if the statement were read as existential (“can”), it would be
-    reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the intervals end at 2.05
-    and 2.02); as no case would hold then, the statement would not be reproduced. With scatters of
-    0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on which it is fitted. With l_c
-    fitted at n_p = 20, the four cases of these scatters would be open; with l_c fitted at n_p = 10,
-    those of exp(-r/l_c) would hold and those of A exp(-r/l_c) would fail.
+    paper's scatter of the thresholds and with others, which change l_c. A size is a candidate for
+    that of lowest friction if its mean friction exceeds the lowest by an amount whose interval
+    reaches down to 0.001 or less; 0.001 is an upper bound on the numerical bias. The value given is
+    that for the size with the lowest mean; the interval covers all candidates. With other scatters
+    only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the error of so
+    coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case
+    holds, that of the paper's scatter with A exp(-r/l_c); if the statement were read as existential
+    (“can”), it would be reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the
+    intervals end at 2.05 and 2.02); as no case would hold then, the statement would not be
+    reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on
+    which it is fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open;
+    with l_c fitted at n_p = 10, the two of them with exp(-r/l_c) would hold and the two with A
+    exp(-r/l_c) would fail. With the paper's scatter alone, the statement would not be settled.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -385,15 +392,16 @@ def _larger_there(
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at any other pillar
     size. Statement 41 defines the candidates for the size of lowest friction. Each size is compared
-    with all candidates other than itself, and the interval covers all differences. The upper limit
-    of the interval is set to infinity if the outcome depends on which candidate has the lowest
-    friction, or if the size is itself a candidate: more realisations with the same step would not
-    decide such cases. With the default step, static friction at n_p = 6 is lower than at 7 by
-    0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
-    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
-    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
-    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
-    lowest at 6 the statement fails, if at 7 it holds.
+    with all candidates other than itself; the value is the difference from n_p = 6 (at n_p = 6,
+    from 7), and the interval covers all differences. Its upper limit is set to infinity if the
+    outcome depends on which candidate has the lowest friction, or if the size is itself a
+    candidate; if such a case is open, more realisations with the same step would not decide it.
+    With the default step, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010].
+    This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations of each size, 100
+    of which were repeated with a step of 5e-9 s); without this bias the difference, calculated
+    before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take more than ten
+    thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the statement fails, if
+    at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 
