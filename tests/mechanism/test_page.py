@@ -37,7 +37,7 @@ def written() -> str:
         "with the paper's constants in 2, 3 and 2 of 4, with other coefficients in 1, 1 and 2 of 2",
         "(1 % lies within the measured interval) in 2 of the 2 misses and 1 of the 2 hits",
         "with the paper's constants (1) are on pawls of 12 blocks, with predictions of up to 0.40",
-        "It predicts 0 of the 1 cases with two peaks across the grooves",
+        "it predicts 0 of the 1 cases with two peaks across the grooves",
         "with pawls of 7 blocks, and one with pawls of 12",
         # of a simulation; 4 and 5 blocks along the grooves, 1 and 2 across
         "in events of 4.5 [-1.9, 10.9] blocks",

@@ -63,10 +63,10 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
-        f"{less or 'none'}. For sliding along the grooves, its prominence is largest with pawls "
+        f"{less or 'none'}. For sliding along the grooves, it is most prominent with pawls "
         f"of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
-        f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has "
-        "further surfaces)."
+        f"{number(along[most], ' %')} of the largest force{rank} (among these "
+        "surfaces; `docs/mechanism.md` has others)."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
