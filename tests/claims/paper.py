@@ -25,6 +25,8 @@ BARE_ALONG, BARE_ACROSS = (Scene(N, n_p2=5, n_s2=1, direction=direction) for dir
 DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for direction in "xy")
 SQUARE, PLAIN = Scene(N, 23, 25, 5, 1, 5, 1), Scene(N, 23, 25)
 STIFF = Scene(N, varied={"youngs_modulus": 4e7, "pressure": 2e5, "step": 1e-8})
+#: The same motion as with a modulus and a pressure 1e4 times larger.
+STIFFER = Scene(N, varied={"slider_velocity": 5e-6, "gamma": 50.0})
 #: The lowest and the highest value of each constant that decides how many fronts there are.
 FEW, MANY = (
     [Scene(N, varied={name: value}) for name, value in zip(NAMES, values, strict=True)]
@@ -47,7 +49,7 @@ CURVES: dict[Scene, tuple[float, float, float, list[tuple[float, float]]]] = {
     SQUARE: (300.0, 0.65, 15.0, []),
     ACROSS: (300.0, 0.70, 20.0, []),
     ANGLED: (300.0, 0.70, 20.0, []),
-    **dict.fromkeys([STIFF, *FEW, *MANY], (100.0, 0.80, 3.0, [])),
+    **dict.fromkeys([STIFF, STIFFER, *FEW, *MANY], (100.0, 0.80, 3.0, [])),
     BARE_ALONG: (300.0, 0.70, 20.0, []),
     BARE_ACROSS: (300.0, 0.75, 20.0, []),
     DEEP_ALONG: (300.0, 0.65, 15.0, [(140.0, 0.60), (220.0, 0.61)]),

@@ -22,6 +22,7 @@ from claims.paper import (
     SHORTER,
     SQUARE,
     STIFF,
+    STIFFER,
     WIDER,
     Change,
     peaks,
@@ -183,6 +184,7 @@ CHANGES = [
     ("damping", [FLAT], constant("gamma", 5e3), REFUTED),
     ("same_ratio", [STIFF], sticking(0.70), REFUTED),
     ("same_ratio", [STIFF], shifted(9), REFUTED),
+    ("same_ratio", [STIFFER], shifted(9), REFUTED),
     ("interval_follows_lengths", [ALONG, *SHORTER, *WIDER], further_with_pawls, REFUTED),
     ("pillar_length_matters", SHORTER, sticking(0.678), REFUTED),
 ]
