@@ -26,7 +26,7 @@ DEEP_ALONG, DEEP_ACROSS = (Scene(N, 23, 25, 5, 1, 11, 1, direction) for directio
 SQUARE, PLAIN = Scene(N, 23, 25, 5, 1, 5, 1), Scene(N, 23, 25)
 STIFF = Scene(N, varied={"youngs_modulus": 4e7, "pressure": 2e5, "step": 1e-8})
 #: The same motion as with a modulus and a pressure 1e4 times larger.
-STIFFER = Scene(N, varied={"slider_velocity": 5e-6, "gamma": 50.0})
+STIFFER = Scene(N, varied={"slider_velocity": 5e-6, "gamma": 1e3})
 #: The lowest and the highest value of each constant that decides how many fronts there are.
 FEW, MANY = (
     [Scene(N, varied={name: value}) for name, value in zip(NAMES, values, strict=True)]

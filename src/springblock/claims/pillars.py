@@ -112,9 +112,9 @@ def early_near_border(run: Record) -> float:
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max; or,
     as in the paper's figure, the mean time of every part of these rings is before t_max; the last
-    part, which decides, is the edges along x of the second ring (of the border at n_p = 4, where
-    the two rings are the whole pillar, and the second one is its centre). With a bound of 0.74 the
-    statement would hold for single blocks at n_p = 7 to 60.
+    part, which decides, is the edges along x of the second ring. At n_p = 4 the second ring is the
+    centre, which detaches even later and is not tested; the edges along x are those of the border.
+    With a bound of 0.74 the statement would hold for single blocks at n_p = 7 to 60.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
