@@ -292,12 +292,12 @@ def average_is_propagation(run: Record) -> float:
 def localized_stick_slip(run: Record) -> float:
     """Test: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
-    detachments. The number of slips is a mean over all intervals of this length in the rest of the
-    run. In single intervals it rises from 0.01 in the first, when nearly all blocks stick, to 0.132
-    in the 16th (about 156 µs), and exceeds a tenth in the 14th to the 19th, when the force reaches
-    its dynamic level: with these intervals alone the statement would fail. If the transition were
-    defined as lasting from 5 to 95 % of the detachments, the number would be 0.118, and the
-    statement would fail.
+    detachments. The number of slips, which include those of blocks that turn back without sticking,
+    is a mean over all intervals of this length in the rest of the run. In single intervals it rises
+    from 0.01 in the first, when nearly all blocks stick, to 0.132 in the 16th (about 156 µs), and
+    exceeds a tenth in the 14th to the 19th, when the force reaches its dynamic level: with these
+    intervals alone the statement would fail. If the transition were defined as lasting from 5 to 95
+    % of the detachments, the number would be 0.118, and the statement would fail.
     """
     minimum = first_minimum(run.force)
     if minimum is None:

@@ -114,10 +114,10 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     the lowest of those in windows of 0.05 t_avg, or the mean from one peak to the other; since the
     paper does not say what the phase is quieter than, the reference is the mean rate from the first
     to the last detachment (“all detachments”), or that from a tenth to nine tenths of them (“the
-    transition”). All four combinations are tested, with pawls of 8 and of 10 blocks. Low rates also
-    occur without a second peak: on pillars of 58 and 30 blocks without grooves, the lowest rate
-    while the force exceeds 95 % of its maximum is 0.08 and 0.21 of the mean rate of the transition,
-    less than between the load peaks of grooved pillars.
+    transition”). All four combinations are tested, with pawls of 8 and of 10 blocks; with a bound
+    of a tenth all would fail. Low rates also occur without a second peak: on pillars of 58 and 30
+    blocks without grooves, the lowest rate while the force exceeds 95 % of its maximum is 0.08 and
+    0.21 of the mean rate of the transition, less than between the load peaks of grooved pillars.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
         "lowest": partial(quietest_rate, share=0.05),
@@ -151,11 +151,11 @@ def edges_make_first_peak(peaks: Peaks) -> float:
 @mean_over(_grooved, f"the share of core blocks not detached {_BY_VALLEY}", ranges.NEARLY_ALL)
 def rest_between_peaks(peaks: Peaks) -> float:
     """Test: by the time of the lowest force between the peaks, more than nine tenths of the core
-    blocks have not detached. The mean of this share over the time between the peaks is 0.93; at the
-    second peak it is 0.83 and 0.85 (pawls of 8 and 10), so that a test at this time would fail. On
-    the 16 other surfaces with two load peaks, which are not cases here, the share is 0.87 to 0.98;
-    on pillars of 25 blocks with pawls of 7 and of 30 with pawls of 6 it is below 0.9, and with
-    these as cases the statement would be reproduced in part.
+    blocks have not detached. The mean of this share over the time between the peaks is 0.93 with
+    pawls of 8 and of 10; at the second peak it is 0.83 and 0.85, so that a test at this time would
+    fail. On the 16 other surfaces with two load peaks, which are not cases here, the share is 0.87
+    to 0.98; on pillars of 25 blocks with pawls of 7 and of 30 with pawls of 6 it is below 0.9, and
+    with these as cases the statement would be reproduced in part.
     """
     return 1.0 - share_detached(peaks, core)
 
@@ -167,8 +167,8 @@ def rest_between_peaks(peaks: Peaks) -> float:
 )
 def slips_again(peaks: Peaks) -> float:
     """Test: between the load peaks there is more than one further slip for every two blocks that
-    have detached by the time of the lowest force; one block may slip several times. With a bound of
-    one for every ten blocks the statement would hold.
+    have detached by the time of the lowest force; one block may slip several times, and turning
+    back counts as a slip. With a bound of one for every ten blocks the statement would hold.
     """
     run, between = peaks.run, slice(peaks.first, peaks.second)
     repeated = run.switches[between] - run.detachments[between]
@@ -184,8 +184,8 @@ def stressed_between_peaks(peaks: Peaks) -> float:
     """Test: between the load peaks the surface bears more than if all blocks slid. After the second
     peak the force falls below this value in every run. Only the force on the whole surface is
     tested, not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n per block
-    when the core bears most, which is less than sliding blocks bear (`docs/mechanism.md`). If
-    “whole” meant all parts, the statement would fail.
+    when the core bears most, which is at about the second peak (`docs/mechanism.md`); sliding
+    blocks bear 0.6 F_n. If “whole” meant all parts up to this time, the statement would fail.
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force

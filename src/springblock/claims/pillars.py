@@ -396,12 +396,12 @@ def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     from 7), and the interval covers all differences. Its upper limit is set to infinity if the
     outcome depends on which candidate has the lowest friction, or if the size is itself a
     candidate; if such a case is open, more realisations with the same step would not decide it.
-    With the default step, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002, 0.0010].
-    This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations of each size, 100
-    of which were repeated with a step of 5e-9 s); without this bias the difference, calculated
-    before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take more than ten
-    thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the statement fails, if
-    at 7 it holds.
+    With the default step, 2e-8 s, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002,
+    0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations of each
+    size, 100 of which were repeated with a step of 5e-9 s); without this bias the difference,
+    calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take
+    more than ten thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the
+    statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

@@ -111,9 +111,10 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on a side along x and on a side along y of the pillars, without corners, position
-    explains less than a fifth of the variance of t_det within the side. If the two blocks next to
-    each corner were left out, too, the statement would hold.
+    """Test: on one side along x and one along y of one pillar, without corners, position explains
+    less than a fifth of the variance of t_det within the side. With a bound of one half the
+    statement would be reproduced, and also if the two further blocks at each end of a side were
+    left out.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
