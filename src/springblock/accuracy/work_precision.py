@@ -52,9 +52,9 @@ SCHEMA = pa.schema(
         *numbers(
             "1",
             error="reference: root mean square over the realisations of the relative error; "
-            "t_det and t_avg relative to t_max; horizon reached: root of the share of runs. order: "
-            "mean slope of log error over log step, from the step to the finest. paired: relative "
-            "bias. scatter: 0, by definition",
+            "t_det and t_avg relative to t_max; horizon reached: root of the share of runs that "
+            "reach it. order: mean slope of log error over log step, from the step to the finest. "
+            "paired: relative bias. scatter: 0; the interval is that of the mean over the seeds",
             ci_low="lower limit of the 95 % t interval; reference: error",
             ci_high="upper limit; reference: error",
         ),

@@ -177,9 +177,9 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     front, where their own threshold is below the load: at t_max, the thresholds of 0.08 of all
     blocks at the largest velocity, and of 0.17 and 0.30 with scatters of 0.2 and 0.3, are below the
     mean load on the blocks that still stick. If so many blocks were not counted, the shares in
-    these three cases would be 0.06, 0.06 and 0.07, and the statement would be reproduced. With the
-    load that a block would bear without any slip, the shares would be 0.09, 0.09 and 0.11, and only
-    the largest scatter would fail.
+    these three cases would be 0.06, 0.06 and 0.07 (0.05 at a pressure of 12500 Pa), and the
+    statement would be reproduced. With the load that a block would bear without any slip, the
+    shares would be 0.09, 0.09 and 0.11, and only the largest scatter would fail.
     """
     for name in _DECISIVE:
         for scene in varied(evidence, name):

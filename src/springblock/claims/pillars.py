@@ -169,8 +169,9 @@ def nucleation_near_edge(run: Record) -> float:
     possible positions, on average, lie further out than the first patch of 3 x 3 blocks to detach
     (that with the earliest mean t_det); half of those equally far out are counted as further out.
     Nearly all first patches lie at the very edge of the area, where the share of positions further
-    out is smallest; on the flat surface this share is about a half. The verdict is the same if 1, 3
-    or 4 rings are left out, and for patches of 2 to 5 blocks a side.
+    out is smallest; on the flat surface this share is about a half. Smaller pillars have too few
+    positions for this bound. The verdict is the same if 1, 3 or 4 rings are left out, and for
+    patches of 2 to 5 blocks a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
@@ -224,8 +225,8 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
     time during which the force exceeds 95 % of its maximum, over t_max) differ from those of the
     flat surface by less than half as much, in magnitude, as those of larger pillars do. Each size
     of the larger pillars is a case, since the paper does not say which of them it means; those of
-    20 blocks or more are themselves nearer to the flat surface than those of 7 to 10. Static
-    friction may differ, as in the paper.
+    20 blocks or more are themselves nearer to the flat surface than those of 7 to 10; without them
+    the verdict would be the same. Static friction may differ, as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -305,7 +306,7 @@ def sharper_again(evidence: Evidence) -> Iterator[Finding]:
 @share_over(_large, _PRECURSORS, ranges.NEGLIGIBLE)
 def negligible_edges(run: Record) -> float:
     """Test: less than a tenth of the blocks are precursors. The two outermost rings alone hold 13 %
-    of the blocks at n_p = 60; with only the precursors in these rings, 0.114 of the blocks, the
+    of the blocks at n_p = 60; with only the precursors in these rings, 0.113 of the blocks, the
     verdict would be the same.
     """
     return samples.before_peak(run)

@@ -79,7 +79,12 @@ SETUP = pa.schema(
         column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
         column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
         column("distribution", pa.string(), "1", "distribution of the coefficients"),
-        column("correlation_length", pa.float64(), "m", "ℓ in their autocorrelation exp(-r²/ℓ²)"),
+        column(
+            "correlation_length",
+            pa.float64(),
+            "m",
+            "ℓ in the autocorrelation exp(-r²/ℓ²) of the normal variates from which they are drawn",
+        ),
         column(
             "law", pa.string(), "1", "law of friction; for a file its name, digest and constants"
         ),
@@ -105,8 +110,8 @@ SUMMARY = pa.schema(
             "1",
             static_friction="largest friction force over the normal force",
             dynamic_friction="mean friction force over the normal force, from the first minimum "
-            "after the peak to the end of a run that lasts well beyond t_max; NaN without a "
-            "minimum",
+            "after the peak to the end of the run; NaN if the force does not rise from a minimum "
+            "by a tenth of its drop",
         ),
         column("t_max", pa.float64(), "s", "time of the force peak"),
         column("t_avg", pa.float64(), "s", "mean time of first detachment of blocks in contact"),
@@ -132,10 +137,20 @@ _SIDE = [
 CORRELATION = pa.schema(
     [
         *_SIDE,
-        column("r", pa.int32(), "blocks", "distance along the side from its middle"),
+        column(
+            "r",
+            pa.int32(),
+            "blocks",
+            "distance along the side from blocks within n_p/10 of its middle",
+        ),
         column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
         *_limits("ci", "1"),
-        column("samples", pa.int32(), "1", "number of sides: realisations × pillars × 2"),
+        column(
+            "samples",
+            pa.int32(),
+            "1",
+            "number of sides: realisations × pillars × sides, or edges along grooves, of a pillar",
+        ),
     ]
 )
 

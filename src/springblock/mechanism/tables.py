@@ -56,7 +56,7 @@ PEAKS = pa.schema(
             "trained",
             pa.bool_(),
             "1",
-            "whether the prediction was chosen on surfaces with this one",
+            "whether assumption and limit of the prediction were chosen on this surface and others",
         ),
         *numbers(
             "%",

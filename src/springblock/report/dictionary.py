@@ -22,8 +22,9 @@ Every table but `means.csv` is a Parquet file, read by
     pd.read_parquet("results/tables/realisations.parquet")
     pd.read_parquet("results/realisations")  # all batches at once, with curves and maps
 
-This page lists the columns of each. Units are SI, blocks, %, or 1 for pure numbers. `springblock
-info FILE` prints the columns and the origin of a file; `springblock dictionary` writes this page.
+This page lists the columns of the Parquet tables. Units are SI, blocks, %, or 1 for pure numbers.
+`springblock info FILE` prints the columns and the origin of a file; `springblock dictionary` writes
+this page.
 
 ## Scene and setup
 
