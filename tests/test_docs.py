@@ -143,3 +143,10 @@ def test_commands_that_pages_show_are_known_with_their_options():
             assert set(re.findall(r"(?<!\S)--[\w-]+", words)) <= known, name
             shown += 1
     assert shown > 20
+
+
+def test_a_summary_of_a_statement_is_read_at_a_glance():
+    summary = PAGES["claims"].partition("## The statements")[2].partition("\n## ")[0]
+    cells = [cell for line in summary.splitlines() for cell in line.split(" | ")[1:]]
+    assert len(cells) > 400
+    assert max(map(len, cells)) <= 160

@@ -399,7 +399,7 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     """
     first = f"the first {_PATCH} x {_PATCH} patch to detach"
     rank = f"the share of positions nearer to the edge than {first}"
-    near = "the share of realisations in which {} has its centre less than {} blocks from the edge"
+    near = "the share of runs in which {} has its centre less than {} blocks from the edge"
     for flat, runs in surfaces.flat(evidence.records).items():
         margin = _margin(flat)
         ranks = np.array([samples.first_patch(run.t_det, _PATCH) for run in runs])

@@ -21,7 +21,7 @@ from springblock.model.scene import Scene
 
 _TWO_PEAKS, _ONE_PEAK = (PROMINENT, ranges.INF), (-ranges.INF, PROMINENT)
 _LESSER = "the prominence of the lesser peak over the largest force"
-_LASTING = "the time from 10 to 90 % of detachments"
+_LASTING = "the duration of the transition"
 
 
 def prominent(
@@ -136,7 +136,7 @@ def further_levels(evidence: Evidence) -> Iterator[Finding]:
     for along, case in _third_levels(evidence):
         both = ("along", along, _TWO_PEAKS), ("across", across(along), _ONE_PEAK)
         for way, scene, claimed in both:
-            statistic = f"{_LESSER}, when sliding {way} the grooves of the second level"
+            statistic = f"the relative prominence of the lesser peak, when sliding {way} the latter"
             yield prominent(evidence, scene, claimed, case, statistic)
 
 

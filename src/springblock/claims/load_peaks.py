@@ -162,7 +162,8 @@ def rest_between_peaks(peaks: Peaks) -> float:
 
 @mean_over(
     _grooved,
-    f"the number of further slips between the load peaks per block detached {_BY_VALLEY}",
+    "the number of further slips between the load peaks per block detached by the time of the "
+    "lowest force",
     ranges.MOST,
 )
 def slips_again(peaks: Peaks) -> float:
@@ -193,8 +194,8 @@ def stressed_between_peaks(peaks: Peaks) -> float:
 
 @mean_over(
     _grooved,
-    "the growth of the force from its lowest value between the peaks to its largest until 90 % "
-    "detachment, over the former",
+    "the relative growth of the force from its lowest between the peaks to its largest until "
+    "90 % detachment",
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:

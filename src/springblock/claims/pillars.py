@@ -160,7 +160,7 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of the positions enclosed by the two outermost rings that lie further out than the "
+    "the share of the positions inside the two outermost rings that lie further out than the "
     f"first {_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )
@@ -241,8 +241,8 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
             statistic = (
-                f"the difference of {name} from that on the flat surface, over this difference "
-                "on the larger pillars (magnitudes)"
+                f"{name} minus that on the flat surface, over the same for the larger pillars "
+                "(magnitudes)"
             )
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
             yield found_on(scene, statistic, away, claimed, case=case, beside=beside)
@@ -420,5 +420,5 @@ def longest_transition(evidence: Evidence) -> Iterator[Finding]:
     lowest than on the smallest and on the largest pillars. The interval covers all candidates for
     the size of lowest friction (see statement 41).
     """
-    name = "the time from a tenth to nine tenths of the detachments, over t_avg"
+    name = "the duration of the transition, over t_avg"
     return _larger_there(evidence, name, _over_t_avg(samples.lasting))
