@@ -117,6 +117,22 @@ def test_the_unit_of_mass_is_a_convention(case, power):
     assert other.energy.friction == factor * run.energy.friction
 
 
+@given(cases(), st.integers(0, 8))
+def test_a_larger_modulus_and_pressure_are_a_slower_slider(case, power):
+    """With E and P multiplied by a, all is √a times faster than with v and gamma divided by √a."""
+    root, setup, paper = 2.0**power, case.setup, case.setup.material
+    larger = {name: root**2 * getattr(paper, name) for name in ("youngs_modulus", "pressure")}
+    slower = {name: getattr(paper, name) / root for name in ("slider_velocity", "gamma")}
+    slower["speed_scale"] = paper.speed_scale / root
+    times = {name: getattr(setup, name) / root for name in ("step", "sample_interval")}
+    slow = replace(setup, material=replace(paper, **slower))
+    stiff = replace(setup, material=replace(paper, **larger), **times)
+    run, other = (case._replace(setup=each).run() for each in (slow, stiff))
+    np.testing.assert_array_equal(other.t_det * root, run.t_det)
+    np.testing.assert_array_equal(other.force / root**2, run.force)
+    np.testing.assert_array_equal(other.displacement, run.displacement)
+
+
 @given(cases(), st.integers(1, STEPS // 10 - 1))
 def test_no_bit_depends_on_prelude_cores_or_snapshots(case, sample):
     surface, setup = case.surface, case.setup

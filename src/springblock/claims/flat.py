@@ -115,12 +115,12 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
     than 5 %, and t_max < t_avg. The registered cases are 4 and 16 times the paper's modulus; with
     these alone the statement would be reproduced. 1e12 Pa (diamond) was added when other runs had
-    shown that it fails. It is simulated in other units of time, with a slider velocity and a
-    damping that are √1e5 times smaller: by the equations of motion this is the same. The larger the
-    modulus, the sooner after t_max the fronts have crossed the surface, so that in the end the
-    blocks that detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is
-    -0.00050 at 1e11 Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard
-    errors of 0.00007 to 0.0001).
+    shown that it fails. It is simulated with the paper's modulus, and slider velocity and damping
+    √1e5 times smaller: the motion is the same, √1e5 times slower. The larger the modulus, the
+    sooner after t_max the fronts have crossed the surface, so that in the end the blocks that
+    detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is -0.00050 at 1e11
+    Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard errors of 0.00007
+    to 0.0001).
     """
     for flat, runs in surfaces.flat(evidence.records).items():
         for modulus, scene in _larger_moduli(evidence, runs[0].material):

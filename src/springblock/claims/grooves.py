@@ -189,10 +189,10 @@ def faster_along(evidence: Evidence) -> Iterator[Finding]:
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
     quarters, the statement would be reproduced in part: on pawls of 4, this time is longer along
     the grooves than across them. Most of the difference in the time from a tenth to nine tenths
-    arises before t_max; on pawls of 4 and 8, the time from t_max to nine tenths is even longer
-    along the grooves, where fewer blocks have detached by t_max. But fronts are also faster after
-    t_max: in 12 other runs of each surface, the median delay between the detachments of neighbours
-    in the sliding direction is then shorter for sliding along the grooves than across them.
+    arises before t_max, and on pawls of 4 and 8 the time from t_max to nine tenths is longer along
+    the grooves. But fronts are also faster after t_max: in 12 other runs of each surface, the
+    median delay between the detachments of neighbours in the sliding direction is then shorter for
+    sliding along the grooves than across them.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

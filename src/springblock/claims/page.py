@@ -180,7 +180,8 @@ def _opened(part: Sequence[Row]) -> list[str]:
     value = "value (exact)" if all(map(_is_exact, part)) else f"value [{level}]"
     header = ["case", "" if shared else "statistic", value, "claimed", "outcome"]
     columns = zip(header, *map(_cells, part), strict=True)
-    titles, *lines = zip(*(each for each in columns if each[0] and any(each[1:])), strict=True)
+    filled = (each for each in columns if each[0] and any(each[1:]))  # the title has the statistic
+    titles, *lines = zip(*filled, strict=True)
     table = markdown_table(titles, lines)
     return [f"<details><summary>{title}</summary>", table, data, "</details>"]
 

@@ -188,12 +188,12 @@ def three_blocks(evidence: Evidence) -> Iterator[Finding]:
 def growing_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: l_c of exp(-r/l_c) and of A exp(-r/l_c) is larger on the largest pillars than at n_p =
     20. The fits weight each c(r) by the inverse square of its error; with equal weights, l_c of
-    exp(-r/l_c) would still decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). With a
-    free amplitude it increases from n_p = 20 to 30, by 0.34 [0.12, 0.55] blocks (95 %), but
-    decreases beyond; with n_p = 30 instead of 60 the statement would not be settled. Pillars of
-    about 10 blocks or fewer, on which the paper finds l_c difficult to estimate, are left out; if
-    n_p = 60 were compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted
-    only up to r = 3), the statement would be reproduced.
+    exp(-r/l_c) would still decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). With
+    n_p = 30 instead of 60, l_c of A exp(-r/l_c) would increase, by 0.34 [0.12, 0.55] blocks (95 %),
+    and the statement would not be settled. Pillars of about 10 blocks or fewer, on which the paper
+    finds l_c difficult to estimate, are left out; if n_p = 60 were compared with n_p = 10 (l_c =
+    2.2 and, with free amplitude, 1.6 blocks, fitted only up to r = 3), the statement would be
+    reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:

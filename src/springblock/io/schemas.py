@@ -79,12 +79,7 @@ SETUP = pa.schema(
         column("mu_dynamic", pa.float64(), "1", "mean of dynamic coefficients"),
         column("mu_dynamic_std", pa.float64(), "1", "standard deviation of dynamic coefficients"),
         column("distribution", pa.string(), "1", "distribution of the coefficients"),
-        column(
-            "correlation_length",
-            pa.float64(),
-            "m",
-            "ℓ in the autocorrelation exp(-r²/ℓ²) of the normal variates from which they are drawn",
-        ),
+        *numbers("m", correlation_length="ℓ in the normal variates' autocorrelation exp(-r²/ℓ²)"),
         column(
             "law", pa.string(), "1", "law of friction; for a file its name, digest and constants"
         ),
@@ -137,20 +132,10 @@ _SIDE = [
 CORRELATION = pa.schema(
     [
         *_SIDE,
-        column(
-            "r",
-            pa.int32(),
-            "blocks",
-            "distance along the side from blocks within n_p/10 of its middle",
-        ),
+        column("r", pa.int32(), "blocks", "distance from blocks within n_p/10 of a side's middle"),
         column("correlation", pa.float64(), "1", "c(r) of first detachment times, c(0) = 1"),
         *_limits("ci", "1"),
-        column(
-            "samples",
-            pa.int32(),
-            "1",
-            "number of sides: realisations × pillars × sides, or edges along grooves, of a pillar",
-        ),
+        column("samples", pa.int32(), "1", "number of sides, or of edges along grooves"),
     ]
 )
 
