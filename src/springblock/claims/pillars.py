@@ -327,17 +327,18 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     """Test: the pillar size of lowest static friction is within a factor of two of l_c, with the
     paper's scatter of the thresholds and with others, which change l_c. A size is a candidate for
     that of lowest friction if its mean friction exceeds the lowest by an amount whose interval
-    reaches down to 0.001 or less; 0.001 is an upper bound on the numerical bias. The value given is
-    that for the size with the lowest mean; the interval covers all candidates. With other scatters
-    only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do not include the error of so
-    coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and with A exp(-r/l_c). One case
-    holds, that of the paper's scatter with A exp(-r/l_c); if the statement were read as existential
-    (“can”), it would be reproduced. With l_c fitted at n_p = 20 or 60 this case would be open (the
-    intervals end at 2.05 and 2.02); as no case would hold then, the statement would not be
-    reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as the sides of 30 blocks on
-    which it is fitted. With l_c fitted at n_p = 20, the four cases of these scatters would be open;
-    with l_c fitted at n_p = 10, the two of them with exp(-r/l_c) would hold and the two with A
-    exp(-r/l_c) would fail. With the paper's scatter alone, the statement would not be settled.
+    reaches down to 0.001 or less; 0.001 is about the largest numerical error of static friction on
+    pillars. The value given is that for the size with the lowest mean; the interval covers all
+    candidates. With other scatters only n_p = 3, 6, 10, 20 and 30 were simulated; the intervals do
+    not include the error of so coarse a choice. l_c is fitted at n_p = 30, with exp(-r/l_c) and
+    with A exp(-r/l_c). One case holds, that of the paper's scatter with A exp(-r/l_c); if the
+    statement were read as existential (“can”), it would be reproduced. With l_c fitted at n_p = 20
+    or 60 this case would be open (the intervals end at 2.05 and 2.02); as no case would hold then,
+    the statement would not be reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as
+    the sides of 30 blocks on which it is fitted. With l_c fitted at n_p = 20, the four cases of
+    these scatters would be open; with l_c fitted at n_p = 10, the two of them with exp(-r/l_c)
+    would hold and the two with A exp(-r/l_c) would fail. With the paper's scatter alone, the
+    statement would not be settled.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
