@@ -143,7 +143,7 @@ def test_the_lesson_can_be_followed_and_its_answers_are_right(study):
     assert names["friction"] == pytest.approx([0.79, 0.93], abs=0.01)
     assert names["precursors"] == pytest.approx([0.05, 0.005], abs=0.005)
     pillar = names["pillar"]
-    assert pillar[names["edge"]].mean() < 0.9 * pillar[names["core"]].mean()
+    assert pillar[names["edge"]].mean() < 0.9 * pillar[names["middle"]].mean()
     sizes = [np.mean([run.static_friction for run in read(f"p{n}.parquet")]) for n in (2, 6, 30)]
     assert sizes == pytest.approx([0.82, 0.65, 0.70], abs=0.01)
 

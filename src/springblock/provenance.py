@@ -36,7 +36,7 @@ _SAYING = {"claims"}
 def digest(step: str) -> str:
     """Return the digest of the code of a step; 16 hexadecimal digits.
 
-    It does not depend on comments, docstrings, layout and the text of `raise`.
+    It does not depend on comments, layout, the text of `raise` and, but for `claims`, docstrings.
     """
     return _short("".join(map(_of_folder, STEPS[step])))
 

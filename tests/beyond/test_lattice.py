@@ -85,9 +85,10 @@ def test_the_page_says_what_follows_the_lattice_and_what_the_layer():
         "**On thicker layers, the friction-minimising size changes**: it is 80 µm at" in conclusion
     )
     most = (
-        "the same scatter on every lattice, the same disorder per area and correlated coefficients"
+        "*the same scatter on every lattice*, *the same disorder per area* and "
+        "*correlated coefficients*"
     )
-    assert f"l_z, it {UNCHANGED} for {most} and changes for no disorder.**" in conclusion
+    assert f"l_z, it {UNCHANGED} for {most} and changes for *no disorder*.**" in conclusion
     assert (
         "| stress concentration on pillars of 80 µm | increases | increases | increases |"
         in changed

@@ -32,7 +32,7 @@ def test_the_page_counts_surfaces_with_more_along_than_across(monkeypatch):
     made = grooves({"x": 0.95, "y": 0.0}) | grooves({"x": 0.0, "y": 0.95}, n_p=22)
     conclusion, hierarchy, table = peaks.answers(made)
     assert "across them** on 1 of 2 surfaces, and less prominent on 1. " in conclusion
-    assert "pawls of 4 and grooves of 2 blocks over the whole surface, 94.99" in conclusion
+    assert "pawls of 4 and grooves of 2 blocks over the whole surface: 94.99" in conclusion
     assert "with pillars in 0 pairs, and less prominent in 1. In 0 pairs" in hierarchy
     assert "1 % on both surfaces; the difference is significant in none of these." in hierarchy
     assert len(table.splitlines()) == 4

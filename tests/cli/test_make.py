@@ -104,7 +104,7 @@ def test_the_page_begins_with_the_largest_errors(page, tmp_path):
     errors = "4.47 % (static friction), 8.94 % (t_max), 4.47 % (t_avg), 2.58 % (decay length)"
     assert largest in opening
     assert errors in opening
-    assert "smaller than its bound, for 10 of the 10 combinations" in opening
+    assert "(not its bound) for 10 of the 10 combinations" in opening
     assert "Errors at full size were not measured." in page().split("Written by")[0]
 
 

@@ -44,12 +44,12 @@ the study's size in a quarter of an hour.
 _OPENING = """With the default step of {step:.0e} s, results of ensembles are biased by at most
 {biases}
 on three surfaces of {n_blocks} x {n_blocks} blocks (decay length: on pillars only). Biases
-are measured against a step of {finest:.0e} s; each bound is the end farther from zero of the 95 %
-interval, plus the largest bias that this step may itself have. The standard
+are measured against a step of {finest:.0e} s; each bound is the end of the bias's 95 % interval
+that is farther from zero, plus the largest bias that this step may itself have. The standard
 error of a mean over {ensemble} seeds, or {length_ensemble} for the decay length, is up to
 {errors}.
-It exceeds the estimate of the bias, which is smaller than its bound, for {larger} of the {n}
-combinations of quantity and surface. Quote
+It exceeds the estimated bias (not its bound) for {larger} of the {n}
+combinations of these quantities and surfaces. Quote
 means with their intervals over seeds, and include the bias in the error where hundreds of
 realisations are pooled. Compare ensembles, not single runs: on patterned surfaces of this size
 single runs differ even between steps of {following:.0e} and {finest:.0e} s.

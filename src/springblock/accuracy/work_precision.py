@@ -51,10 +51,11 @@ SCHEMA = pa.schema(
         *texts(quantity="quantity to which the error refers"),
         *numbers(
             "1",
-            error="reference: root mean square over the realisations of the relative error; "
-            "t_det and t_avg relative to t_max; horizon reached: root of the share of runs that "
-            "reach it. order: mean slope of log error over log step, from the step to the finest. "
-            "paired: relative bias. scatter: 0; the interval is that of the mean over the seeds",
+            error="reference: root mean square over the realisations of the relative error (t_det "
+            "and t_avg relative to t_max) or, where quantity is horizon reached, root of the share "
+            "of runs that reach the horizon. order: mean slope of log error over log step, from "
+            "the step to the finest. paired: relative bias. scatter: 0; the interval is that of "
+            "the mean over the seeds",
             ci_low="lower limit of the 95 % t interval; reference: error",
             ci_high="upper limit; reference: error",
         ),

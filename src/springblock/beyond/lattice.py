@@ -182,7 +182,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     header += [
         "friction-minimising size (µm)",
         "sizes (µm)",
-        "fewest realisations of a size",
+        "realisations per size, at least",
     ]
     lines = []
     for at, sizes in surfaces.items():
@@ -257,7 +257,7 @@ def _refined(compared: Comparisons, changed: Changes) -> str:
     kinds: dict[str, list[str]] = {}
     for kind, (verb, _) in changed.items():
         if kind != "layer":
-            kinds.setdefault(verb, []).append(compared[kind].words.lower())
+            kinds.setdefault(verb, []).append(f"*{compared[kind].words.lower()}*")
     if len(kinds) < 2:
         return next(iter(kinds), "is not compared")
     return listed([f"{verb} for {listed(each)}" for verb, each in kinds.items()])

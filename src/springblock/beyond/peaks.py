@@ -59,14 +59,14 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     most = max(found, key=lambda key: float(along[key].mean))
     alike = [key for key in found if direction(along[most], along[key]) == UNCHANGED]
     place = f"on pillars of {most.n_p} blocks" if most.n_p else "over the whole surface"
-    rank = "; on some other surfaces it is not significantly smaller" if alike[1:] else ""
+    rank = ", not significantly larger than on some of the others" if alike[1:] else ""
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
-        f"{less or 'none'}. For sliding along the grooves, it is most prominent with pawls "
-        f"of {most.n_p2} and grooves of {most.n_s2} blocks {place}, "
-        f"{number(along[most], ' %')} of the largest force{rank} (among these "
-        "surfaces; `docs/mechanism.md` has others)."
+        f"{less or 'none'}. For sliding along the grooves, its prominence is the largest of these "
+        f"surfaces with pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}: "
+        f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has more "
+        "surfaces)."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:
@@ -74,8 +74,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         two = [apart[both] for both in pairs if min(along[each].mean for each in both) > _TWO]
         more, less = _significant(list(apart.values()))
         yield (
-            f"Hierarchy: {len(pairs)} pairs of surfaces have the same grooves, one surface with "
-            "pillars and one without. For sliding along the grooves, the lesser peak is "
+            f"Hierarchy: in each of {len(pairs)} pairs, two surfaces have the same grooves, one "
+            "with pillars and one without. For sliding along the grooves, the lesser peak is "
             f"significantly more prominent on the surface with pillars in {more} pairs, and less "
             f"prominent in {less or 'none'}. In {len(two)} pairs, the prominence of the lesser "
             f"peak exceeds {_TWO:g} % on both surfaces; the difference is significant in "

@@ -39,15 +39,15 @@ _on_flat = partial(mean_over, surfaces.flat)
 
 def step_suffices(evidence: Evidence) -> Iterator[Finding]:
     """Test: on surfaces of 16 x 16 blocks (flat, pillars of 4 blocks, and pillars of 8 blocks with
-    pawls of 2 and grooves of 1), the bias of the mean of each quantity is smaller than the standard
-    error of a mean over 20 realisations. The paper does not say how its Runge-Kutta method treats
-    friction within a step. Three methods are therefore tested: both integrators of this study
-    (leapfrog and rk4), and the plain Runge-Kutta method, in which friction opposes the velocity of
-    each stage. Biases are differences from the means with the leapfrog and a step of 5e-9 s. Most
-    of the bias of the plain method does not depend on the step: with half the step, means over the
-    same 20 realisations change by 0.5 % or less (standard errors of 0.06 to 0.9 %), while their
-    biases are 4 to 17 %. If “integration errors” meant such changes alone, the plain method would
-    be an open case, and the statement not settled.
+    pawls of 2 and grooves of 1), the bias of the mean of static friction, of t_max and of t_avg is
+    smaller than the standard error of this mean over 20 realisations. The paper does not say how
+    its Runge-Kutta method treats friction within a step. Three methods are therefore tested: both
+    integrators of this study (leapfrog and rk4), and the plain Runge-Kutta method, in which
+    friction opposes the velocity of each stage. Biases are differences from the means with the
+    leapfrog and a step of 5e-9 s. Most of the bias of the plain method does not depend on the step:
+    with half the step, means over the same 20 realisations change by 0.5 % or less (standard errors
+    of 0.06 to 0.9 %), while their biases are 4 to 17 %. If “integration errors” meant such changes
+    alone, the plain method would be an open case, and the statement not settled.
     """
     scatter = select(evidence.precision, comparison="scatter")
     errors = {(row["scene"], row["quantity"]): ensemble_error(row) for row in scatter}
@@ -115,12 +115,12 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     """Test: on flat surfaces with other moduli at the same ratio, static friction changes by less
     than 5 %, and t_max < t_avg. The registered cases are 4 and 16 times the paper's modulus; with
     these alone the statement would be reproduced. 1e12 Pa (diamond) was added when other runs had
-    shown that it fails. It is simulated with the paper's modulus, and slider velocity and damping
-    √1e5 times smaller: the motion is the same, √1e5 times slower. The larger the modulus, the
-    sooner after t_max the fronts have crossed the surface, so that in the end the blocks that
-    detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is -0.00050 at 1e11
-    Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard errors of 0.00007
-    to 0.0001).
+    shown that the statement fails there. Its motion is √1e5 times faster than that with the paper's
+    modulus and slider velocity and damping divided by √1e5, which is simulated instead. The larger
+    the modulus, the sooner after t_max the fronts have crossed the surface, so that in the end the
+    blocks that detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is
+    -0.00050 at 1e11 Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard
+    errors of 0.00007 to 0.0001).
     """
     for flat, runs in surfaces.flat(evidence.records).items():
         for modulus, scene in _larger_moduli(evidence, runs[0].material):
@@ -176,10 +176,10 @@ def onset_in_any_case(evidence: Evidence) -> Iterator[Finding]:
     """Test: less than a tenth of the blocks detach before t_max. Blocks also detach without a
     front, where their own threshold is below the load: at t_max, the thresholds of 0.08 of all
     blocks at the largest velocity, and of 0.17 and 0.30 with scatters of 0.2 and 0.3, are below the
-    mean load on the blocks that still stick. If so many blocks were not counted, the shares in
-    these three cases would be 0.06, 0.06 and 0.07 (0.05 at a pressure of 12500 Pa), and the
-    statement would be reproduced. With the load that a block would bear without any slip, the
-    shares would be 0.09, 0.09 and 0.11, and only the largest scatter would fail.
+    mean load on the blocks that still stick. If these shares were subtracted, 0.06, 0.06 and 0.07
+    would remain in the three cases (0.05 at a pressure of 12500 Pa), and the statement would be
+    reproduced. If thresholds were compared with the load that a block would bear without any slip
+    instead, 0.09, 0.09 and 0.11 would remain, and only the largest scatter would fail.
     """
     for name in _DECISIVE:
         for scene in varied(evidence, name):
@@ -196,9 +196,10 @@ def single_events(run: Run) -> float:
 
 def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: most precursors (“those occurring before t_max”) detach before all of their eight
-    neighbours; or, if events (clusters of precursors) are counted, most consist of a single block.
-    With only the blocks that detach before 0.9 t_max, or before 0.99 t_max, as precursors, the test
-    would also hold for blocks. With the bound for “all” it would fail for both.
+    neighbours; or, if events (here: clusters of precursors) are counted, most consist of a single
+    block. With only the blocks that detach before 0.9 t_max, or before 0.99 t_max, as precursors,
+    the test would also hold for blocks. With the bound for “all” it would fail for blocks and for
+    events.
     """
     blocks = ("the share of precursors that detach before all eight neighbours", samples.isolated)
     events = ("the share of clusters of precursors that are a single block", single_events)
@@ -214,8 +215,9 @@ def isolated_precursors(evidence: Evidence) -> Iterator[Finding]:
 )
 def weakest_first(run: Record) -> float:
     """Test: of the m blocks that detach before t_max, most are among the m with the lowest
-    mu_static. With the bound for “all” the statement would not be reproduced; of the m blocks that
-    detach before 0.9 t_max, 0.97 are among the m with the lowest mu_static.
+    mu_static. With the bound for “all” the statement would not be reproduced, unless m counted only
+    the blocks that detach before 0.9 t_max: 0.97 of these are among the m with the lowest
+    mu_static.
     """
     early = run.t_det < run.t_max
     thresholds, _ = draw_friction(run.t_det.shape, run.seed, run.material)
@@ -243,7 +245,8 @@ def not_all_nucleate(run: Record) -> float:
 @_on_flat(_BEFORE, ranges.NEGLIGIBLE)
 def onset(run: Record) -> float:
     """Test: less than a tenth of the blocks detach before t_max. Some fronts have begun by then:
-    there are 3.8 clusters of more than 20 detached blocks at t_max (60 runs), and none by chance.
+    there are 3.8 clusters of more than 20 detached blocks at t_max (60 runs); by chance there would
+    be none.
     """
     return samples.before_peak(run)
 
@@ -263,8 +266,7 @@ def avalanche_follows(run: Record) -> float:
 @_on_flat(f"the detachment rate at t_max over its maximum {_WINDOW}", ranges.FEWER_THAN_HALF)
 def peaks_apart(run: Record) -> float:
     """Test: at t_max the detachment rate is below half its maximum. The verdict is the same with
-    windows of 0.2 to 3 % of t_max; with one of 5 %, which is longer than the transition, the test
-    would fail.
+    windows of 0.2 to 3 % of t_max; with one of 5 %, the test would fail.
     """
     counts = samples.rates(run, _BURST * run.t_max)
     return float(counts[np.argmin(np.abs(run.time - run.t_max))] / counts.max())
@@ -292,7 +294,7 @@ def average_is_propagation(run: Record) -> float:
 def localized_stick_slip(run: Record) -> float:
     """Test: after the first force minimum, there is less than one slip for every ten blocks in a
     time as long as the transition, which lasts from a tenth to nine tenths of the first
-    detachments. The number of slips, which include those of blocks that turn back without sticking,
+    detachments. The number of slips, in which turning back without sticking counts as a new slip,
     is a mean over all intervals of this length in the rest of the run. In single intervals it rises
     from 0.01 in the first, when nearly all blocks stick, to 0.132 in the 16th (about 156 µs), and
     exceeds a tenth in the 14th to the 19th, when the force reaches its dynamic level: with these
@@ -387,8 +389,8 @@ def nucleation_anywhere(evidence: Evidence) -> Iterator[Finding]:
     70 % of all positions are nearer to the edge than this patch (50 % if all are equally likely),
     and the share of realisations in which its centre is less than 10 blocks from the edge differs
     from the share expected by chance by less than a fifth of the latter. The share expected by
-    chance, 0.287 (standard error: 0.0013), was measured on 300 surfaces with periodic edges, on
-    which edges were marked at random places after the runs. It lies between the share of all
+    chance, 0.287 (standard error: 0.0013), was measured on 300 periodic surfaces, which have no
+    edges; these were marked at random places after the runs. It lies between the share of all
     patches (0.257) and that of all blocks (0.306) that are so near to the edge: no patch has its
     centre in the two outermost rows, and some of the fronts that begin there are counted further
     inside. If 0.306 were taken as the share by chance, the statement would be reproduced; with

@@ -122,16 +122,16 @@ def _third_levels(evidence: Evidence) -> Iterator[tuple[Scene, dict[str, str]]]:
 def further_levels(evidence: Evidence) -> Iterator[Finding]:
     """Test: on surfaces with three levels, the mean prominence of the lesser peak exceeds 1 % of
     the largest force when sliding along the grooves of the second level, and is below 1 % when
-    sliding across them. The surfaces are pillars of 58 blocks with pawls of 8 between grooves of 2,
-    cut across by grooves of 2 into parts of 18, and with pawls of 25 between grooves of 8, divided
-    along by grooves of 2 into pawls of 7. One finding fails: that for sliding across the grooves of
-    the second level, along those of the third. The test claims a single peak there, too, although
-    the paper's explanation leads one to expect a second, since the surface slides along grooves of
-    the third level. In the force averaged over runs, in which fluctuations of single runs cancel,
-    the prominence is only 0.3 %. Without this finding, which is part of the registered test, the
-    statement would be reproduced. When sliding along the grooves of the second level, the
-    prominence in the averaged force is 0.95 % with a third level across the second and 1.13 % with
-    one along it.
+    sliding across them. The two surfaces are pillars of 58 blocks: one has pawls of 8 between
+    grooves of 2, cut crosswise by grooves of 2 into parts of 18; the other has pawls of 25 between
+    grooves of 8, divided lengthwise by grooves of 2 into pawls of 7. One finding fails: that for
+    sliding across the grooves of the second level, along those of the third. The test claims a
+    single peak there, too, although the paper's explanation leads one to expect a second, since the
+    surface slides along grooves of the third level. In the force averaged over runs, in which
+    fluctuations of single runs cancel, the prominence is only 0.3 %. Without this finding, which is
+    part of the registered test, the statement would be reproduced. When sliding along the grooves
+    of the second level, the prominence in the averaged force is 0.95 % with a third level across
+    the second and 1.13 % with one along it.
     """
     for along, case in _third_levels(evidence):
         both = ("along", along, _TWO_PEAKS), ("across", across(along), _ONE_PEAK)
@@ -174,7 +174,7 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
     """Test: static friction is greater when sliding across the grooves, on surfaces whose grooves
     are narrower than the pawls between them. If “narrow” meant half as wide as the pawls or less,
     all remaining cases would fail, and the statement would not be reproduced. Pawls of 8 between
-    grooves of 4, which also meet this condition, are not among the cases: in 20 other runs,
+    grooves of 4, which also meet this condition, are not among the cases; in 20 other runs,
     friction is greater across these grooves, by 0.0072 (standard error 0.0005). With them, the
     statement would be reproduced in part.
     """
@@ -187,12 +187,12 @@ def across_sticks_better(evidence: Evidence) -> Iterator[Finding]:
 def faster_along(evidence: Evidence) -> Iterator[Finding]:
     """Test: the time from a tenth to nine tenths of the detachments, a proxy for the speed of
     fronts, is a smaller part of t_max along the grooves. With the time from a quarter to three
-    quarters, the statement would be reproduced in part: on pawls of 4, this time is longer along
-    the grooves than across them. Most of the difference in the time from a tenth to nine tenths
-    arises before t_max, and on pawls of 4 and 8 the time from t_max to nine tenths is longer along
-    the grooves. But fronts are also faster after t_max: in 12 other runs of each surface, the
-    median delay between the detachments of neighbours in the sliding direction is then shorter for
-    sliding along the grooves than across them.
+    quarters, the statement would be reproduced in part: on pawls of 4, this time is a larger part
+    of t_max along the grooves than across them. Most of the difference in the time from a tenth to
+    nine tenths arises before t_max, and on pawls of 4 and 8 the time from t_max to nine tenths, in
+    seconds, is longer along the grooves. But fronts are also faster after t_max: in 12 other runs
+    of each surface, the median delay between the detachments of neighbours in the sliding direction
+    is then shorter for sliding along the grooves than across them.
     """
     name = f"{_LASTING}, over t_max, along minus across (same seeds)"
     for along in slid_both_ways(evidence.records, 1):

@@ -153,9 +153,10 @@ def rest_between_peaks(peaks: Peaks) -> float:
     """Test: by the time of the lowest force between the peaks, more than nine tenths of the core
     blocks have not detached. The mean of this share over the time between the peaks is 0.93 with
     pawls of 8 and of 10; at the second peak it is 0.83 and 0.85, so that a test at this time would
-    fail. On the 16 other surfaces with two load peaks, which are not cases here, the share is 0.87
-    to 0.98; on pillars of 25 blocks with pawls of 7 and of 30 with pawls of 6 it is below 0.9, and
-    with these as cases the statement would be reproduced in part.
+    fail. On the 16 other surfaces with two load peaks, which are not cases here, the share at the
+    lowest force is 0.87 to 0.98; it is below 0.9 on pillars of 25 blocks with pawls of 7 and on
+    pillars of 30 blocks with pawls of 6, and with these as cases the statement would be reproduced
+    in part.
     """
     return 1.0 - share_detached(peaks, core)
 
@@ -184,9 +185,10 @@ def slips_again(peaks: Peaks) -> float:
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Test: between the load peaks the surface bears more than if all blocks slid. After the second
     peak the force falls below this value in every run. Only the force on the whole surface is
-    tested, not that on its parts: in five runs with other seeds, the edges bear 0.50 F_n per block
-    when the core bears most, which is at about the second peak (`docs/mechanism.md`); sliding
-    blocks bear 0.6 F_n. If “whole” meant all parts up to this time, the statement would fail.
+    tested, not that on its parts. With pawls of 8, in five runs with other seeds, the edges bear
+    0.50 F_n per block when the core bears most, at about the second peak (`docs/mechanism.md`):
+    less than sliding blocks, which bear 0.6 F_n. If “whole” meant all parts up to this time, the
+    statement would fail.
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force
@@ -199,12 +201,12 @@ def stressed_between_peaks(peaks: Peaks) -> float:
     ranges.NEGLIGIBLE,
 )
 def small_force_suffices(peaks: Peaks) -> float:
-    """Test: from its lowest value between the load peaks to its largest value until nine tenths of
-    the blocks have detached, the force grows by less than a tenth. If the force fell between the
-    peaks to that of a surface that slides as a whole, 0.6 of the normal force, the growth would
-    exceed a tenth. If the growth were divided by the drop of the force from static to dynamic
-    friction instead, its mean would be 0.28 and 0.33 (pawls of 8 and 10), and it would be a tenth
-    or less in only one run of 987.
+    """Test: the force grows by less than a tenth from its lowest value between the load peaks to
+    the largest that it then reaches before nine tenths of the blocks have detached. If the force
+    fell between the peaks to that of a surface that slides as a whole, 0.6 of the normal force, the
+    growth would exceed a tenth. If the growth were divided by the drop of the force from static to
+    dynamic friction instead of by the lowest force, its mean would be 0.28 and 0.33 (pawls of 8 and
+    10), and it would be a tenth or less in only one run of 987.
     """
     detached = np.searchsorted(peaks.run.time, np.nanquantile(peaks.run.t_det, 0.9))
     highest = float(peaks.run.force[peaks.valley : detached + 1].max())

@@ -69,9 +69,9 @@ def _rings(n_p: int) -> Iterator[tuple[str, dict[str, Mask]]]:
 def detachment_order(evidence: Evidence) -> Iterator[Finding]:
     """Test: the mean times over pillars and realisations are in this order, on the border and on
     the second ring; the centre is the innermost block, or 2 x 2 blocks. The edges of a ring are its
-    rows and columns without the corners. Whether the second ring begins only after the border, that
-    is, its corners after the border's edges along x, is not part of the test: this delay is 0.007
-    t_max at n_p = 30, and longer on smaller pillars. At n_p = 60 its sign is open, with -0.003
+    rows and columns without the corners. That the second ring begins after the border is not part
+    of the test: its corners detach later than the border's edges along x by 0.007 t_max at n_p =
+    30, and by more on smaller pillars. At n_p = 60 the sign of this delay is open, with -0.003
     [-0.007, 0.0004] of t_max; as a case of its own it would leave the statement not settled.
     """
     for scene, runs in pillars(evidence.records).items():
@@ -113,8 +113,8 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
     """Test: more than nine tenths of the blocks in the two outermost rings detach before t_max; or,
     as in the paper's figure, the mean time of every part of these rings is before t_max; the last
     part, which decides, is the edges along x of the second ring. At n_p = 4 the second ring is the
-    centre, which detaches even later and is not tested; the edges along x are those of the border.
-    With a bound of 0.74 the statement would hold for single blocks at n_p = 7 to 60.
+    centre, which detaches even later; its mean time is not tested, and the edges along x are those
+    of the border. With a bound of 0.74 the statement would hold for single blocks at n_p = 7 to 60.
     """
     blocks = "the share of blocks on the border or adjacent to it that detach before t_max"
     for scene, runs in pillars(evidence.records).items():
@@ -160,26 +160,25 @@ def inside(run: Record) -> Array:
 
 @share_over(
     _broad,
-    "the share of the positions inside the two outermost rings that lie further out than the "
+    "the share of positions enclosed by the two outermost rings that lie further out than the "
     f"first {_PATCH} x {_PATCH} patch to detach",
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Test: among the blocks enclosed by the two outermost rings, less than a quarter of the
-    possible positions, on average, lie further out than the first patch of 3 x 3 blocks to detach
-    (that with the earliest mean t_det); half of those equally far out are counted as further out.
-    Nearly all first patches lie at the very edge of the area, where the share of positions further
-    out is smallest; on the flat surface this share is about a half. Smaller pillars have too few
-    positions for this bound. The verdict is the same if 1, 3 or 4 rings are left out, and for
-    patches of 2 to 5 blocks a side.
+    """Test: of all positions of a patch of 3 x 3 blocks inside the two outermost rings, less than a
+    quarter, on average, lie further out than the first patch to detach (that with the earliest mean
+    t_det); half of those equally far out are counted as further out. Nearly all first patches lie
+    at the very edge of this area, where the share is smallest; on the flat surface, the share for
+    the first patch is about a half. Smaller pillars have too few positions for this bound. The
+    verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to 5 blocks a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 
 
 def centre_last(evidence: Evidence) -> Iterator[Finding]:
-    """Test: on pillars of 10 blocks or more, the central part, about half as wide as the area
-    enclosed by the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9, with
-    a central part of 1 to 3 blocks a side, the test would hold as well.
+    """Test: on pillars of 10 blocks or more, the central part, half to two thirds as wide as the
+    area enclosed by the two outermost rings, detaches after the rest of this area. At n_p = 7 to 9,
+    with a central part of 1 to 3 blocks a side, the test would hold as well.
     """
     around = "the area between it and the two outermost rings"
     name = f"t_det/t_max of the central part minus that of {around}"
@@ -221,12 +220,13 @@ def warning(run: Run) -> float:
 
 
 def small_pillars(evidence: Evidence) -> Iterator[Finding]:
-    """Test: (t_max - t_avg)/t_max, the share of precursors and the width of the force peak (the
-    time during which the force exceeds 95 % of its maximum, over t_max) differ from those of the
-    flat surface by less than half as much, in magnitude, as those of larger pillars do. Each size
-    of the larger pillars is a case, since the paper does not say which of them it means; those of
-    20 blocks or more are themselves nearer to the flat surface than those of 7 to 10; without them
-    the verdict would be the same. Static friction may differ, as in the paper.
+    """Test: on pillars of 2 and of 3 blocks, (t_max - t_avg)/t_max, the share of precursors and the
+    width of the force peak (the time during which the force exceeds 95 % of its maximum, over
+    t_max) differ from those of the flat surface by less than half as much, in magnitude, as those
+    of larger pillars do. The comparison with each larger size is a case, since the paper does not
+    say which it means. Pillars of 20 blocks or more are themselves nearer to the flat surface than
+    those of 7 to 10; without the former the verdict would be the same. Static friction may differ,
+    as in the paper.
     """
     quantities: Mapping[str, Quantity] = {
         "(t_max - t_avg)/t_max": samples.relative_lag,
@@ -241,7 +241,7 @@ def small_pillars(evidence: Evidence) -> Iterator[Finding]:
             three = [over_runs(quantity, evidence.records[s]) for s in (scene, flat, other)]
             away = samples.magnitude(samples.position(*three))
             statistic = (
-                f"{name} minus that on the flat surface, over the same for the larger pillars "
+                f"{name} minus that on the flat surface, over this difference at larger n_p "
                 "(magnitudes)"
             )
             claimed, beside = ranges.FEWER_THAN_HALF, (flat, other)
@@ -337,8 +337,8 @@ def size_like_length(evidence: Evidence) -> Iterator[Finding]:
     the statement would not be reproduced. With scatters of 0.02 and 0.05, l_c is nearly as long as
     the sides of 30 blocks on which it is fitted. With l_c fitted at n_p = 20, the four cases of
     these scatters would be open; with l_c fitted at n_p = 10, the two of them with exp(-r/l_c)
-    would hold and the two with A exp(-r/l_c) would fail. With the paper's scatter alone, the
-    statement would not be settled.
+    would hold and the two with A exp(-r/l_c) would fail. With the paper's scatter alone, and l_c
+    fitted at n_p = 30, the statement would not be settled.
     """
     for scatter, scenes in _by_scatter(evidence).items():
         broad, own = max(scenes, key=lambda s: s.n_p), bool(scenes[0].varied)
@@ -394,16 +394,16 @@ def _larger_there(
 def most_precursors(evidence: Evidence) -> Iterator[Finding]:
     """Test: there are more precursors where static friction is lowest than at any other pillar
     size. Statement 41 defines the candidates for the size of lowest friction. Each size is compared
-    with all candidates other than itself; the value is the difference from n_p = 6 (at n_p = 6,
-    from 7), and the interval covers all differences. Its upper limit is set to infinity if the
-    outcome depends on which candidate has the lowest friction, or if the size is itself a
-    candidate; if such a case is open, more realisations with the same step would not decide it.
-    With the default step, 2e-8 s, static friction at n_p = 6 is lower than at 7 by 0.0006 [0.0002,
-    0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300 realisations of each
-    size, 100 of which were repeated with a step of 5e-9 s); without this bias the difference,
-    calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is lower would take
-    more than ten thousand realisations with a step of 5e-9 s. If friction is lowest at 6 the
-    statement fails, if at 7 it holds.
+    with all candidates other than itself; the value is the share at n_p = 6 (for n_p = 6, that at
+    7) minus that at the size, and the interval covers all differences. Its upper limit is set to
+    infinity if the outcome depends on which candidate has the lowest friction, or if the size is
+    itself a candidate; if such a case is open, more realisations with the same step would not
+    decide it. With the default step, 2e-8 s, static friction at n_p = 6 is lower than at 7 by
+    0.0006 [0.0002, 0.0010]. This step raises friction by 0.0002 at 6 and by 0.0006 at 7 (300
+    realisations of each size, 100 of which were repeated with a step of 5e-9 s); without this bias
+    the difference, calculated before rounding, is 0.0001 [-0.0004, 0.0006]. To decide which is
+    lower would take more than ten thousand realisations with a step of 5e-9 s. If friction is
+    lowest at 6 the statement fails, if at 7 it holds.
     """
     return _larger_there(evidence, _PRECURSORS, samples.before_peak, every=True)
 

@@ -112,9 +112,9 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Test: on one side along x and one along y of one pillar, without corners, position explains
-    less than a fifth of the variance of t_det within the side. With a bound of one half the
-    statement would be reproduced, and also if the two further blocks at each end of a side were
-    left out.
+    less than a fifth of the variance of t_det within the side. The statement would be reproduced
+    with a bound of one half or, with this bound, if two more blocks at each end of a side were left
+    out.
     """
     statistic = "the share of the variance of t_det explained by position"
     for scene, runs in pillars(evidence.records, _BROAD).items():
@@ -148,9 +148,9 @@ def exponential(evidence: Evidence) -> Iterator[Finding]:
     """Test: at r = 1 to 6, where l_c is fitted, the rms deviation of c_x from exp(-r/l_c) is below
     0.05, and below those from a power law in 1 + r and from a straight line, both of amplitude 1;
     likewise for A exp(-r/l_c), with free amplitudes. If r went up to the last block before the
-    corners (7, 11 and 23 at n_p = 20, 30 and 60, as r counts from all blocks within n_p/10 of the
-    middle), A exp(-r/l_c) would hold at all three sizes; exp(-r/l_c) would hold at n_p = 20 and be
-    open at 30 and 60, and the statement would not be settled.
+    corners (7, 11 and 23 at n_p = 20, 30 and 60, counted from the outermost of the blocks within
+    n_p/10 of the middle), A exp(-r/l_c) would hold at all three sizes; exp(-r/l_c) would hold at
+    n_p = 20 and be open at 30 and 60, and the statement would not be settled.
     """
     for (scene, runs), (curve, is_free) in product(
         pillars(evidence.records, _BROAD).items(), {PLAIN: False, SCALED: True}.items()
@@ -190,10 +190,10 @@ def growing_length(evidence: Evidence) -> Iterator[Finding]:
     20. The fits weight each c(r) by the inverse square of its error; with equal weights, l_c of
     exp(-r/l_c) would still decrease from n_p = 20 to 60, by 0.17 [0.07, 0.28] blocks (95 %). With
     n_p = 30 instead of 60, l_c of A exp(-r/l_c) would increase, by 0.34 [0.12, 0.55] blocks (95 %),
-    and the statement would not be settled. Pillars of about 10 blocks or fewer, on which the paper
-    finds l_c difficult to estimate, are left out; if n_p = 60 were compared with n_p = 10 (l_c =
-    2.2 and, with free amplitude, 1.6 blocks, fitted only up to r = 3), the statement would be
-    reproduced.
+    that of exp(-r/l_c) would be open, and the statement not settled. Pillars of about 10 blocks or
+    fewer, on which the paper finds l_c difficult to estimate, are left out; if n_p = 60 were
+    compared with n_p = 10 (l_c = 2.2 and, with free amplitude, 1.6 blocks, fitted only up to r =
+    3), the statement would be reproduced.
     """
     found = pillars(evidence.correlation_length, _BROAD)
     if len(found) < 2:
@@ -212,8 +212,8 @@ def whole_sides(evidence: Evidence) -> Iterator[Finding]:
     detach in one event more often than sides whose blocks come from different realisations
     (chance). Neighbours whose detachment times differ by at most 0.5 % of t_max belong to one
     event. At n_p = 4, 5 and 6, only 1, 2 and 6 % of the sides along x have detached before t_max,
-    and from n_p = 7 on 94 % or more; if only these sides are counted, since only they consist of
-    precursors, the verdict is the same.
+    and from n_p = 7 on 94 % or more; if the other sides, which do not consist of precursors, are
+    left out, the verdict is the same.
     """
     name = "the share of sides along x that detach in one event, in excess of chance"
     for scene in pillars(evidence.records):
@@ -267,7 +267,7 @@ def uncorrelated_across(evidence: Evidence) -> Iterator[Finding]:
     """Test: the correlation extends over less than a block: c(r = 1) on external sides parallel to
     the grooves and on edges along the grooves is below 1/e. The verdict is the same for any bound
     above 0.23; with a tenth, the bound for “negligible”, all cases would be open. When sliding
-    along the grooves, c(r = 1) exceeds 0.5; a higher bound would not distinguish the two
+    along the grooves, c(r = 1) exceeds 0.5; a bound far above 0.5 would not distinguish the two
     directions.
     """
     for scene, (side, name) in product(slid_both_ways(evidence.correlation), _SIDES.items()):

@@ -130,11 +130,11 @@ def rank_correlation(field: Array, maps: Array) -> Estimate:
 
 
 def order_of_stress(evidence: Evidence) -> Iterator[Finding]:
-    """Test: Spearman's correlation between stress and mean t_det over the blocks of a pillar,
-    divided by the largest magnitude that it can have where several blocks bear equal stress, is
-    below -0.5. At n_p = 60, 93 % of the blocks bear equal stress, so that the test concerns the
-    order of the border and of border and interior; without the division this size would fail, and
-    the statement would be reproduced in part.
+    """Test: Spearman's correlation, over the blocks of a pillar, between stress and the block's
+    mean t_det, divided by the largest magnitude that it can have where several blocks bear equal
+    stress, is below -0.5. At n_p = 60, 93 % of the blocks bear equal stress, so that the test
+    concerns only the order within the border and that of border and interior; without the division
+    this size would fail, and the statement would be reproduced in part.
     """
     name = (
         "the rank correlation of initial stress and mean t_det on a pillar, over its largest "

@@ -149,7 +149,7 @@ CORRELATION_LENGTH = pa.schema(
             "r_last",
             pa.int32(),
             "blocks",
-            "last r of the fits, which begin at r = 1: 6, or n_p/3 on sides of less than 20 blocks",
+            "last r of the fits, 6, or n_p/3 on sides of less than 20 blocks; the first is r = 1",
         ),
         *numbers(
             "blocks",
@@ -185,7 +185,7 @@ BATCH = pa.schema(
 #: Further columns of a batch with snapshots.
 SNAPSHOTS = pa.schema(
     [
-        *lists(pa.float64(), "s", snapshot_times="times of the snapshots"),
+        *lists(pa.float64(), "s", snapshot_times="times of the snapshots, if there are any"),
         *lists(
             pa.float64(),
             "m",

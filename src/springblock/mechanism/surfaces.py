@@ -6,7 +6,7 @@ from typing import Any
 
 from springblock.model.scene import Scene
 
-_SIDE = 120  #: blocks along a side with grooves, or the multiple of the period next to it
+_SIDE = 120  #: blocks along a side with grooves, or the nearest multiple of the period
 _LEAST = 30  #: blocks along a side of the variants, or the next multiple of the period
 _SIZES = (2, 4, 6, 8, 10, 15)  #: n_p with another scatter
 

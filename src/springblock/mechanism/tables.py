@@ -56,7 +56,7 @@ PEAKS = pa.schema(
             "trained",
             pa.bool_(),
             "1",
-            "whether assumption and limit of the prediction were chosen on this surface and others",
+            "whether this is one of the surfaces on which assumption and limit were chosen",
         ),
         *numbers(
             "%",

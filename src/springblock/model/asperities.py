@@ -127,8 +127,8 @@ def distribution(name: str, material: Material) -> "rv_frozen | None":
     reach = math.sqrt(3.0) * std
     if reach > mean:
         raise ValueError(
-            f"{name}_std must be at most {mean / math.sqrt(3.0):.4g} with {name} = {mean!r} and "
-            f"the distribution uniform, which must have no negative values, not {std!r}"
+            f"{name}_std must be at most {mean / math.sqrt(3.0):.4g}, not {std!r}, with {name} = "
+            f"{mean!r} and the distribution uniform, which must have no negative values"
         )
     return scipy.stats.uniform(mean - reach, 2.0 * reach)
 

@@ -35,7 +35,7 @@ class Cut:
 
     topography: Path
     spacing: float  #: m, distance between blocks
-    bearing_area: float | None = None  #: share of the blocks in contact, the highest ones
+    bearing_area: float | None = None  #: share of all blocks that are in contact, the highest ones
     height: float | None = None  #: m, least height of the blocks in contact
     channel: str | None = None  #: name of the channel of heights; None: the reader's default
     detrend: str | None = None  #: trend subtracted from the heights before the cut, of `TRENDS`

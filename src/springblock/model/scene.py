@@ -35,8 +35,8 @@ Varied = tuple[tuple[str, Any], ...]  #: names and values of constants, in the o
 class Scene:
     """Surface, sliding direction and varied constants; a length of 0 means no such level.
 
-    Grooves of level 2 run along x, and without pillars across the whole surface; grooves of level 3
-    run along `along_3`, by default y. A mask replaces pattern and N, and coefficients from files
+    Grooves of level 2 run along x, from edge to edge of a surface without pillars; grooves of level
+    3 run along `along_3`, by default y. A mask replaces pattern and N, and coefficients from files
     replace those that are drawn.
 
     Raises

@@ -25,8 +25,8 @@ class Surface:
     mu_static, mu_dynamic : (N_y, N_x) float, or one number for all blocks
         Microscopic friction coefficients; values outside the contact are ignored.
     periodic : bool
-        Whether springs join opposite edges, which are free otherwise. Each side must have at
-        least 3 blocks.
+        Whether springs join opposite edges, which are free otherwise. Periodic surfaces
+        have 3 blocks a side or more.
 
     Raises
     ------

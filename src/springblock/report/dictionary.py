@@ -9,6 +9,7 @@ from springblock.io.schemas import (
     CORRELATION_LENGTH,
     SCENE,
     SETUP,
+    SNAPSHOTS,
     SUMMARY,
     said,
 )
@@ -46,7 +47,7 @@ def page() -> str:
     from springblock.mechanism import tables as mechanism
 
     kinds = {
-        "batches": ("a realisation, with its curves and maps", BATCH),
+        "batches": ("a realisation, with its curves and maps", pa.schema([*BATCH, *SNAPSHOTS])),
         "realisations": ("a realisation", SUMMARY),
         "correlation": ("a distance along a kind of side", CORRELATION),
         "correlation_length": ("a kind of side", CORRELATION_LENGTH),

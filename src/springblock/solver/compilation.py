@@ -166,7 +166,7 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 @intrinsic
 def add(typingctx, total, term):
-    """Return total + term, as a term of a sum that the compiler may reorder.
+    """Return total + term, an addition within a sum that the compiler may reorder.
 
     This allows a loop with sums to be vectorised, while all other operations keep their order.
     """

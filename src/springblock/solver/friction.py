@@ -29,7 +29,7 @@ def apply_friction(law, b, wx, wy, vx, vy, fx, fy, static, dynamic):
     speed |(1 - β) v + β w| - β T with β = `end`, or at |β w| - β T if the block reverses. The block
     is at rest after the step in two cases:
 
-    - |w| ≤ T: friction can remove all of w (Moreau's step, exact for a block that stops);
+    - |w| ≤ T: friction can remove all of w (Moreau's step, with the exact velocity of a stop);
     - w·v ≤ 0 and |F_mot| ≤ mu_s F_n: the block reverses, or was at rest, and static friction holds
       it. If w·v ≤ 0 and it is not held, friction opposes w: v⁺ = w - T w/|w|.
 

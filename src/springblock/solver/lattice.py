@@ -1,7 +1,7 @@
 """State of all blocks and constants of one run, as the integrators use them.
 
 Fields are flat arrays with a border: block (y, x) has the index y pitch + x + 1. The columns beyond
-a row hold phantom blocks, which fill up vectors and keep the springs across the edge unstrained.
+a row hold phantom blocks, which fill up vectors and keep the springs across a free edge unstrained.
 Lengths are in l, velocities in l per step, times in steps, and forces in the velocity that they add
 in one step.
 """
@@ -50,7 +50,7 @@ class Blocks(NamedTuple):
     vy: Array
     t_det: Array  #: time of first detachment; infinite before
     static: Array  #: mu_s F_n; 0 outside the contact
-    dynamic: Array  #: mu_d F_n; infinite for phantoms, which therefore never move
+    dynamic: Array  #: mu_d F_n; infinite for phantoms, whose velocity stays zero
 
 
 class State(NamedTuple):
@@ -245,7 +245,7 @@ def update_peaks(peak, band, s):
 
 @kernel
 def tally(ledger, samples, constants, totals, switches, k, first, every):
-    """Add step k, to the time (k + 1) h, to the ledger, and to the samples if it ends an interval.
+    """Add step k, up to (k + 1) h, to the ledger, and to the samples if it ends an interval.
 
     Returns the switches that belong to the interval still open.
     """

@@ -63,7 +63,7 @@ def law_of(
 ) -> Law:
     """Return the law of a material in the kernels' units.
 
-    `load` is F_n of a block; `contact` is flat, and `field` returns a flat field of all blocks.
+    `load` is F_n of a block; `contact` is one-dimensional, and `field` returns one value per block.
     """
     law = material.law
     if isinstance(law, LawFile):

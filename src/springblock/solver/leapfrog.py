@@ -63,7 +63,7 @@ force_time = leapfrog_force_time
 def at_step(state: State, constants: Constants, steps: int) -> tuple[Array, float]:
     """Velocity (2, lattice) after `steps` steps, in l per step, and the frictional heat so far.
 
-    Both are means of the values half a step before and after; the latter are computed on a copy.
+    Both are means of the values half a step before and after; those after are computed on a copy.
     """
     ahead, blocks = state.copy(), state.blocks
     advance(ahead, constants, steps, 1, 1, Samples.empty(1))

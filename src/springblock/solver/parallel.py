@@ -1,8 +1,8 @@
 """The leapfrog on several cores, for one large surface; results are those of one core to the bit.
 
-Each core advances a part of the rows, of adjacent bands. Only the first and the last band of a part
-are coupled to rows of another part: all cores compute the forces on these two before any block
-moves, and then advance their parts.
+Each core advances a part of the rows, made up of adjacent bands. Only the first and the last band
+of a part are coupled to rows of another part: all cores compute the forces on these two before any
+block moves, and then advance their parts.
 """
 
 from concurrent.futures import ThreadPoolExecutor

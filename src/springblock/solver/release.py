@@ -4,13 +4,13 @@ A block at rest detaches at t_det = (k - θ) h, when |F_mot| reaches F_c = max(m
 between steps k - 1 and k. If the net force adds a velocity a per step, then at step k, by (9) to
 (12) of docs/model.md, which derives them,
 
-    θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),    ε = (h/h_limit)²,
+    θ = (|F_k| - F_c)/(|F_k| - |F_k-1|),    θ_ε = θ + ε (1/2 - θ),
     slip s = (θ_ε²/2 - ε/8) a,    velocity θ_ε a,    heat Q = (1 - ε) a²/8 - (K_s + 3 K_int) s²/2.
 
-Here h and m are 1. Q is the energy that the leapfrog would not dissipate otherwise; in `rk4` it is
-zero, and s has no term in ε. F_k-1, the force one step earlier, is needed only for the few blocks
-that detach, and is reconstructed after the loop over all blocks from the earlier displacements of
-their neighbours.
+Here h and m are 1, and ε is (h/h_limit)² without damping. Q is the energy that the leapfrog would
+not dissipate otherwise; in `rk4` it is zero, and s has no term in ε. F_k-1, the force one step
+earlier, is needed only for the few blocks that detach, and is reconstructed after the loop over all
+blocks from the earlier displacements of their neighbours.
 
 Under a weakening law the net force at the release is zero, and a is the increase of F_mot since
 then: the slip is of third order in h and the velocity of second, for any θ.
@@ -69,7 +69,7 @@ def _pull_of_pair(patch, y, x, j, i, kappa):
 
 @kernel
 def force_in_patch(patch, y, x, springs, slider):
-    """F_mot of the block at (y, x) of a patch of displacements, under a slider at (x, y).
+    """F_mot of the block at (y, x) of a patch of displacements, for a displacement of the `slider`.
 
     The order of summation is invariant under reflections, as in `springs`.
     """

@@ -78,8 +78,8 @@ def _friction_direction(law, fx, fy, vx, vy, static, friction, damping):
     """Unit vector e that friction opposes in this step; zero for a block that stays at rest.
 
     For a sliding block, its direction of motion in the middle of the step, unless it reverses
-    before. Under weakening laws a block is slow just after its release and turns within a step: its
-    direction then solves the implicit equation, with friction along e itself.
+    before. Under weakening laws a block is slow just after its release and turns within a step: e
+    is then the direction of its velocity in mid-step under friction along e, found implicitly.
     """
     speed = math.sqrt(vx * vx + vy * vy)
     if speed > 0.0:
@@ -99,8 +99,8 @@ def _friction_direction(law, fx, fy, vx, vy, static, friction, damping):
 def _begin_step(blocks, law, stage, released, count, band, s, damping, now):
     """Set the direction of friction in a band and release blocks; return the releases so far.
 
-    Stage velocities are those at the start of the step, and sums over stages are zero. Released
-    blocks start with (10) of docs/model.md for θ = 1/2, which `_place_releases` corrects.
+    On entry, stage velocities are those at the start of the step, and sums over stages are zero.
+    Released blocks start with (10) of docs/model.md for θ = 1/2, which `_place_releases` corrects.
     """
     vx, vy, static, dynamic = blocks.vx, blocks.vy, blocks.static, blocks.dynamic
     ex, ey, t_det = stage.ex, stage.ey, blocks.t_det
@@ -239,7 +239,7 @@ def _advance_stage(blocks, law, stage, weight, reach, band, s, damping):
 
 @kernel
 def _displacement_of_row(ux, uy, i, n):
-    """Sums over a row, in an order that does not depend on the law: preludes have none."""
+    """Sums over a row, in the same order with a law and without; preludes have none."""
     sum_x, sum_y = 0.0, 0.0
     for x in range(ONE, n + ONE):
         sum_x, sum_y = add(sum_x, ux[i + x]), add(sum_y, uy[i + x])

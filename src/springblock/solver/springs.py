@@ -3,7 +3,7 @@
 A spring of stiffness k and rest vector e, |e| = L (in units of the lattice spacing), whose ends are
 displaced by d relative to each other, exerts the force F = k (1 - L/r) (e + d), r = |e + d|
 (section 2 of the paper; (2) of docs/model.md). Strains are 1e-2 or, in stiff materials, far
-smaller, so that 1 - L/r would lose all but a few digits to cancellation. With
+smaller: there 1 - L/r would lose most of its digits to cancellation. With
 q = (2 e·d + d²)/L² = (r/L)² - 1,
 
     1 - L/r = 1 - (1 + q)^(-1/2) = q g(q),    g(q) = 1/((1 + q) + √(1 + q)),
@@ -299,7 +299,7 @@ def _sum_forces(ux, uy, row, band, columns, s, force, k_s, slider):
 
 @kernel
 def _forces_on_columns(ux, uy, band, columns, needed, s, force, springs, slider):
-    """Store F_mot of columns of a band; return row and column of a broken spring, column 0 without.
+    """Store F_mot of columns of a band; return row and column of a broken spring, or column 0.
 
     A row is skipped if neither it nor the next one is `needed`.
     """

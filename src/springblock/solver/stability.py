@@ -12,8 +12,8 @@ from springblock.model.numbers import Array
 def leapfrog_is_stable(step: float, omega: Array, gamma: float) -> bool:
     """Return whether no mode of angular frequency `omega` grows.
 
-    A mode obeys u⁺ - (1 + a - c) u + a u⁻ = 0 with c = ω² h (1 - a)/γ. Both roots lie within the
-    unit circle if c < 2 (1 + a); without damping, if h < 2/ω.
+    A mode obeys u⁺ - (1 + a - c) u + a u⁻ = 0 with a = exp(-γh) and c = ω² h (1 - a)/γ. No root
+    lies outside the unit circle if c < 2 (1 + a); without damping, if h < 2/ω.
     """
     c = np.asarray(omega) ** 2 * step * leapfrog_force_time(step, gamma)
     return bool(np.all(c < 2.0 * (1.0 + math.exp(-gamma * step))))
@@ -22,7 +22,7 @@ def leapfrog_is_stable(step: float, omega: Array, gamma: float) -> bool:
 def leapfrog_force_time(step: float, gamma: float) -> float:
     """Time for which a force acts in one step, s: (1 - exp(-γh))/γ; h without damping.
 
-    It is h also if γh is almost subnormal, and has fewer digits than γ.
+    It is h also if γh is nearly subnormal, since subnormal numbers have fewer digits.
     """
     return -math.expm1(-gamma * step) / gamma if gamma * step > 1e-300 else step
 
