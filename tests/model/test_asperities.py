@@ -130,7 +130,7 @@ def test_a_rectangle_has_a_draw_for_each_block():
     [
         (
             {"distribution": "uniform", "mu_static_std": 0.6},
-            "mu_static_std must be at most 0.5774 with mu_static = 1.0 and .* uniform, .* not 0.6",
+            "mu_static_std must be at most 0.5774, not 0.6, with mu_static = 1.0 and .* uniform",
         ),
         (
             {"distribution": "weibull", "mu_dynamic": 0.0},
