@@ -82,7 +82,7 @@ class Pull:
         return self.material.slider_velocity / speed_unit(self.material)
 
     def simulate(self, surface: Surface, count: int | None = None, every: int = 0) -> Realisation:
-        """Take `count` steps, until all slide by default; sample at the end or each `every` steps."""
+        """Take `count` steps, by default until all slide; sample at the end or each `every`."""
         every = every or count or 5
         setup = Setup(self.material, self.integrator, self.step, every * self.step)
         return simulate(surface, setup, duration=count and count * self.step)
