@@ -63,8 +63,8 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
     yield (
         "**The lesser load peak is significantly more prominent when sliding along the grooves "
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
-        f"{less or 'none'}. For sliding along the grooves, its prominence is the largest of these "
-        f"surfaces with pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}: "
+        f"{less or 'none'}. For sliding along the grooves, its prominence is largest "
+        f"with pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}: "
         f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has more "
         "surfaces)."
     )

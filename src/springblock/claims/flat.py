@@ -116,7 +116,7 @@ def same_ratio(evidence: Evidence) -> Iterator[Finding]:
     than 5 %, and t_max < t_avg. The registered cases are 4 and 16 times the paper's modulus; with
     these alone the statement would be reproduced. 1e12 Pa (diamond) was added when other runs had
     shown that the statement fails there. Its motion is √1e5 times faster than that with the paper's
-    modulus and slider velocity and damping divided by √1e5, which is simulated instead. The larger
+    modulus but slider velocity and damping divided by √1e5, which is simulated instead. The larger
     the modulus, the sooner after t_max the fronts have crossed the surface, so that in the end the
     blocks that detach before t_max decide the sign of t_max - t_avg: (t_max - t_avg)/t_max is
     -0.00050 at 1e11 Pa, -0.00009 at 2e11 Pa and 0.00021 at 4e11 Pa (20 other runs each, standard

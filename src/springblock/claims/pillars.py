@@ -165,12 +165,13 @@ def inside(run: Record) -> Array:
     (-ranges.INF, 0.25),
 )
 def nucleation_near_edge(run: Record) -> float:
-    """Test: of all positions of a patch of 3 x 3 blocks inside the two outermost rings, less than a
-    quarter, on average, lie further out than the first patch to detach (that with the earliest mean
-    t_det); half of those equally far out are counted as further out. Nearly all first patches lie
-    at the very edge of this area, where the share is smallest; on the flat surface, the share for
-    the first patch is about a half. Smaller pillars have too few positions for this bound. The
-    verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to 5 blocks a side.
+    """Test: of all positions of a patch of 3 x 3 blocks in the area enclosed by the two outermost
+    rings, less than a quarter, on average, lie further out than the first patch to detach (that
+    with the earliest mean t_det); half of those equally far out are counted as further out. Nearly
+    all first patches lie at the very edge of the area, where the share is smallest; on the flat
+    surface, the share for the first patch is about a half. Smaller pillars have too few positions
+    for this bound. The verdict is the same if 1, 3 or 4 rings are left out, and for patches of 2 to
+    5 blocks a side.
     """
     return float(np.mean([samples.first_patch(pillar, _PATCH) for pillar in inside(run)]))
 

@@ -113,7 +113,7 @@ def larger_events(evidence: Evidence) -> Iterator[Finding]:
 def same_mean_time(evidence: Evidence) -> Iterator[Finding]:
     """Test: on one side along x and one along y of one pillar, without corners, position explains
     less than a fifth of the variance of t_det within the side. The statement would be reproduced
-    with a bound of one half or, with this bound, if two more blocks at each end of a side were left
+    with a bound of one half or, with a fifth, if two more blocks at each end of a side were left
     out.
     """
     statistic = "the share of the variance of t_det explained by position"

@@ -56,7 +56,7 @@ def page() -> str:
         "production": ("an error with N = 120 at one step", production.SCHEMA),
         "mechanism": ("a seed on pillars of one size", mechanism.FRICTION),
         "mechanism_variants": (
-            "a seed on pillars with other gaps or constants",
+            "a seed on a flat surface, or on pillars with other gaps or constants",
             mechanism.FRICTION,
         ),
         "mechanism_peaks": ("a seed on one surface with grooves", mechanism.PEAKS),
