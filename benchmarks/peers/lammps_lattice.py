@@ -82,8 +82,8 @@ class LammpsLattice:
 
 
 #: One thread of the package OPENMP, whose loops are the faster ones even so. Blocks are numbered
-#: row by row. The pair style only lists the neighbours from which bonds are made, with those of
-#: bonded blocks (special_bonds). The list is never renewed, for bonds do not change.
+#: row by row. The pair style only lists the pairs to be bonded, also those that other bonds link
+#: (special_bonds). The list is never renewed, for bonds do not change.
 _SETUP = """
 package omp 1
 suffix omp

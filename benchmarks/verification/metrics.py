@@ -43,7 +43,7 @@ def errors(answer: Answer, reference: Reference) -> Metrics:
 def uncertainties(reference: Reference) -> Metrics:
     """What an answer may be off by because the reference is.
 
-    For the order: blocks as close to another one as both are uncertain.
+    For the order: blocks whose t_det is within both uncertainties of another's.
     """
     compared = reference.t_det < reference.horizon
     t_det, by = reference.t_det[compared], reference.t_det_uncertainty[compared]

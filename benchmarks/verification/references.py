@@ -76,7 +76,7 @@ def _write_answer(surface: Surface, published: Answer, checks: list[Answer]) -> 
 
 
 def _horizon(problem: Problem, surface: Surface) -> float:
-    """Time in s at which runs with thresholds nudged by a little part; the end where none does."""
+    """Time in s at which runs with slightly nudged thresholds part; the end where none does."""
     contact, setup = surface.contact, Setup(step=STEPS[0])
     rng = np.random.default_rng(problem.seed)
     changes = 1.0, *(1.0 + HORIZON_NUDGE * rng.standard_normal((TWINS, *contact.shape)))

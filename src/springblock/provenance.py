@@ -70,8 +70,8 @@ def _of_folder(folder: str) -> str:
 def _skeleton(node: Any, docstrings: bool) -> list[str]:
     """Return the nodes of a syntax tree without their positions and without `raise` statements.
 
-    Docstrings are included only if `docstrings` is true. Lists, since nested generators would pass
-    each word on once per level of the tree.
+    Docstrings are included only if `docstrings` is true. Nodes are listed, since nested generators
+    would pass each word on once per level of the tree.
     """
     if isinstance(node, list):
         return list(chain.from_iterable(_skeleton(part, docstrings) for part in node))

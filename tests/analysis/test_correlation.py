@@ -169,7 +169,7 @@ def test_edges_of_grooves_are_the_rows_beside_them():
     run.t_det[3, 14] = np.nan
     with pytest.raises(ValueError, match="beside a groove never detached"):
         groove_times([run], pattern)
-    with pytest.raises(ValueError, match="no uncut grooves along x"):
+    with pytest.raises(ValueError, match="no uncut pawls along x"):
         groove_times([run], Pattern.pillars(24, 8, 4))
 
 

@@ -36,10 +36,10 @@ def clone(tmp_path):
     return folder
 
 
-def packed(study):
+def packed(study, configuration="config/config.yaml"):
     """Archive of a study, and how many files it is said to hold."""
     output = study.parent / "study.zip"
-    number = archive(study, study / "results", study / "config/config.yaml", output)
+    number = archive(study, study / "results", study / configuration, output)
     return output, number
 
 
@@ -50,6 +50,13 @@ def test_it_holds_code_and_results_and_nothing_else(clone):
         assert file.testzip() is None
     assert len(names) == number
     assert set(names) == {*CODE, "CITATION.cff", CRATE, *(f"results/{name}" for name in RESULTS)}
+
+
+def test_it_holds_an_untracked_configuration(clone):
+    (clone / "mine.yaml").write_text("n_blocks: 24\n", encoding="utf-8")
+    output, _ = packed(clone, "mine.yaml")
+    with zipfile.ZipFile(output) as file:
+        assert file.read("mine.yaml") == b"n_blocks: 24\n"
 
 
 def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):

@@ -58,7 +58,7 @@ class Difference(NamedTuple):
     def __str__(self) -> str:
         change = f"{self.differing} of {SEEDS} runs differ"
         if self.differing:
-            change += f", their mean by {self.relative:+.2g} of its value (p = {self.p_value:.2g})"
+            change += f", the mean by {self.relative:+.2g} of its value (p = {self.p_value:.2g})"
         return f"{self.scene}, {self.observable}: {change}"
 
 

@@ -23,7 +23,7 @@ LENGTH = "decay length"  #: of c(r) along the sides of pillars
 PLAIN = "plain rk4"  #: Runge-Kutta with the friction of each stage
 PAPER_STEP = 1e-8  #: s
 SAMPLE_INTERVAL = 8e-8  #: s, of runs on small surfaces
-#: Realisations per scene behind the paper's figures; errors must stay under their scatter.
+#: Usual realisations per scene; biases are compared with the standard error of their mean.
 ENSEMBLE = 20
 #: Relative change of the thresholds that defines the horizon: the largest that is small compared
 #: with any scatter.

@@ -66,7 +66,7 @@ _QUANTITIES = (*MEANS, DELAY, LENGTH)
 _SINGLE = ("force", *MEANS, "t_det before horizon")
 _LIMIT = 2.0 / Material().omega_max  #: s, stability limit of the leapfrog without damping
 _COARSE, _FINE = 2.0 * STEP, STEP / 2.0  #: alternatives to the default
-_FOLD = 20  #: largest number of pooled ensembles, over the study's seeds
+_FOLD = 20  #: largest number of pooled seeds, over the study's
 #: Fields of the templates that do not depend on the tables.
 _KNOWN = {
     "step": STEP,

@@ -2,7 +2,7 @@
 
 Friction opposes the velocity of each *stage*, and a block sticks again when its velocity turns
 back. The stage velocities of a slow block alternate in sign, so that it creeps instead of coming
-to rest. SI units, one force evaluation per stage; not optimised.
+to rest. SI units; not optimised: the force of the first stage is evaluated twice.
 """
 
 from dataclasses import dataclass

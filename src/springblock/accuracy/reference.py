@@ -10,8 +10,8 @@ A block is in one of four states:
 FREE      not in contact: no friction, ever.
 STUCK     at rest. Static friction balances F_mot = F_int + F_s. It ends when |F_mot| rises to
           max(mu_s, mu_d) F_n: with mu_s < mu_d, dynamic friction alone would hold the block.
-CREEPING  detached, but slow. Friction, opposite to v, turns v towards F_mot within m |v| / |F_mot|:
-          no time at all for a slow block, and none at the start, where v = 0 has no direction. Such
+CREEPING  detached, but slow. F_mot turns v into its own direction within m |v| / |F_mot|: no time
+          at all for a slow block, and none at the start, where v = 0 has no direction. Such
           a block moves along F_mot; only its speed is integrated. That leaves out the angle
           m |v| phi' / |F_mot| by which v lags behind F_mot as this turns at the rate phi'. Past
           CREEP_ERROR in velocity, or past CREEP_SPEED, the block is SLIDING.
@@ -23,9 +23,9 @@ What a stop leads to depends on |F_mot| at that moment. Up to the static thresho
 sticks: with |F_mot| < mu_d F_n it would come to rest within the next STOP_SPEED / |a| anyway; with
 mu_d F_n < |F_mot| <= mu_s F_n it has reversed exactly, as in one dimension, and static friction
 holds it. A block that reverses *nearly* does not stop: it turns around at a small speed, because
-friction turns v away from -F_mot. Its least speed has a continuous distribution, so the
-two cases are told apart by STOP_SPEED for a share of reversals of the order of STOP_SPEED itself
-(scaled), and for none in practice. Beyond the static threshold the block starts afresh.
+F_mot turns v away from -F_mot. Its least speed has a continuous distribution, so that STOP_SPEED
+takes a turn for a stop only in a share of reversals of the order of STOP_SPEED itself (scaled): in
+practice never. Beyond the static threshold the block starts afresh.
 
 Everything is scaled: force P l² (the load of one block on a flat surface), length P l² / K_s, time
 sqrt(m / K_s). The mass, K_s, and the displacement at which a block slips are then about 1. Time
@@ -229,7 +229,7 @@ class _System:
     def switch(self, y: Array, due: Flags) -> Flags:
         """Change the state of the blocks that are due at the last event.
 
-        Returns those that detach, (n,) bool. Writes to `y` where a block stops.
+        Returns those that detach, (n,) bool. Writes to `y` where a block stops or begins to creep.
         """
         u, v = self.split(y[:, None])  # views: what is written to v reaches y
         motive = self._lattice.force(u) + self._slider_force(np.zeros(1), u)

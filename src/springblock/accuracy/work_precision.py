@@ -2,9 +2,9 @@
 
 Two comparisons, each for a flat, a pillared and a grooved scene:
 
-reference  single runs against the event-located reference solution, run by run, up to the horizon
-           beyond which no step makes single runs agree; and `order`, how their errors fall with
-           the step;
+reference  single runs against the event-located reference solution, run by run; t_det up to the
+           horizon, beyond which no step makes single runs agree; and `order`, how their errors
+           fall with the step;
 paired     ensembles against the leapfrog at a fine step with the same seeds: what is left on the
            mean where single runs no longer agree; and `scatter`, the spread from seed to seed.
 """
@@ -91,7 +91,7 @@ FORCE_EVALUATIONS = {name: each.FORCE_EVALUATIONS for name, each in INTEGRATORS.
 FORCE_EVALUATIONS[PLAIN] = 4
 PAIRED_STEPS = dict.fromkeys(INTEGRATORS, (8e-8, 4e-8, 2e-8, 1e-8)) | {PLAIN: (PAPER_STEP,)}
 PAIRED_SEEDS = {"rk4": 50, PLAIN: 20}  #: at most; fewer where a step costs more
-FINE_STEP = 5e-9  #: has a sixteenth of the error of the default
+FINE_STEP = 5e-9  #: at second order, it has a sixteenth of the error of the default
 Errors = dict[str, Array]  #: by quantity, one for each realisation
 Computed = Realisation | plain_rk4.Solution
 Solved = Computed | reference.Reference

@@ -15,8 +15,8 @@ _KEYS = [*COLUMNS, "seed", "side", "r"]  #: columns by which rows are matched
 def differences(first: pa.Table, second: pa.Table) -> list[str]:
     """Describe the differences of two tables, a line each; nothing if they are equal to the bit.
 
-    Rows of the same scene, seed, side and distance are compared, and several of these, or tables
-    without such columns, in their order. CPU times are left out. Unequal columns are a ValueError.
+    Rows of the same scene, seed, side and distance are compared; where several share these, or in
+    tables without them, in their order. CPU times are left out. Unequal columns are a ValueError.
     """
     if first.column_names != second.column_names:
         odd = sorted({*first.column_names} ^ {*second.column_names})

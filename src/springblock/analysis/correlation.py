@@ -57,7 +57,7 @@ def groove_times(runs: Sequence[Run], pattern: Pattern) -> Array:
     such grooves, and blocks of an edge that never detached, are a ValueError.
     """
     if len(pattern.levels) != 2 or pattern.levels[1].along != "x":
-        raise ValueError("the pillars have no uncut grooves along x")
+        raise ValueError("the pillars have no uncut pawls along x")
     size, first = pattern.levels[0].size, pattern.origins[0, 0]
     pawls = [(start - first, n) for start, n in pattern.profile("y") if start < first + size]
     beside = [edge for start, n in pawls for edge in (start, start + n - 1)][1:-1]

@@ -43,7 +43,7 @@ class Ensemble(NamedTuple):
 
 
 class Change(NamedTuple):
-    """Change from an ensemble to that of the same names in another table."""
+    """Change from one ensemble to another that shares these `names`."""
 
     names: Names
     first: Ensemble

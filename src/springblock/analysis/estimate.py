@@ -64,7 +64,7 @@ class AnyOf(Estimate):
 
     @classmethod
     def these(cls, *each: Estimate) -> "AnyOf":
-        """Return the first estimate with limits that enclose those of all."""
+        """Return the first value, with limits that enclose those of all."""
         low, high = min(one.ci_low for one in each), max(one.ci_high for one in each)
         return cls(each[0].value, low, high, min(one.n for one in each), each=each)
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from springblock.analysis.statistics import difference_interval
 from springblock.model.numbers import Array
 
-#: Bound of the numerical bias of static friction at the default step (`docs/accuracy.md`).
+#: Bound of the numerical bias of static friction on pillars, default step (`docs/accuracy.md`).
 BIAS = 1e-3
 
 

@@ -25,8 +25,8 @@ _RESAMPLES = 2000
 #: Least force of a load peak, over the largest force.
 _LOAD_PEAK = 0.9
 PROMINENT = 0.01  #: least prominence of a load peak over the largest force
-#: Of t_max, between detachments of neighbours in one event: the slider adds as little to the load
-#: in this time, so that a block is released by its neighbour.
+#: Longest time between detachments of neighbours in one event, over t_max: the slider adds so
+#: little load in it that a block is released by its neighbour.
 _EVENT = 0.005
 
 
@@ -258,7 +258,7 @@ def mean_of_rest(values: Array) -> Interval:
 def pillar_map(runs: Sequence[Run], pattern: Pattern) -> Array:
     """Return t_det/t_max by position on a pillar, [y_p, x_p], averaged over pillars; (k, n_p, n_p).
 
-    NaN if a block of any pillar is not in contact or never detached. A flat surface is a
+    NaN where a block of any pillar is not in contact or never detached. A flat surface is a
     ValueError. Section 3.2, figure 5.
     """
     if not pattern.levels:

@@ -66,7 +66,7 @@ Comparisons = Mapping[str, Comparison]
 
 
 def by_lattice(ensembles: Ensembles) -> Surfaces:
-    """Pillars of all sizes on surfaces of one side in m, n_s = n_p, by lattice and layer.
+    """Pillars with n_s = n_p on equally wide surfaces (µm), by lattice and layer, by size.
 
     Without scatter all realisations are equal; one is listed twice, so that intervals vanish.
     """

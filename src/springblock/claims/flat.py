@@ -27,8 +27,8 @@ _AFFECTS = 0.1  #: smallest relative change that counts as an effect
 _DECISIVE = ("slider_velocity", "pressure", "mu_static_std")
 _SMALL = 0.2  #: a small difference, in standard deviations (Cohen 1988)
 _PATCH = 5  #: side of the patch taken as a nucleation point, blocks
-#: The share of first patches near the edge, by chance, between those of all patches (0) and of all
-#: blocks (1): 0.63 ± 0.03, on periodic surfaces of 120 x 120 blocks that were cut open.
+#: Place of the share of first patches near the edge, by chance, between that of all patches (0) and
+#: that of all blocks (1): 0.63 ± 0.03, on periodic surfaces of 120 x 120 blocks that were cut open.
 _INWARD = 0.63
 _BURST = 0.02  #: window of the detachment rate over t_max
 _WINDOW = f"(window: {_BURST} t_max)"

@@ -98,7 +98,7 @@ def main_rate(run: Run) -> float:
 
 
 def quietest_rate(peaks: Peaks, share: float) -> float:
-    """Return the lowest detachment rate between the peaks, in a window over t_avg, 1/s."""
+    """Return the lowest detachment rate between the peaks, over `share` of t_avg, 1/s."""
     width = share * peaks.run.t_avg
     counts = samples.rates(peaks.run, width)[peaks.first : peaks.second]
     return float(counts.min() / width)
@@ -134,7 +134,7 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
 
 
 def share_detached(peaks: Peaks, blocks: Callable[[Mask], Mask]) -> float:
-    """Return the share of some contact blocks detached by the lowest force between the peaks."""
+    """Return the share of some contact blocks detached at the lowest force between the peaks."""
     times = peaks.run.t_det[blocks(peaks.run.scene.contact)]
     return float(np.mean(times <= peaks.run.time[peaks.valley]))  # NaN: never
 

@@ -24,8 +24,8 @@ from springblock.model.numbers import Array
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
 
-_BORDER = 2  #: width of the border, blocks: the outermost ones and those adjacent to them
-_BROAD = 20  #: n_p from which on most blocks of a pillar lie inside the border
+_OUTER = 2  #: outermost rings: the border and the blocks adjacent to it
+_BROAD = 20  #: n_p from which on the outermost rings enclose most blocks
 _PATCH = 3  #: side of the patch taken as a nucleation point, blocks
 #: Parts of a ring in the paper's order of detachment, for sliding along x.
 _RING = {"corners": "corners", "y": "edges along y", "x": "edges along x"}
@@ -106,7 +106,7 @@ def always_in_order(run: Record) -> float:
 def early_near_border(run: Record) -> float:
     """Return the share of the blocks in the two outermost rings that detach before t_max."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    return float(early[:, surfaces.from_edge(run.scene.n_p) < _BORDER].mean())
+    return float(early[:, surfaces.from_edge(run.scene.n_p) < _OUTER].mean())
 
 
 def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
@@ -132,7 +132,7 @@ def edges_before_peak(evidence: Evidence) -> Iterator[Finding]:
 def near_border(run: Record) -> float:
     """Return the share of the precursors on the border of a pillar or adjacent to it."""
     early = np.stack(pillars_of(run.t_det < run.t_max, run.scene))
-    border = surfaces.from_edge(run.scene.n_p) < _BORDER
+    border = surfaces.from_edge(run.scene.n_p) < _OUTER
     return samples.share_of(np.broadcast_to(border, early.shape), early)
 
 
@@ -153,8 +153,8 @@ def region_of_precursors(evidence: Evidence) -> Iterator[Finding]:
 
 
 def inside(run: Record) -> Array:
-    """Return t_det of the pillars without their borders, (pillars, n_p - 4, n_p - 4) s."""
-    inner = slice(_BORDER, -_BORDER)
+    """Return t_det inside the outermost rings, (pillars, n_p - 4, n_p - 4) s."""
+    inner = slice(_OUTER, -_OUTER)
     return np.stack([part[inner, inner] for part in pillars_of(run.t_det, run.scene)])
 
 
@@ -284,7 +284,7 @@ def _of_all_sizes(evidence: Evidence) -> list[Scene]:
 
 def intermediate_size(evidence: Evidence) -> Iterator[Finding]:
     scenes = _of_all_sizes(evidence)
-    # The size of the minimum is chosen by the same means, which overrates small differences.
+    # The same runs determine the size of the minimum, which overrates small differences.
     for end in (scenes[0], scenes[-1]) if scenes else ():
         best = _lowest(evidence, scenes[1:-1]).place
         name = f"static friction at n_p = {end.n_p} minus that at n_p = {best.n_p}, the lowest mean"
@@ -368,7 +368,7 @@ def _over_t_avg(quantity: Quantity) -> Quantity:
 def _larger_there(
     evidence: Evidence, name: str, quantity: Quantity, every: bool = False
 ) -> Iterator[Finding]:
-    """Yield the excess of a quantity where static friction is lowest over other pillars.
+    """Yield a quantity where static friction is lowest minus that on other pillars.
 
     The others are the smallest and the largest pillars, or those of `every` size. If several sizes
     may have the lowest friction, the interval encloses those of all; it has no upper end for these

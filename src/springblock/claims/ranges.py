@@ -7,11 +7,11 @@ from springblock.claims.rule import Range
 
 INF = float("inf")
 POSITIVE, NEGATIVE = (0.0, INF), (-INF, 0.0)
-NEARLY_ALL = (0.9, INF)  #: without exception
+NEARLY_ALL = (0.9, INF)  #: "all" and "none"
 MOST, FEWER_THAN_HALF = (0.5, INF), (-INF, 0.5)
 NEGLIGIBLE = (-INF, 0.1)
 COMPARABLE = (0.5, 2.0)  #: a ratio
-ALIKE = (-INF, 0.2)  #: uniform: share of the variance explained by position
+ALIKE = (-INF, 0.2)  #: uniform: share of the variance, or of a standard deviation
 PLAIN, SCALED = "exp(-r/l_c)", "A exp(-r/l_c)"  #: curves fitted to c_x(r)
 
 

@@ -191,7 +191,7 @@ def _phrases(cases: Sequence[tuple[Case, str]], keys: Sequence[str], outcome: st
             whole.append(phrase(key, value))
         else:
             limited += [f"{phrase(key, value)} {part}" for part in _phrases(group, others, outcome)]
-    return limited + whole  # so that a limit is not read as one of all phrases
+    return limited + whole  # so that no limit seems to apply to all phrases
 
 
 def _ranges(values: Sequence[Any], chosen: Sequence[bool]) -> list[str]:

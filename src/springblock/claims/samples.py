@@ -166,7 +166,7 @@ def compared(
 
 
 def in_order(scene: Scene, parts: Mapping[str, Array], time: str = "t_max") -> Iterator[Finding]:
-    """Yield the delay of each part of a pillar after the one before; mean t_det/`time`, (k,)."""
+    """Yield the delay of each part after the one before; `parts` are mean t_det/`time`, (k,)."""
     for (early, before), (late, after) in pairwise(parts.items()):
         statistic = f"t_det/{time} of the {late} minus that of the {early}"
         yield found_on(scene, statistic, mean(after - before), ranges.POSITIVE)
@@ -226,8 +226,8 @@ def rates(run: Run, width: float) -> Array:
 def first_patch(times: Array, size: int) -> float:
     """Return the depth of the `size` by `size` patch that detaches first; times (n, n) s.
 
-    The fraction of all patches that lie nearer to the edge, plus half of those equally near: 0 at
-    the edge, 1 at the centre, 1/2 on average if all positions are equally likely.
+    The fraction of all patches that lie nearer to the edge, plus half of those equally near: least
+    at the edge, most at the centre, 1/2 on average if all positions are equally likely.
     """
     windows = np.lib.stride_tricks.sliding_window_view(times, (size, size)).mean(axis=(-2, -1))
     depth = surfaces.from_edge(len(windows))

@@ -76,7 +76,7 @@ def long_along_short_across(evidence: Evidence) -> Iterator[Finding]:
 
 
 def mixed(times: Array) -> Array:
-    """Take each block of the sides from another realisation, which leaves chance alone."""
+    """Take each block of the sides from another realisation, which leaves only chance."""
     k, n = len(times), times.shape[-1]
     blocks = np.arange(n)
     taken = (np.arange(k)[:, None] + blocks) % k

@@ -1,4 +1,4 @@
-"""springblock figure NAME: one figure, written in as many formats as --output is given."""
+"""springblock figure NAME: one figure, written once for each --output."""
 
 from collections.abc import Callable
 from functools import partial

@@ -101,7 +101,7 @@ _SCENE = [
         "varied",
         multiple=True,
         callback=given(name_value_pairs),
-        help="Constant for the column `varied`: step=1e-8. Can be repeated.",
+        help="Constant that the scene varies: step=1e-8. Can be repeated.",
     ),
 ]
 

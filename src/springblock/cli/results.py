@@ -22,7 +22,7 @@ from springblock.study import audit
 def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     """Check a folder of results, or compare two to the bit.
 
-    RESULTS alone are checked against their checksums and the current code. With OTHER, the tables
+    A folder is checked against its checksums and the current code. With OTHER, the tables
     of two studies, or two files, are compared to the bit; `springblock compare` tests differences
     of means. The exit status is 0 without a fault or difference, and 1 otherwise.
     """

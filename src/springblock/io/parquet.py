@@ -18,7 +18,7 @@ _NONE = pa.schema([])
 
 
 def write(table: pa.Table, path: Path, metadata: Mapping[str, str]) -> None:
-    """Write a table, of at least one row, whole or not at all, with `metadata` on the whole."""
+    """Write a table of at least one row, with its `metadata`, whole or not at all."""
     if not table.num_rows:
         raise ValueError(f"{path}: the table has no rows; nothing was written")
     described = table.replace_schema_metadata({**metadata, "checksum": BLANK.decode()})

@@ -39,8 +39,7 @@ class Record(Run):
 def read(path: str | Path) -> list[Record]:
     """Read the runs of one file, in ascending order of seeds.
 
-    Each has the fields of `Realisation` except energy, steps and the final displacements and
-    velocities, which are not stored, and also `scene`, `seed` and `material`.
+    Each has the fields of `Run`, and also `scene`, `seed`, `constants` and `material`.
 
     Raises
     ------

@@ -73,7 +73,7 @@ def lattice_stiffness(
 ) -> csc_array:
     """Return K, (2 N_y N_x, 2 N_y N_x), N/m: x components row by row, then y components.
 
-    A spring along the unit vector n between blocks i and j adds k n nᵀ (u_i - u_j) to the force
+    A spring along the unit vector n between blocks i and j adds k n nᵀ (u_j - u_i) to the force
     on block i, to first order.
     """
     blocks = np.arange(np.prod(shape)).reshape(shape)

@@ -11,8 +11,8 @@ overshooting   The block slips as without damping between neighbours at rest, un
                follow one another, the most overloaded block first, while the slider does not move,
                until no block exceeds its threshold.
 
-The friction force is the component of F_mot along x, the direction of the slider, as is the
-friction of sliding blocks.
+The friction force is the component of F_mot along x, the direction of the slider; the friction of
+sliding blocks acts along x.
 """
 
 from typing import NamedTuple
@@ -31,7 +31,7 @@ _SLACK = 1e-9
 
 
 class Curve(NamedTuple):
-    """Friction force and displacement of the slider just before each detachment."""
+    """Force and displacement of the slider just before each detachment, or each avalanche."""
 
     slider: Array  #: (n,) m
     force: Array  #: (n,) N
@@ -54,9 +54,11 @@ def independent(layer: Layer, static: Array, dynamic: Array) -> Curve:
 def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     """Detach blocks one by one in equilibrium, until all slide.
 
-    With A for the components of sliding blocks, S_AA u_A = s b_A - f_A. The Cholesky factor L of
-    S_AA grows by two rows with each block; the rows of L⁻¹ S_A, kept for all blocks, give the
-    forces on the blocks at rest: F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
+    With A for the components of sliding blocks and f for friction, S_AA u_A = s b_A - f_A. The
+    Cholesky factor L of S_AA grows by two rows with each block; the rows of L⁻¹ S_A, kept for all
+    blocks, give the forces on the blocks at rest:
+
+        F_mot = s (b - S_A^T S_AA⁻¹ b_A) + S_A^T S_AA⁻¹ f_A.
     """
     k = len(static)
     strength, dynamic = np.maximum(static, dynamic), dynamic.copy()

@@ -1,8 +1,8 @@
 """Tables of the page: their columns, and their rows for each surface.
 
 The elastic forces on edges, on the core and on blocks without contact add up to the friction force,
-since the forces of the springs between blocks add up to zero. On a block without contact the
-elastic force equals its inertia, on a sliding block its inertia and friction.
+since the forces of the springs between blocks add up to zero. On blocks without contact the
+elastic force equals inertia and damping, on sliding blocks also friction.
 """
 
 from collections.abc import Iterator

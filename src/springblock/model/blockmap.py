@@ -204,7 +204,7 @@ def _image(file: Path) -> Array:
     is_grey = mode in _MODES and (pixels[..., :3] == shades[..., None]).all()
     if not (is_grey and np.isin(shades, (0, 255)).all() and (opacity == 255).all()):
         raise ValueError(
-            f"{file} must be black and white, with 1 or 8 bits per pixel: only the values 0 and "
+            f"{file} must be black and white, with 1 or 8 bits per channel: only the values 0 and "
             "255, no grey, colour or transparency; choose a threshold and save the image again "
             "with white for the pixels in contact and black for all others"
         )

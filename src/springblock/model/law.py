@@ -32,7 +32,7 @@ class LawFile:
     """
 
     name: str  #: name of the file and eight digits, as ageing-1a2b3c4d
-    given: tuple[tuple[str, float], ...] = ()  #: constants that differ from the file
+    given: tuple[tuple[str, float], ...] = ()  #: values that replace those of the file
     file: Path | None = field(default=None, compare=False, repr=False)  #: None if not known
     source: str = field(default="", compare=False, repr=False)
     units: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)

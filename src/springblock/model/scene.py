@@ -187,7 +187,7 @@ class Scene:
 
     @property
     def names(self) -> dict[str, Any]:
-        """Lengths and direction of its levels, by name."""
+        """Lengths of its levels and `along_3`, by name."""
         return self.lengths | ({"along_3": self.along_3} if self.along_3 else {})
 
     @property

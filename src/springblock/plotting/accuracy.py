@@ -40,7 +40,7 @@ _ENDS = {
 _ACCEPTED: Look = {"label": "accepted", "color": GREY, "marker": "_", "markersize": 6.0}
 _ACCEPTED |= {"linestyle": ""}
 
-#: Families over a parameter: name of the axis, what is compared, and how its quantity begins.
+#: Families over a parameter: label of the axis, what is compared, and start of `quantity`.
 _PANELS = {
     "stiffness": (r"$K_s/K_\mathrm{int}$", "path of a column", "displacement"),
     "strain": (r"strain $u/l$", "path of a column", "displacement"),
@@ -107,9 +107,9 @@ def _draw_costs(ax: Axes, rows: DataFrame) -> None:
 
 
 def _draw_paired(ax: Axes, table: DataFrame) -> None:
-    """Draw biases of ensembles with paired seeds, before the scatter of one of the study's size."""
+    """Draw biases of ensembles with paired seeds over the scatter of means of ENSEMBLE seeds."""
     paired, scatter = (table[table.comparison == name] for name in ("paired", "scatter"))
-    # 95 % of the means over as many seeds as in the study lie within ± half.
+    # 95 % of the means over ENSEMBLE seeds lie within ± half.
     deviation = (scatter.ci_high - scatter.ci_low) * np.sqrt(scatter.realisations / ENSEMBLE)
     half = 0.5 * PERCENT * float(deviation.item())
     ax.axhspan(-half, half, label=f"95 % of means over {ENSEMBLE} seeds", **_SCATTER)
@@ -122,7 +122,7 @@ def _draw_paired(ax: Axes, table: DataFrame) -> None:
 
 
 def _draw_production(ax: Axes, rows: DataFrame) -> None:
-    """Draw biases and scatter of ensembles of the study's size; the finest step has no bias."""
+    """Draw biases and scatter of ensembles with N = 120; the finest step has no bias."""
     biases = PERCENT * rows[["bias", "ci_low", "ci_high"]].div(rows.scale, axis=0)
     draw_points(ax, NANO * rows.step[1:], biases[1:], **_FULL)
     spread = float((rows.deviation / rows.scale).iloc[0])

@@ -13,7 +13,7 @@ _NAMES = {"n_blocks": "N =", "direction": "sliding direction"}
 
 
 def surface_in_words(*surfaces: Mapping[str, int]) -> str:
-    """Name the lengths of surfaces of one level: n_p/n_s = 6/6, 20/20."""
+    """Name the lengths of surfaces, by level: n_p/n_s = 6/6, 20/20."""
     levels = []
     for size, gap in zip(LENGTHS[::2], LENGTHS[1::2], strict=True):
         pairs = [f"{lengths[size]}/{lengths[gap]}" for lengths in surfaces if lengths.get(size)]
@@ -55,7 +55,7 @@ def sample_in_words(sample: Mapping[Scene, range]) -> str:
 
 
 def file_name(scene: Scene) -> str:
-    """Name a surface in letters, digits and _: of what is drawn or filmed of it."""
+    """Name the file of a surface's drawing or film, in letters, digits and _."""
     if scene.mask:
         return re.sub(r"\W", "_", str(scene.mask))
     sizes = scene.lengths | {"N": scene.n_blocks} | ({"rows": scene.n_rows} if scene.n_rows else {})

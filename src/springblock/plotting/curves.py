@@ -129,10 +129,10 @@ def draw_force(ax: Axes, run: Run, others: Sequence[Run], span: Span) -> None:
 
 
 def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
-    """Draw shares of detaching blocks on a logarithmic axis that starts below one block."""
+    """Draw shares of switching blocks on a logarithmic axis that starts below one block."""
     floor = 0.6 * float(percent(run, np.array([1]))[0])
     for counts, color, name in (
-        (run.switches, "0.75", "rest to sliding"),
+        (run.switches, "0.75", "begin to slide or turn back"),
         (run.detachments, BLACK, "of these, for the first time"),
     ):
         share = percent(run, counts[1:])  # in the interval that ends at the sample
@@ -142,7 +142,7 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
         time, shares = statistics.cut(others, [percent(other, other.switches) for other in others])
         middle = MICRO * (time - 0.5 * (time[1] - time[0]))
         casing = [withStroke(linewidth=1.6, foreground="white")]  # visible on any ground
-        name = "rest to sliding, mean of others"
+        name = "begin or turn back, mean of others"
         ax.plot(middle, shares.mean(axis=0), label=name, path_effects=casing, **_MEAN)
     ax.set(yscale="log", ylim=(floor, 80.0))
     ax.yaxis.set_major_formatter("{x:g}")

@@ -1,6 +1,6 @@
 """Declarations of figures: title, caption and data.
 
-The command line and the workflow read these declarations alone.
+Command line and workflow are built from these declarations.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # reads configurations, which a plain installation cannot
 
     Ensembles = Mapping[str, Sequence[Ensemble]]  #: of a study by group
 
-Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; one without is left out
+Groups = Mapping[str, Sequence[Scene]]  #: scenes of a study by group; a group may be empty
 Lengths = Mapping[str, Any]  #: of a scene, as the configuration gives them for a figure
 
 
@@ -59,7 +59,7 @@ class Declaration:
 
     @property
     def category(self) -> str:
-        """Return the heading of the figure in the report: Figures, or the name of its module."""
+        """Return the figure's part of the report: Figures, or the name of its module."""
         return "Figures" if self.module.startswith("paper_") else self.module.capitalize()
 
     @property

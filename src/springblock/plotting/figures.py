@@ -20,7 +20,7 @@ ENDS = """Realisations end after a set time, or after the first minimum that fol
 #: Keys of grooved pillars.
 PATTERN = ("n_p2", "n_s2", "n_p3", "n_s3", "along_3", "direction")
 
-#: By name, in the order of names in the report: `springblock figure NAME` draws one.
+#: By name: `springblock figure NAME` draws one; the report sorts them by name.
 FIGURES: dict[str, Declaration] = {
     "figure_1": Declaration(
         title="The model",
@@ -36,9 +36,9 @@ FIGURES: dict[str, Declaration] = {
         detach in each sample interval, against time, on a flat surface; b) and d) enlarge the time
         around the force maximum. Figure 2 of the paper.""",
         groups=("flat",),
-        marks="""Black: the realisation with the first seed; grey band: 5th to 95th percentile of
-        the others. Dotted line: t_max, the time of the force maximum; solid line: t_avg, the mean
-        first detachment time.""",
+        marks="""Black: the realisation with the first seed; grey band in a), b): 5th to 95th
+        percentile of the others. Dotted line: t_max, the time of the force maximum; solid
+        line: t_avg, the mean first detachment time.""",
     ),
     "figure_3": Declaration(
         title="First detachment times, flat surface",
@@ -124,8 +124,8 @@ FIGURES: dict[str, Declaration] = {
         title="A third level",
         module="supplement",
         caption="""As figure 9, on pillars cut once more by grooves of a third level, n_p3/n_s3; the
-        axis of the force does not begin at zero. The paper expects its effects to remain with
-        further levels.""",
+        axis of the force does not begin at zero. The paper expects the effects of two levels
+        to remain.""",
         groups=("third_level",),
         keys=PATTERN,
         marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",
@@ -205,8 +205,8 @@ FIGURES: dict[str, Declaration] = {
         groups=("lattice", "disorder", "layer"),
         keys=("folder",),
         marks="""Bands and bars: 95 % intervals over realisations. b) Grey lines: slopes 0 and 1.
-        c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes that may exceed it
-        by no more than the numerical bias, 0.001.""",
+        c), d) Crosses at the bottom: size of the lowest mean; their bars: sizes whose mean may be
+        within the numerical bias, 0.001, of it.""",
     ),
     "beyond_disorder": Declaration(
         title="Scatter of thresholds",

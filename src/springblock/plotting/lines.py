@@ -34,8 +34,8 @@ def axes(scenes: Iterable[Scene]) -> list[str]:
 def lines(rows: Iterable[Row], over: str) -> Lines:
     """Return rows of the table `realisations` by place on an axis, for each line.
 
-    A line is named by its mask and by what differs from other lines. Scenes that share a line with
-    no other are left out, if some do.
+    A line is named by its mask and by what differs from other lines. Lines with
+    one place are left out, unless all are such.
     """
     rows = list(rows)
     if over not in AXES and not all(over in law_units(row) for row in rows):
@@ -90,7 +90,7 @@ def _by_size(value: str) -> tuple[float, str]:
 
 
 def _others(scene: Scene, over: str, constants: Mapping[str, str] | None = None) -> Names:
-    """Return what else distinguishes a scene; n_s in proportion, where pillars grow.
+    """Return what else distinguishes a scene; n_s/n_p for n_s where n_p is on the axis.
 
     `constants` are those of the material that other scenes vary.
     """
@@ -107,6 +107,6 @@ def _others(scene: Scene, over: str, constants: Mapping[str, str] | None = None)
 
 
 def in_math(name: str) -> str:
-    """Write lengths as the paper prints them, other names in words."""
+    """Write lengths with an index, other names in words."""
     printed = re.sub(r"n_(\w+)", r"$n_{\1}$", name)
     return printed if name in ("n_s/n_p", *LENGTHS) else name.replace("_", " ")

@@ -30,7 +30,7 @@ _KEY = {
     "detaching now": BLACK,
     "not in contact": NO_CONTACT,
 }
-_LEAST = 1e-3  #: width of the scale on each side of t_max, over t_max
+_LEAST = 1e-3  #: least width of the scale on each side of t_max, over t_max
 
 
 def draw_map(ax: Axes, values: ArrayLike, axes: str = "/l", **look: Any) -> AxesImage:
@@ -99,7 +99,7 @@ def _draw_times_bar(ax: Axes, run: Run) -> None:
 
 
 def painted(run: Run, until: float = math.inf, since: float = math.inf) -> Array:
-    """Return the colours of all blocks at a time in s, (N, N, 3).
+    """Return the colours of all blocks at a time in s, (N_y, N_x, 3).
 
     Detached blocks have the colour of their time, or are black if they detached after `since`;
     other blocks in contact and blocks out of contact have colours of their own.

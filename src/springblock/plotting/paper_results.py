@@ -46,7 +46,7 @@ _SHOWN = 0.8  #: share of the maximum from which figure 9 shows the force
 
 
 def figure_2(runs: Sequence[Run]) -> Figure:
-    """Draw a), b) force and c), d) blocks of runs[0] before the spread of the other runs.
+    """Draw a), b) force, c), d) blocks of runs[0]; behind: spread or mean of the other runs.
 
     All runs share one sample interval.
     """
@@ -188,7 +188,7 @@ def figure_7(correlation: "pd.DataFrame", lengths: "pd.DataFrame") -> Figure:
         raise ValueError(f"there is no correlation length for n_p = {n_p}")
     picture, (linear, log, sizes) = style.panels(style.DOUBLE, 66.0, "abc")
     for side, curve in correlation.groupby("side"):
-        told = curve[(curve["ci_low"] > 0.0).cummin()]  # from zero
+        told = curve[(curve["ci_low"] > 0.0).cummin()]  # not zero
         for ax, part in ((linear, curve[1:]), (log, told[1:])):
             values = Interval(*part[["correlation", "ci_low", "ci_high"]].to_numpy().T)
             look = _SIDES[str(side)] | {"label": f"$c_{side}(r)$"}
@@ -220,7 +220,7 @@ def _draw_fits(ax: Axes, side: str, curve: "pd.DataFrame", length: "pd.Series") 
 
 
 def _draw_lengths(ax: Axes, lengths: "pd.DataFrame") -> None:
-    """Draw l_c of c_x over n_p, logarithmic; open points: l_d, with A free."""
+    """Draw l_c of c_x over log n_p; open points: l_d, with A free."""
     for columns, face, aside, label in (
         (["l_c", "ci_low", "ci_high"], BLUE, 0.96, _EXPONENTIAL),
         (["tail", "tail_low", "tail_high"], "white", 1.04, _FREE),

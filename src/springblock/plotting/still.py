@@ -84,7 +84,7 @@ def _chosen(times: Array) -> NDArray[np.int_]:
 def _draw_maps(
     panels: Sequence[Axes], fields: Array, label: str, times: Iterable[float] = ()
 ) -> None:
-    """Map a field, (k, rows, columns), in common colours, with its times in s above, if given."""
+    """Map a field, (k, rows, columns), in common colours; `times` (s) stand above in µs."""
     for ax, field in zip(panels, fields, strict=True):
         image = maps.draw_map(ax, field, **maps.sequential(fields))
         ax.label_outer()
@@ -113,7 +113,7 @@ def plot_fields(fields: Fields, name: str = "") -> Figure:
 
 @journal
 def show(contact: NDArray[np.bool_], direction: str | float, name: str = "") -> Figure:
-    """Draw a) a whole surface, (N, N) [y, x], and b) single blocks of it."""
+    """Draw a) a whole surface, (N_y, N_x), and b) single blocks of it."""
     picture, (whole, detail) = style.panels(DOUBLE, 105.0, "ab")
     share = f"{np.count_nonzero(contact)} of {contact.size} blocks in contact, {contact.mean():.1%}"
     title = "\n".join(filter(None, [name, share.replace("%", " %")]))

@@ -134,7 +134,7 @@ def legend_above(picture: Figure, *panels: Axes, **look: Any) -> None:
 
 
 def color_bar(ax: Axes, mappable: ScalarMappable, label: str, **look: Any) -> Colorbar:
-    """Draw a bar of colours as long as a panel, at its right or, with that orientation, below."""
+    """Draw a bar of colours as long as a panel, at its right or, if horizontal, below."""
     below = look.get("orientation") == "horizontal"
     place = ax.inset_axes((0.0, -0.24, 1.0, 0.04) if below else (1.05, 0.0, 0.05, 1.0))
     picture: Any = ax.figure
@@ -152,7 +152,7 @@ def shades(values: Iterable[float]) -> dict[float, Any]:
 def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
     """Return the colours and markers of pillars by their size; 0 is a flat surface.
 
-    Sizes of the paper have colours and markers of their own; if there are others, all sizes have
+    Sizes in `_MARKERS` have colours and markers of their own; if there are others, all sizes have
     those of their rank.
     """
     every = sorted({*sizes} - {0})
@@ -170,7 +170,7 @@ def pillar_looks(sizes: Iterable[int]) -> dict[int, Look]:
 def settle(picture: Figure) -> None:
     """Give panels their final places, with the text and arrows beside them on the page.
 
-    Two passes, as these change with the panel; rounded, as the solver sums up in any order.
+    Two passes, as these change with the panel; rounded, as the layout sums in any order.
     """
     for _ in range(2):
         if engine := picture.get_layout_engine():

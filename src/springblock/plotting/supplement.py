@@ -18,7 +18,7 @@ _LINE = 120  #: characters that fit above a row
 
 
 def supplement_levels(ensembles: Mapping[Grooves, Sequence[Run]]) -> Figure:
-    """Draw force and detachments on grooves of three levels, with small differences of force."""
+    """Draw force (axis from 0.3 on) and detachments on grooves of three levels."""
     return figure_9(ensembles, lowest_force=0.3)
 
 

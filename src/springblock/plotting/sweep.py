@@ -44,7 +44,7 @@ def caption(found: Lines, observables: Sequence[str]) -> str:
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     clustered = " and ".join(name.replace("-", " - ") for name in observables if name in _CLUSTERED)
     return (
-        "Lines join ensembles that differ only in the quantity on the axis. "
+        "Lines join ensembles that differ only on the axis (n_s in proportion to n_p). "
         f"{sample_in_words(sample)} Symbols, slightly offset: means; bars: 95 % t intervals over "
         "realisations."
     ) + (f" For {clustered}, dots: realisations; dashes: medians." if clustered else "")

@@ -37,7 +37,7 @@ class Page(NamedTuple):
 
 
 def typeset(text: str) -> Markup:
-    """Return text as HTML, escaped but for what sets its symbols and what is code."""
+    """Return text as HTML, all of it escaped, with symbols set and code marked."""
     parts = re.split("`([^`]+)`", str(escape(text)))
     codes = (f"<code>{part}</code>" if i % 2 else symbols(part) for i, part in enumerate(parts))
     return Markup("".join(codes))

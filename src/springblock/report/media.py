@@ -82,5 +82,5 @@ def _webp(image: Image.Image) -> str:
 
 
 def address(kind: str, content: bytes) -> str:
-    """Return the address of a file that holds all of the file."""
+    """Return a data URL, which holds all of a file's content."""
     return f"data:{kind};base64,{b64encode(content).decode()}"

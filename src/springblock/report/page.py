@@ -76,7 +76,7 @@ def page(files: Iterable[Path], films: Mapping[Path, Path], own: bool = False) -
 
 
 def _of_own(rows: Sequence[Row]) -> dict[str, Any]:
-    """Return means and changes of ensembles, and the parameters of all that are not the paper's."""
+    """Return means and changes of ensembles, and common parameters other than the paper's."""
     members = ensembles(rows)
     paper = dict(Material().items())
     changes = changes_over_ends(members, ["static_friction"])
@@ -157,7 +157,7 @@ def rendered(template: str, **content: Any) -> str:
 def _parts(
     figures: Figures, pages: Mapping[str, markup.Page], placed: set[str]
 ) -> list[dict[str, Any]]:
-    """Parts that have something to show, in order; those that findings show have their place."""
+    """Parts that have something to show, in order, without the figures that findings show."""
     left: dict[str, list[dict[str, Any]]] = {}
     for name, figure in figures.items():
         if name not in placed:

@@ -38,7 +38,7 @@ def _stretch_squared(apart: Array, rest_x: float, rest_y: float) -> Array:
 def elastic_energy(
     displacement: Array, slider: Array, material: Material, periodic: bool = False
 ) -> float:
-    """Energy of all springs, J, for displacements (2, N_y, N_x) in m and the slider at (2,) in m.
+    """Energy of all springs, J, for displacements (2, N_y, N_x) and that of the slider, (2,), in m.
 
     On a periodic surface this includes the springs across the edges.
     """

@@ -137,8 +137,8 @@ def compute_prelude(
     """Load a surface without detachment until a block would detach in most realisations.
 
     `simulate` accepts the prelude for any seed. Arguments and errors are those of `Surface` and
-    `simulate`; if `mu_static` is given instead of drawn, only the last state before a detachment is
-    stored.
+    `simulate`; if `mu_static`, an (N_y, N_x) array, is given instead of drawn, only the last state
+    before a detachment is stored.
     """
     check_type("setup", setup, Setup)
     mask, material = as_mask(contact), setup.material

@@ -79,7 +79,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Realisation(Run):
-    """A run as it was computed, with results that are not stored."""
+    """A run as it was computed, with results that a `Record` lacks."""
 
     energy: Energy  #: at the end, J
     steps: int  #: number of integration steps

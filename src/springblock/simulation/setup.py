@@ -15,7 +15,7 @@ from springblock.model.numbers import check_real
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
-#: Largest number of steps times blocks, and the number that takes one core a year.
+#: Largest number of steps times blocks, and the number that takes one core a year (leapfrog).
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
 #: Largest number of samples, the limit of a cell of a table.
 _MOST_SAMPLES = 2**31 - 1
@@ -103,7 +103,7 @@ class Setup:
     def loading_time(self, contact: NDArray[np.bool_], threshold: float) -> float:
         """Time t = mu F_n/(K_s v), s, at which a block without neighbours would detach.
 
-        `threshold` is mu; the blocks in contact share the load on all (N_y, N_x).
+        `threshold` is mu; the blocks in contact share the load on all blocks.
         """
         load = self.material.block_load * contact.size / np.count_nonzero(contact)
         with np.errstate(all="ignore"):  # infinite where the slider hardly moves
@@ -117,7 +117,7 @@ class Setup:
         duration: float | None = None,
         snapshot_times: Sequence[float] = (),
     ) -> tuple[int | None, list[int]]:
-        """Return the sample intervals of a run, if it has a duration, and those to each snapshot.
+        """Count the sample intervals of a run, if it has a duration, and those to each snapshot.
 
         Times are in s. Without a duration, a run is taken to last for the loading time of its
         strongest block, whose coefficient is `threshold`, and until its last snapshot.
@@ -165,7 +165,7 @@ class Setup:
             raise ValueError(
                 f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
                 f"{steps:.2g} steps of {blocks} blocks would take "
-                f"{steps * blocks / _STEPS_PER_YEAR:.2g} years"
+                f"{steps * blocks / _STEPS_PER_YEAR:.2g} years or more"
             )
         if samples > _MOST_SAMPLES:
             raise ValueError(

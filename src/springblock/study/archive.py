@@ -44,13 +44,14 @@ _TYPES = {
 def archive(study: Path, results: Path, configuration: Path, output: Path) -> int:
     """Pack code, configuration and results of a finished study; return the number of files.
 
-    `results` and `configuration` are in the folder `study`, a clone. Logs and untracked files of
-    the study are omitted. Modification times are preserved, so that no result appears to be out of
-    date.
+    `results` and `configuration` are in the folder `study`, a clone. Logs and other
+    untracked files of the study are omitted. Modification times are preserved, so that no result
+    appears to be out of date.
     """
     made = _results(study, results)
-    files = sorted({*_code(study), *made})
-    crate = _crate(study, files, made, configuration.relative_to(study).as_posix())
+    used = configuration.relative_to(study).as_posix()
+    files = sorted({*_code(study), used, *made})
+    crate = _crate(study, files, made, used)
     with (
         whole_file(output) as partial,
         zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as packed,

@@ -16,7 +16,7 @@ from springblock.simulation.prelude import Prelude
 from springblock.simulation.setup import Setup
 from springblock.study.record import read
 
-#: Files with metadata on their origin, by the step that makes them.
+#: Files that are checked, by the step that makes them.
 _MADE_BY = {
     "simulate": (
         "realisations/**/*.parquet",

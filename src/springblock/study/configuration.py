@@ -44,7 +44,7 @@ class Ensemble:
     snapshot_times: tuple[float, ...] = ()
 
     def batches(self, size: int) -> dict[int, range]:
-        """Return the seeds of each batch, by number: batch i begins with seed i·size.
+        """Return the seeds of each batch, by number: batch i has those from i·size on.
 
         Batches do not depend on the number of seeds, so that each seed of a growing study stays in
         its batch.

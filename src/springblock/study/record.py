@@ -46,7 +46,7 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
 def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> None:
     """Record configuration and code of a run before its first job.
 
-    `snakemake --touch`, which would mark any results as up to date, must have the same.
+    `snakemake --touch`, which marks any results as up to date, may not change either.
     """
     record = read(results)
     if touched and record is not None:

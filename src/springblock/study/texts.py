@@ -16,7 +16,7 @@ _LARGEST = 2**63  #: upper bound of whole numbers in columns of tables
 
 
 def check_texts(value: Any, key: str = "") -> None:
-    """Refuse texts and keys with other characters, and whole numbers too large for a column."""
+    """Refuse texts and keys that a column cannot hold, and whole numbers too large for it."""
     if isinstance(value, Mapping):
         for name, inner in value.items():
             _check_text(name, f"{key or 'the configuration'} has the key")

@@ -102,8 +102,8 @@ def pulled_column(ratio: float, strain: float) -> tuple[Surface, Material, float
     """Return two columns of two blocks, of which one is fixed, the material, and a duration, s.
 
     The slider moves the free column away by about `strain` spacings, or towards the other if
-    strain < 0; its springs have 1.25 times K_int at small strains. The duration is 13 periods of
-    the highest mode.
+    strain < 0; the springs between them have 1.25 K_int at small strains. The duration is 13
+    periods of the highest mode.
     """
     contact = [[1, 0], [1, 0]] if strain > 0.0 else [[0, 1], [0, 1]]
     material = layer(ratio, abs(strain))
