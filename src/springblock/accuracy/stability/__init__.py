@@ -48,7 +48,7 @@ SCHEMA = pa.schema(
             "1",
             value="its value; NaN without one",
             closed_form="exact or accurately integrated value; NaN if unknown",
-            relative_error="value/closed_form - 1; NaN without either",
+            relative_error="value/closed_form - 1; NaN where one is NaN",
             tolerance="largest accepted relative_error, or NaN",
         ),
     ]
