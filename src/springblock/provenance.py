@@ -28,6 +28,8 @@ STEPS: dict[str, tuple[str, ...]] = {
     "plot": ("model", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
     "report": ("model", "analysis", *_PAGES, "plotting", "report"),
 }
+#: Steps that write pages, on whose templates and data their results depend.
+_WRITING = {"claims", "beyond", "report"}
 #: Folders whose docstrings are part of the results: the criteria of statements.
 _SAYING = {"claims"}
 
@@ -38,7 +40,7 @@ def digest(step: str) -> str:
 
     It does not depend on comments, layout, the text of `raise` and, but for `claims`, docstrings.
     """
-    return _short("".join(map(_of_folder, STEPS[step])))
+    return _short("".join(_of_folder(folder, step in _WRITING) for folder in STEPS[step]))
 
 
 def code_version(step: str) -> str:
@@ -57,12 +59,12 @@ def configuration_digest(configuration: Mapping[str, Any]) -> str:
 
 
 @cache
-def _of_folder(folder: str) -> str:
+def _of_folder(folder: str, templates: bool) -> str:
     texts = []
     for file in sorted((_ROOT / folder).rglob("*")):
         if file.suffix == ".py":
             texts += [file.name, *_skeleton(ast.parse(file.read_bytes()), folder in _SAYING)]
-        elif file.suffix in (".html", ".css", ".js", ".md", ".csv"):  # templates and data of pages
+        elif templates and file.suffix in (".html", ".css", ".js", ".md", ".csv"):
             texts.append(file.read_text(encoding="utf-8"))
     return _short("\n".join(texts))
 

@@ -102,7 +102,7 @@ rule accuracy:
         mem_mb=400,
         runtime=5,
     params:
-        code=code("accuracy"),
+        code=code("report"),
         page="accuracy",
     message:
         "Writing the page on errors"

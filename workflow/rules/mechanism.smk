@@ -54,7 +54,7 @@ use rule accuracy as mechanism with:
     benchmark:
         f"{RESULTS}/benchmarks/mechanism.tsv"
     params:
-        code=code("mechanism"),
+        code=code("report"),
         page="mechanism",
     message:
         "Explaining the lowest friction and two load peaks"

@@ -56,7 +56,7 @@ PEAKS = pa.schema(
             "trained",
             pa.bool_(),
             "1",
-            "whether this is one of the surfaces on which assumption and limit were chosen",
+            "whether the prediction's assumption and limit were chosen with this surface",
         ),
         *numbers(
             "%",
