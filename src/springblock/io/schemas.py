@@ -169,8 +169,8 @@ BATCH = pa.schema(
         *lists(
             pa.int32(),
             "blocks",
-            detachments="blocks that detached for the first time since the previous sample",
-            switches="switches to sliding since the previous sample, from rest or by turning back",
+            detachments="number of first detachments since the previous sample",
+            switches="number of switches to sliding since then, from rest or by turning back",
         ),
         *lists(
             pa.float64(),

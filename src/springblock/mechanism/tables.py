@@ -80,7 +80,7 @@ BUDGET = pa.schema(
         *numbers("s", time="time; overshooting: displacement of the slider over its velocity"),
         *numbers(
             "1",
-            edge="force on edge blocks over the normal force; NaN after the end of the run",
+            edge="total force on edges over the normal force; NaN after the end of the run",
             core="the same for the core",
             free="the same for blocks without contact; overshooting: 0",
         ),
