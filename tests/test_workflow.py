@@ -145,7 +145,7 @@ def test_one_figure_needs_only_its_own_simulations(study):
 def test_the_quick_study_leaves_the_optional_groups_out(study):
     jobs = study.planned(configuration=("config/quick.yaml",))
     assert (jobs["prelude"], jobs["correlation"]) == (5, 4)
-    left_out = {"beyond", "production_table", "sweep_spacing", "sweep_size", "sweep_angle"}
+    left_out = {"beyond", "production_table", "sweep_gaps", "sweep_size", "sweep_angle"}
     assert not left_out & jobs.keys()
 
 

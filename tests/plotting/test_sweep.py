@@ -62,11 +62,13 @@ def test_coulombs_law_is_where_weakening_takes_no_way():
 def test_the_caption_names_surfaces_and_seeds():
     runs = [row for speed in SPEEDS[:2] for row in rows(at(speed), 0.8, seeds=3)]
     found = lines(runs, "slider_velocity")
-    said = sweep.caption(found, ["static_friction", "t_max-t_avg"])
+    said = sweep.caption(found, "slider_velocity", ["static_friction", "t_max-t_avg"])
     assert "N = 120, sliding direction x. Flat surface, " in said
     assert "slider_velocity=0.00025 (3 realisations, seeds 0 to 2)" in said
     assert "For t_max - t_avg, dots: realisations" in said
-    assert "dots" not in sweep.caption(found, ["static_friction"])
+    assert "dots" not in sweep.caption(found, "slider_velocity", ["static_friction"])
+    assert "in n_s" not in said
+    assert "in n_s, in proportion" in sweep.caption(found, "n_p", [])
 
 
 def test_points_are_means_and_bars_t_intervals(two_lines):

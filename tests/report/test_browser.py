@@ -96,6 +96,23 @@ def test_a_search_of_the_report_leads_to_what_it_finds(study, opened):
     assert results.count() == 0
 
 
+def test_after_a_search_the_navigation_goes_on(study, opened):
+    """To the part that was open before, too; and the list of results closes."""
+    page = opened(study / "results/report.html")
+    films, part = page.locator("nav a[href='#films']"), page.locator(".part:visible")
+    films.click()
+    page.locator("#search").fill("n_p2 pawls")
+    page.locator("#results button").first.click()
+    expect(part).not_to_have_attribute("id", "films")
+    page.locator("#search").click()
+    expect(page.locator("#results")).to_be_visible()
+    films.click()
+    expect(part).to_have_attribute("id", "films")
+    expect(page.locator("#results")).to_be_hidden()
+    page.go_back()
+    expect(part).not_to_have_attribute("id", "films")
+
+
 def test_figures_and_tables_are_saved_whole(study, opened, tmp_path):
     page = opened(study / "results/report.html")
 

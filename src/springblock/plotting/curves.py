@@ -147,7 +147,7 @@ def _draw_blocks(ax: Axes, run: Run, others: Sequence[Run]) -> None:
     ax.set(yscale="log", ylim=(floor, 80.0))
     ax.yaxis.set_major_formatter("{x:g}")
     interval = MICRO * (run.time[1] - run.time[0])
-    ax.set_ylabel(f"detaching blocks\n(% per {interval:.2g} µs)")
+    ax.set_ylabel(f"blocks\n(% per {interval:.2g} µs)")
 
 
 def draw_points(ax: Axes, places: ArrayLike, intervals: ArrayLike, color: Any, **look: Any) -> None:

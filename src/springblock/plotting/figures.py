@@ -33,8 +33,8 @@ FIGURES: dict[str, Declaration] = {
         title="Force and detachments, flat surface",
         module="paper_results",
         caption="""a), b) Friction force over the normal force and c), d) share of blocks that
-        detach in each sample interval, against time, on a flat surface; b) and d) enlarge the time
-        around the force maximum. Figure 2 of the paper.""",
+        begin to slide or turn back in each sample interval, against time, on a flat surface; b)
+        and d) enlarge the time around the force maximum. Figure 2 of the paper.""",
         groups=("flat",),
         marks="""Black: the realisation with the first seed; grey band in a), b): 5th to 95th
         percentile of the others. Dotted line: t_max, the time of the force maximum; solid
@@ -53,9 +53,9 @@ FIGURES: dict[str, Declaration] = {
     "figure_4": Declaration(
         title="Square pillars",
         module="paper_surfaces",
-        caption="""Blocks in contact, from the mask used by the solver: a) a corner of the surface;
-        b) one pillar with its coordinates (x_p, y_p) and the sides along which c_x and c_y are
-        measured. Figure 4 of the paper.""",
+        caption="""Blocks in contact, from the solver's mask: a) nine pillars; b) one pillar with
+        its coordinates (x_p, y_p) and the sides along which c_x and c_y are measured. Figure 4 of
+        the paper.""",
         draws="pattern",
     ),
     "figure_5": Declaration(
@@ -123,9 +123,9 @@ FIGURES: dict[str, Declaration] = {
     "supplement_levels": Declaration(
         title="A third level",
         module="supplement",
-        caption="""As figure 9, on pillars cut once more by grooves of a third level, n_p3/n_s3; the
-        axis of the force does not begin at zero. The paper expects the effects of two levels
-        to remain.""",
+        caption="""As figure 9, on pillars cut once more by grooves of a third level, n_p3/n_s3;
+        along and across refer to the grooves of the second level. The axis of the force does not
+        begin at zero. The paper expects the effects of two levels to remain.""",
         groups=("third_level",),
         keys=PATTERN,
         marks=f"""Lines, bands, triangles and the lesser peak are those of figure 9. {ENDS}""",

@@ -36,15 +36,16 @@ _CLUSTERED = ("t_max", "t_max-t_avg")
 _SIGN, _LETTER, _LINE = 12.0, 1.375, 3.6  #: mm, widths and height in the legend
 
 
-def caption(found: Lines, observables: Sequence[str]) -> str:
+def caption(found: Lines, over: str, observables: Sequence[str]) -> str:
     """Return the caption of lines: observables, surfaces, seeds and marks."""
     seeds: dict[Scene, list[int]] = {}
     for row in drawn(found):
         seeds.setdefault(Scene.from_row(row), []).append(row["seed"])
     sample = {scene: range(min(some), max(some) + 1) for scene, some in seeds.items()}
     clustered = " and ".join(name.replace("-", " - ") for name in observables if name in _CLUSTERED)
+    along = " and in n_s, in proportion to it" if over == "n_p" else ""
     return (
-        "Lines join ensembles that differ only on the axis (n_s in proportion to n_p). "
+        f"Lines join ensembles that differ only in the quantity on the axis{along}. "
         f"{sample_in_words(sample)} Symbols, slightly offset: means; bars: 95 % t intervals over "
         "realisations."
     ) + (f" For {clustered}, dots: realisations; dashes: medians." if clustered else "")

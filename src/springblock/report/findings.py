@@ -63,9 +63,11 @@ def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, 
     rows = _tested(tables, "Lowest static friction at an intermediate n_p")
     below = [_quoted(row) for row in rows if row["verdict"] == "reproduced"]
     candidates = " or ".join(f"{each:g}" for each in sorted({size, *least.alike}))
-    at_least = f"Static friction is lowest on pillars of {candidates} blocks"
+    where = f"pillars of {candidates} blocks, with gaps of equal width"
     return {
-        "title": at_least if below else "Static friction and the size of pillars",
+        "title": f"Static friction is lowest on {where}"
+        if below
+        else "Static friction and pillar size",
         "n_blocks": family[size][0]["n_blocks"],
         "flat": number(mean_interval(flat)),
         "least": number(mean_interval(samples[size])),
@@ -113,7 +115,8 @@ def _correlation(tables: Tables) -> dict[str, Any]:
         return {}
     span = f"{min(values):.1f} to {max(values):.1f}"
     return {
-        "title": f"On large pillars, detachment times are correlated over {span} blocks",
+        "title": "Along the sliding direction, detachment times on large pillars are correlated "
+        f"over {span} blocks",
         "fits": [
             (letters, [(size, _quoted(row)) for size, row in _by_size(own).items()])
             for curve, letters in _FITS.items()

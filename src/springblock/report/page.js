@@ -54,9 +54,10 @@ function find() {
     const button = make("button", { textContent: `${at ? "… " : ""}${text.slice(at, at + 160)}` });
     button.prepend(make("b", { textContent: `${links.find((link) => link.hash === "#" + place.closest(".part").id)?.textContent}: ` }));
     button.addEventListener("click", () => {
-      results.hidden = true;
+      history.pushState(null, "", "#" + place.closest(".part").id);
       place.hidden = false;
       reveal(place);
+      results.hidden = true;
       place.classList.add("found");
       setTimeout(() => place.classList.remove("found"), 3000);
     });
@@ -158,6 +159,8 @@ for (const frame of document.querySelectorAll(".frame")) {
 
 field.closest(".find").hidden = false;
 field.addEventListener("input", find);
+field.addEventListener("focus", find);
+document.addEventListener("click", (event) => field.closest(".find").contains(event.target) || (results.hidden = true));
 field.addEventListener("keydown", (event) => event.key === "Escape" && ((field.value = ""), find()));
 addEventListener("hashchange", show);
 show();
