@@ -35,9 +35,7 @@ rule report:
             else []
         ),
         production=rules.production_table.output if config["production"] else [],
-        mechanism=(
-            [rules.mechanism.output, rules.mechanism.input] if config["mechanism"] else []
-        ),
+        mechanism=([rules.mechanism.output, rules.mechanism.input] if config["mechanism"] else []),
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
         glossary=[] if OWN else [file for file in ["docs/glossary.md"] if Path(file).exists()],
         films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
