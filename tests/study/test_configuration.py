@@ -291,7 +291,7 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         ("scenes.flat.material", {"speed": [1.0]}, "scenes.flat: unknown constant 'speed'"),
         ("scenes.flat.n_s", [5], "scenes.flat: n_s = 5 needs n_p"),
         ("scenes.size_flat.n_blocks", [120], "duration must be the same wherever n_blocks = 120"),
-        ("scenes.grooves", PAPER["scenes"]["spacing"], "grooves: .* of level 2, not 1"),
+        ("scenes.grooves", PAPER["scenes"]["gaps"], "grooves: .* of level 2, not 1"),
         ("figures.sweeps.angle.groups", ["speeds"], "groups: unknown group 'speeds'; choose from"),
         ("figures.sweeps.angle.over", "speed", "over: unknown axis 'speed'; choose one .*n_p"),
         ("step", 1e-30, "scenes.flat: step = 1e-30 s is too short for a loading time"),
