@@ -136,7 +136,7 @@ for (const box of document.querySelectorAll("div.table")) {
   const bar = make("div", { className: "bar" });
   if (rows.length >= 20) search(bar, table, rows, new Map(values.map(([name, value]) => [plain(name), value])));
   if (rows.length > 1) sort(table, table.tBodies[0], rows);
-  const button = make("button", { className: "save", textContent: "Save as CSV" });
+  const button = make("button", { className: "save", textContent: "Save all rows as CSV" });
   const name = data ? data.id.replace("table-", "") : box.closest("[id]").id;
   button.addEventListener("click", () => save(`${name}.csv`, new Blob([csv(table, rows, new Map(values))], { type: "text/csv" })));
   bar.append(button);
