@@ -115,9 +115,7 @@ def quiet_between_peaks(evidence: Evidence) -> Iterator[Finding]:
     paper does not say what the phase is quieter than, the reference is the mean rate from the first
     to the last detachment (“all detachments”), or that from a tenth to nine tenths of them (“the
     transition”). All four combinations are tested, with pawls of 8 and of 10 blocks; with a bound
-    of a tenth all would fail. Low rates also occur without a second peak: on pillars of 58 and 30
-    blocks without grooves, the lowest rate while the force exceeds 95 % of its maximum is 0.08 and
-    0.21 of the mean rate of the transition, less than between the load peaks of grooved pillars.
+    of a tenth all would fail.
     """
     rates: dict[str, Callable[[Peaks], float]] = {
         "lowest": partial(quietest_rate, share=0.05),

@@ -59,9 +59,9 @@ def _cut_segment(segment: tuple[int, int], level: Level) -> Segments:
 class Pattern:
     """Contact pattern of any number of levels on N x N blocks, or N_y rows of N_x blocks.
 
-    Start from `flat` or `pillars` and add levels with `grooved` and `pillared`. The first
-    level that cuts an axis has a margin of n_s/2 to the edges of the surface (floor and ceiling of
-    n_s/2 if n_s is odd); deeper ones fill a pillar from edge to edge.
+    Start from `flat` or `pillars` and add levels with `grooved` and `pillared`. The first level
+    that cuts an axis has a margin of n_s/2 to the edges of the surface (floor and ceiling of n_s/2
+    if n_s is odd); deeper ones fill a pillar from edge to edge.
 
     Raises
     ------
