@@ -81,10 +81,8 @@ def plot(
         rows = read_tables(files, SUMMARY).to_pylist()
         found = lines(rows, over)
         observables = observables or ("static_friction",)
-        picture, caption = (
-            sweep.draw(found, over, observables),
-            sweep.caption(found, over, observables),
-        )
+        picture = sweep.draw(found, over, observables)
+        caption = sweep.caption(found, over, observables)
         if left_out := len(rows) - len(sweep.drawn(found)):
             click.echo(f"Left out: {left_out} realisations of surfaces with a single {over}")
     for output in outputs:

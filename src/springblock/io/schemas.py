@@ -146,10 +146,7 @@ CORRELATION_LENGTH = pa.schema(
         *numbers("blocks", l_c="correlation length: weighted least-squares fit of exp(-r/l_c)"),
         *_limits("ci", "blocks"),
         column(
-            "r_last",
-            pa.int32(),
-            "blocks",
-            "last r of the fits, 6, or n_p/3 on sides of less than 20 blocks; the first is r = 1",
+            "r_last", pa.int32(), "blocks", "last r of the fits, from 1: 6, or n_p/3 if n_p < 20"
         ),
         *numbers(
             "blocks",

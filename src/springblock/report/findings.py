@@ -63,11 +63,9 @@ def _friction(tables: Tables, family: Mapping[int, Sequence[Row]]) -> dict[str, 
     rows = _tested(tables, "Lowest static friction at an intermediate n_p")
     below = [_quoted(row) for row in rows if row["verdict"] == "reproduced"]
     candidates = " or ".join(f"{each:g}" for each in sorted({size, *least.alike}))
-    where = f"pillars of {candidates} blocks, with gaps of equal width"
+    low = f"Static friction is lowest on pillars of {candidates} blocks, with gaps of equal width"
     return {
-        "title": f"Static friction is lowest on {where}"
-        if below
-        else "Static friction and pillar size",
+        "title": low if below else "Static friction and the size of pillars",
         "n_blocks": family[size][0]["n_blocks"],
         "flat": number(mean_interval(flat)),
         "least": number(mean_interval(samples[size])),
