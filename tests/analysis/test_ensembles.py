@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from springblock.analysis.ensembles import Change, Ensemble, extremes
+from springblock.analysis.ensembles import Change, Ensemble, from_first
 
 
 def test_what_not_all_ensembles_have_is_no_parameter_that_changes():
     """As a constant of one law where another has none: there is no lowest value."""
-    assert list(extremes([Ensemble({}, []), Ensemble({"d_c": 1e-8}, [])])) == []
+    assert list(from_first([Ensemble({}, []), Ensemble({"d_c": 1e-8}, [])])) == []
 
 
 def test_a_change_is_that_of_the_seeds_that_have_a_value():

@@ -5,7 +5,7 @@ import pytest
 from beyond.made_up import lean
 from springblock.beyond import friction, lattice, scatter
 from springblock.beyond.page import QUESTIONS, page
-from springblock.beyond.question import by_scene
+from springblock.io.records import by_scene
 from springblock.model.scene import Scene
 
 

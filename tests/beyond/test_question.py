@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from springblock.analysis.statistics import Interval
-from springblock.beyond.question import UNCHANGED, direction, number
+from springblock.analysis.statistics import Interval, number
+from springblock.beyond.question import UNCHANGED, direction
 
 
 def test_numbers_are_written_to_what_the_interval_leaves():

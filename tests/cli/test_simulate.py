@@ -172,7 +172,7 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bytes(springblock, tmp_path):
 
 
 def test_checkpoints_are_minutes_apart(springblock, tmp_path, monkeypatch):
-    module, apart = importlib.import_module("springblock.cli.simulate"), []
+    module, apart = importlib.import_module("springblock.simulation.scenes"), []
 
     def run(*args, checkpoint_interval, **how):
         apart.append(checkpoint_interval)

@@ -8,8 +8,7 @@ import pytest
 from scipy.stats import ttest_1samp, ttest_ind
 
 from springblock import read
-from springblock.analysis.statistics import mean_interval
-from springblock.beyond.question import number
+from springblock.analysis.statistics import mean_interval, number
 
 
 def written(file):
@@ -80,7 +79,7 @@ def test_a_difference_is_paired_where_seeds_are_the_same(
 
 
 def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch, tmp_path):
-    """By velocity alone: from the lowest to the highest, the mean over both dampings."""
+    """By velocity alone: from the lowest to each other one, the mean over both dampings."""
     files = [
         batch(0, 2, "--vary", f"slider_velocity={speed}", "--vary", f"gamma={gamma}")
         for speed in ("7e-4", "1e-3", "5e-4")
@@ -88,12 +87,63 @@ def test_changes_of_the_same_seeds_at_two_dampings_count_once(springblock, batch
     ]
     output, by = tmp_path / "by.csv", ("--by", "slider_velocity", "--of", "t_avg")
     springblock("table", *files, "--changes", *by, "--output", output)
-    (row,) = written(output)
+    rows = written(output)
+    assert [row["to"] for row in rows] == ["0.0007", "0.001"]
     times = np.array([[run.t_avg for run in read(file)] for file in files])
-    by_seed = times[2:4].mean(axis=0) - times[4:].mean(axis=0)
-    exact = ttest_1samp(by_seed, 0.0).confidence_interval()
-    found = [float(row[f"t_avg_{end}"]) for end in ("low", "high")]
-    assert found == pytest.approx(list(exact), rel=1e-9)
+    for row, faster in zip(rows, (times[:2], times[2:4]), strict=True):
+        exact = ttest_1samp(faster.mean(axis=0) - times[4:].mean(axis=0), 0.0).confidence_interval()
+        found = [float(row[f"t_avg_{end}"]) for end in ("low", "high")]
+        assert found == pytest.approx(list(exact), rel=1e-9)
+
+
+def test_runs_of_two_durations_are_two_ensembles_in_either_order(springblock, batch, tmp_path):
+    """The force still rises in the shorter ones."""
+    files, output = (batch(0, 1), batch(0, 1, "--duration", 2e-6)), tmp_path / "a.csv"
+    for order in (files, files[::-1]):
+        springblock("table", *order, "--of", "static_friction", "--output", output)
+        rows = written(output)
+        assert [(row["duration"], row["runs"]) for row in rows] == [("0.0", "2"), ("2e-06", "2")]
+        assert float(rows[0]["static_friction"]) > 10.0 * float(rows[1]["static_friction"])
+
+
+def test_runs_of_different_code_are_in_no_table(springblock, batch, tmp_path):
+    older = tmp_path / "older.parquet"
+    springblock("--code", "0" * 16, "simulate", "--n-blocks", 12, "--output", older)
+    assert "made by different code" in springblock("table", batch(0, 1), older, refused=True)
+
+
+def test_directions_are_compared_with_the_smallest_angle(springblock, batch, tmp_path):
+    """Which is x: as text, 30 and 45 would come before it."""
+    files = [batch(0, 1, "--direction", angle) for angle in ("45", "y", "x", "30", "-20")]
+    output = tmp_path / "a.csv"
+    springblock("table", *files, "--changes", "--of", "t_max", "--output", output)
+    ends = [(row["from"], row["to"]) for row in written(output)]
+    assert ends == [("direction = -20", angle) for angle in ("x", "30", "45", "y")]
+
+
+LAW = """
+CONSTANTS = {"floor": (0.1, "1"), "v_0": (1e-4, "m s-1")}
+def friction(mu_dynamic, speed, floor, v_0):
+    return mu_dynamic * (floor + (1.0 - floor) / (1.0 + speed / v_0))
+"""
+
+
+def test_an_own_law_is_compared_with_coulombs(springblock, batch, tmp_path):
+    """Each variant of its constants by itself; a unit with a space is a unit."""
+    (tmp_path / "ageing.py").write_text(LAW)
+    own = ("--vary", f"law={tmp_path / 'ageing.py'}")
+    runs = batch(0, 1), *(batch(0, 1, *own, "--vary", f"v_0={v}") for v in ("1e-4", "1e-3"))
+    assert len(springblock("table", *runs, "--of", "static_friction").splitlines()) == 4
+    output = tmp_path / "a.csv"
+    springblock("table", *runs, "--changes", "--of", "static_friction", "--output", output)
+    rows = written(output)
+    assert {row["from"] for row in rows} == {"law = coulomb"}
+    assert [row["v_0"] for row in rows] == ["0.0001", "0.001"]
+    friction = [np.mean([run.static_friction for run in read(file)]) for file in runs]
+    found = [float(row["static_friction"]) for row in rows]
+    assert found == pytest.approx([friction[1] - friction[0], friction[2] - friction[0]], rel=1e-9)
+    said = springblock("compare", runs[0], runs[1])
+    assert f"law: coulomb in {runs[0]}, ageing-" in said
 
 
 def test_other_thresholds_are_not_paired_and_ensembles_of_one_side_are_named(

@@ -42,17 +42,33 @@ def test_runs_and_their_snapshots_are_read_back_as_they_were(springblock, tmp_pa
 
 def test_runs_of_several_files_are_in_the_order_of_their_seeds(springblock, tmp_path):
     late, early = tmp_path / "batch-10.parquet", tmp_path / "batch-2.parquet"
-    springblock(*BATCH, "--output", late)
-    springblock(*BATCH[:-4], "--first-seed", 2, "--snapshot", TIMES[0], "--output", early)
+    kept = ("--snapshot", TIMES[0])
+    springblock(*BATCH, *kept, "--output", late)
+    springblock(*BATCH[:-4], "--first-seed", 2, *kept, "--output", early)
     found = [(run.seed, len(run.snapshots)) for run in read_records([late, early], snapshots=True)]
-    assert found == [(2, 1), (9, 0), (10, 0)]
+    assert found == [(2, 1), (9, 1), (10, 1)]
     assert not any(len(run.snapshots) for run in read_records([late, early]))
     with pytest.raises(ValueError, match="both hold seed 9"):
         read_records([late, early, Path(str(late))])
 
 
+@pytest.mark.parametrize(
+    ("name", "asked"),
+    [("duration", ("--duration", 2e-6)), ("last_snapshot", ("--snapshot", TIMES[0]))],
+)
+def test_runs_of_one_scene_that_end_at_other_times_are_not_read_together(
+    springblock, tmp_path, name, asked
+):
+    """Nor does one of them count for the other where all realisations of a table are asked for."""
+    whole, other = tmp_path / "whole.parquet", tmp_path / "other.parquet"
+    springblock(*BATCH, "--output", whole)
+    springblock(*BATCH[:-4], "--first-seed", 2, *asked, "--output", other)
+    with pytest.raises(ValueError, match=rf"{name} is 0\.0 in .*whole\.parquet and .* in .*other"):
+        read_records([whole, other])
+
+
 def test_constants_that_a_scene_varies_may_differ_in_one_study():
-    schema, varied = pa.schema([SCENE.field("varied"), *SETUP]), {"density": 1e3, "pressure": 2e5}
+    schema, varied = pa.schema([*SCENE, *SETUP]), {"density": 1e3, "pressure": 2e5}
     plain, named, unnamed = (
         (Path(name), rows_to_table([scene.row | setup.constants], schema))
         for name, scene, setup in (

@@ -7,17 +7,18 @@ import numpy as np
 
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP
-from springblock.model.material import expanded
+from springblock.io.schemas import ASKED, SCENE, SETUP
+from springblock.model.direction import degrees
+from springblock.model.material import LAWS, expanded
 
 #: Observables of a realisation, in the order of the tables.
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
-_SETUP = (*SCENE.names, *SETUP.names)
+_SETUP = (*SCENE.names, *SETUP.names, *ASKED.names)
 #: Columns that determine, with the seed, the friction coefficients of a run.
 _THRESHOLDS = {"n_blocks", "n_rows", "edges", "distribution", "correlation_length"}
 _THRESHOLDS |= {name for name in _SETUP if name.startswith("mu_")}
 
-Names = Mapping[str, object]  #: scene and constants of an ensemble, by name
+Names = Mapping[str, object]  #: scene, constants and times of an ensemble, by name
 
 
 class Ensemble(NamedTuple):
@@ -79,16 +80,20 @@ def ensembles(rows: Iterable[Row], by: Sequence[str] = ()) -> list[Ensemble]:
         found.setdefault(tuple(names.items()), Ensemble(names, [])).rows.append(row)
     members = list(found.values())
     apart = telling(each.names for each in members)
-    return sorted(members, key=lambda each: [_order(each.names.get(name)) for name in apart])
+    return sorted(members, key=lambda each: [_order(name, each.names.get(name)) for name in apart])
 
 
-def _order(value: object) -> tuple[float, str]:
-    """Return a key that sorts numbers by size, and text after them."""
-    return (float(value), "") if isinstance(value, int | float) else (np.inf, str(value))
+def _order(name: str, value: object) -> tuple[float, str]:
+    """Return a key that sorts numbers by size, directions by angle, and Coulomb's law first."""
+    if name == "direction":
+        return degrees(str(value)), ""
+    if isinstance(value, int | float):
+        return float(value), ""
+    return (float([*LAWS].index(str(value))) if value in LAWS else np.inf), str(value)
 
 
 def _names(row: Row) -> dict[str, object]:
-    """Return scene and constants of a run by name, including varied constants."""
+    """Return scene, constants and times of a run by name, including varied constants."""
     known = expanded({name: row[name] for name in _SETUP})
     return {name: value for name, value in known.items() if name not in ("varied", "level")}
 
@@ -112,37 +117,47 @@ def constants(members: Sequence[Ensemble]) -> dict[str, object]:
     return {name: value for name, value in members[0].names.items() if name not in apart}
 
 
-def extremes(members: Sequence[Ensemble]) -> Iterator[tuple[str, object, object, Change]]:
-    """Yield the changes from the lowest to the highest value of each name that differs.
+def from_first(members: Sequence[Ensemble]) -> Iterator[tuple[str, object, object, Change]]:
+    """Yield the changes from the first value of each name that differs to each of the others.
 
     Each with the name and both values; names that not every ensemble has are left out.
     """
     for name in telling(each.names for each in members):
         if all(name in each.names for each in members):
-            low, *_, high = sorted({each.names[name] for each in members}, key=_order)
-            first, last = ([m for m in members if m.names[name] == end] for end in (low, high))
-            for change in changes(first, last)[1]:
-                yield name, low, high, change
+            values = {each.names[name] for each in members}
+            first, *others = sorted(values, key=lambda value: _order(name, value))
+            for other in others:
+                pair = ([m for m in members if m.names[name] == end] for end in (first, other))
+                for change in changes(*pair)[1]:
+                    yield name, first, other, change
 
 
 def changes(
     first: Sequence[Ensemble], second: Sequence[Ensemble]
 ) -> tuple[dict[str, tuple[object, object]], list[Change]]:
-    """Return the constants in which two tables differ, and the changes of their ensembles."""
+    """Return the constants in which two tables differ, and the changes of their ensembles.
+
+    A constant that no ensemble of one table has, as that of another law, is None there.
+    """
     one, other = constants(first), constants(second)
-    differ = {
-        name: (one[name], other[name]) for name in one if name in other and one[name] != other[name]
-    }
+    both = [{name for each in members for name in each.names} for members in (first, second)]
+    own = [known.keys() - theirs for known, theirs in ((one, both[1]), (other, both[0]))]
+    apart = [name for name in one if name in other and one[name] != other[name]]
+    differ = {name: (one.get(name), other.get(name)) for name in (*apart, *own[0], *own[1])}
+    same = both[0] & both[1] - differ.keys()
 
     def shared(ensemble: Ensemble) -> tuple[tuple[str, object], ...]:
-        return tuple(pair for pair in ensemble.names.items() if pair[0] not in differ)
+        return tuple(pair for pair in ensemble.names.items() if pair[0] in same)
 
-    theirs = {shared(each): each for each in second}
+    matches: dict[object, list[Ensemble]] = {}
+    for theirs in second:
+        matches.setdefault(shared(theirs), []).append(theirs)
     found = []
     for ours in first:
-        if match := theirs.get(shared(ours)):
-            correlated = {"spacing"} if ours.names.get("correlation_length") else set()
-            drawn = (_THRESHOLDS | correlated) & differ.keys()
-            paired = not drawn and ours.seeds == match.seeds
-            found.append(Change(dict(shared(ours)), ours, match, paired))
+        correlated = {"spacing"} if ours.names.get("correlation_length") else set()
+        drawn = (_THRESHOLDS | correlated) & differ.keys()
+        for theirs in matches.get(shared(ours), []):
+            names = {**theirs.names, **ours.names}
+            told = {name: value for name, value in names.items() if name not in differ}
+            found.append(Change(told, ours, theirs, not drawn and ours.seeds == theirs.seeds))
     return differ, found

@@ -22,6 +22,7 @@ from springblock.simulation.run import Run, friction, percent
 
 _LEVEL = 0.95  #: of all intervals
 _RESAMPLES = 2000
+_DIGITS = 5  #: largest number of decimals of a number in words
 #: Least force of a load peak, over the largest force.
 _LOAD_PEAK = 0.9
 PROMINENT = 0.01  #: least prominence of a load peak over the largest force
@@ -36,6 +37,22 @@ class Interval(NamedTuple):
     mean: Array
     low: Array
     high: Array
+
+
+def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
+    """Write a value with its 95 % interval, to two digits of its width.
+
+    To more if the sign of a limit would otherwise be lost.
+    """
+    value, low, high = (factor * float(each) for each in interval)
+    if high == low:  # exact
+        return f"{value:.4g}{unit}"
+    if not np.isfinite([low, high]).all():
+        return f"{value:.3g} [no interval]{unit}"
+    digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
+    while digits < _DIGITS and any(limit and not round(limit, digits) for limit in (low, high)):
+        digits += 1
+    return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
 def students_t(freedom: ArrayLike, level: float = _LEVEL) -> Array:

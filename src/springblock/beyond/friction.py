@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from springblock.analysis.lowest import lowest
-from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.question import Ensembles, grouped, has_pillars_alone, number
+from springblock.analysis.statistics import Interval, difference_interval, mean_interval, number
+from springblock.beyond.question import Ensembles, grouped, has_pillars_alone
 from springblock.io.rows import markdown_table
 from springblock.model.numbers import Array
 from springblock.simulation.run import Run

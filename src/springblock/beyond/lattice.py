@@ -13,6 +13,7 @@ from springblock.analysis.statistics import (
     difference_interval,
     independent_difference,
     mean_interval,
+    number,
 )
 from springblock.beyond.friction import samples
 from springblock.beyond.question import (
@@ -20,7 +21,6 @@ from springblock.beyond.question import (
     Ensembles,
     direction,
     is_even,
-    number,
     on_one_side,
     side_length,
 )

@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from springblock.analysis.statistics import PROMINENT, Interval, mean_interval, prominence
-from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped, number
+from springblock.analysis.statistics import PROMINENT, Interval, mean_interval, number, prominence
+from springblock.beyond.question import UNCHANGED, Ensembles, direction, grouped
 from springblock.io.records import Record
 from springblock.io.rows import markdown_table
 from springblock.model.direction import degrees

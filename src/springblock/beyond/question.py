@@ -1,10 +1,8 @@
-"""Realisations by scene, and the format of numbers, for questions beyond the paper."""
+"""Selection and comparison of ensembles for questions beyond the paper."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from operator import attrgetter, itemgetter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from operator import itemgetter
 from typing import Any, TypeVar
-
-import numpy as np
 
 from springblock.analysis.correlation import Correlation, side_times
 from springblock.analysis.statistics import Interval, independent_difference
@@ -14,25 +12,10 @@ from springblock.model.scene import Scene
 #: Least number of realisations for a correlation: no resample consists of a single one.
 FEWEST = 10
 _DISTANCES = 3  #: least number for a fit of two unknowns
-_DIGITS = 5  #: largest number of decimals
 UNCHANGED = "does not change significantly"
 
 T = TypeVar("T")
 Ensembles = Mapping[Scene, Sequence[Record]]  #: realisations by scene
-
-
-def by_scene(
-    items: Iterable[T], scene_of: Callable[[T], Scene] = attrgetter("scene")
-) -> dict[Scene, list[T]]:
-    """Realisations, or rows of tables, by scene, in order of first appearance.
-
-    Scenes on surfaces that are not of the paper's kind are left out.
-    """
-    found: dict[Scene, list[T]] = {}
-    for item in items:
-        if (scene := scene_of(item)).is_papers:
-            found.setdefault(scene, []).append(item)
-    return found
 
 
 def grouped(items: Iterable[tuple[Any, Any, T]]) -> dict[Any, dict[Any, T]]:
@@ -71,22 +54,6 @@ def side_length(runs: Sequence[Record], most: int | None = None) -> Interval | N
     if len(runs) < FEWEST or last < _DISTANCES:
         return None
     return Correlation(side_times(runs, scene.pattern, "x")).length(last).tail
-
-
-def number(interval: Interval, unit: str = "", factor: float = 1.0) -> str:
-    """Write a value with its 95 % interval, to two digits of its width.
-
-    To more if the sign of a limit would otherwise be lost.
-    """
-    value, low, high = (factor * float(each) for each in interval)
-    if high == low:  # exact
-        return f"{value:.4g}{unit}"
-    if not np.isfinite([low, high]).all():
-        return f"{value:.3g} [no interval]{unit}"
-    digits = min(max(0, 1 - int(np.floor(np.log10(high - low)))), _DIGITS)
-    while digits < _DIGITS and any(limit and not round(limit, digits) for limit in (low, high)):
-        digits += 1
-    return f"{value:z.{digits}f} [{low:z.{digits}f}, {high:z.{digits}f}]{unit}"
 
 
 def direction(first: Interval, last: Interval) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from springblock.analysis.correlation import LAST
 from springblock.analysis.lowest import Lowest, are_apart, lowest
-from springblock.analysis.statistics import Interval, independent_difference
+from springblock.analysis.statistics import Interval, independent_difference, number
 from springblock.beyond.friction import lowest_in_words, samples
 from springblock.beyond.question import (
     FEWEST,
@@ -13,7 +13,6 @@ from springblock.beyond.question import (
     direction,
     grouped,
     is_even,
-    number,
     on_one_side,
     side_length,
 )

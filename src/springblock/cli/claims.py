@@ -7,7 +7,6 @@ from pathlib import Path
 
 import click
 
-from springblock.beyond.question import by_scene
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
 from springblock.claims.rule import ENOUGH, Evidence
@@ -16,7 +15,7 @@ from springblock.claims.table import SCHEMA, rows
 from springblock.cli.options import INPUT, OUTPUT, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
-from springblock.io.records import read_records
+from springblock.io.records import by_scene, read_records
 from springblock.io.rows import Row
 from springblock.model.scene import Scene
 

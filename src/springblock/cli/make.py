@@ -6,11 +6,10 @@ from pkgutil import resolve_name
 import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
-from springblock.beyond.question import by_scene
 from springblock.cli.options import INPUT, OUTPUT, code_version
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
-from springblock.io.records import read_records
+from springblock.io.records import by_scene, read_records
 from springblock.mechanism.surfaces import TABLES
 
 MEASURED = ["stability"]

@@ -1,6 +1,5 @@
 """springblock prelude and simulate: a batch of realisations of one scene."""
 
-import json
 from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import wraps
@@ -26,18 +25,17 @@ from springblock.cli.options import (
 )
 from springblock.files import MENDING
 from springblock.io.fields import check_name, write_fields
+from springblock.io.identity import identity, metadata
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
-from springblock.model.asperities import draw_friction
 from springblock.model.defaults import SAMPLE_INTERVAL, STEP
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
-from springblock.provenance import configuration_digest, same_code
-from springblock.simulation.motion import SimulationError
+from springblock.provenance import same_code
 from springblock.simulation.prelude import Prelude, compute_prelude
-from springblock.simulation.run import Realisation
+from springblock.simulation.scenes import columns_of, prelude_of, realise
 from springblock.simulation.setup import Setup
 from springblock.simulation.simulate import simulate
 from springblock.solver.integrators import INTEGRATORS
@@ -88,34 +86,6 @@ def setup_of(options: dict[str, Any]) -> Setup:
     return Setup(Material().vary(constants), **given)
 
 
-def surface_of(scene: Scene, seed: int, material: Material) -> Surface:
-    """Return the surface of a scene, its coefficients random or from the files of the scene."""
-    drawn = draw_friction(scene.shape, seed, material, scene.is_periodic)
-    files = scene.mu_static_field, scene.mu_dynamic_field
-    pairs = zip(drawn, files, strict=True)
-    mu: Any = [random if file is None else file.values for random, file in pairs]
-    return Surface(scene.contact, mu[0], mu[1], scene.is_periodic)
-
-
-#: Columns of a batch that are properties of a run.
-_OF_RUN = ["static_friction", "dynamic_friction", "t_max", "t_avg", "t_first", "steps", "force"]
-_OF_RUN += ["detachments", "switches", "normal_force", "snapshot_times"]
-
-
-def batch_row(scene: Scene, setup: Setup, seed: int, run: Realisation) -> Row:
-    """Return the row of a run in a batch."""
-    return {
-        **scene.row,
-        **setup.constants,
-        "seed": seed,
-        **{name: getattr(run, name) for name in _OF_RUN},
-        "energy_error": run.energy.relative_residual,
-        "t_det": run.t_det.ravel(),
-        "snapshots": run.snapshots.ravel(),
-        "contact": scene.contact.ravel(),
-    }
-
-
 #: As in the configuration of the study: up to a million seeds, from 1e18 at most.
 _MOST_SEEDS = 10**6
 _SEED = click.IntRange(0, 10**18 + _MOST_SEEDS)
@@ -131,14 +101,7 @@ def prelude(scene: Scene, setup: Setup, cores: int, output: Path) -> None:
 
     All seeds of the scene share it.
     """
-    replace(loaded(scene, setup, cores), code_version=code_version("simulate")).save(output)
-
-
-def loaded(scene: Scene, setup: Setup, cores: int = 1) -> Prelude:
-    """Compute the prelude of a scene."""
-    known: Any = scene.mu_static_field and scene.mu_static_field.values
-    how = setup, scene.direction, scene.is_periodic, cores
-    return compute_prelude(scene.contact, *how, mu_static=known)
+    replace(prelude_of(scene, setup, cores), code_version=code_version("simulate")).save(output)
 
 
 @click.command("simulate")
@@ -204,17 +167,23 @@ def simulate_batch(
             f"--checkpoint takes one seed, not {len(seeds)}; for more, use `springblock sweep`"
         )
     _check_fields(field_file, output, snapshot_times, seeds)
-    asked: dict[str, Any] = {"duration": duration}
-    if snapshot_times:
-        asked["snapshot_times"] = snapshot_times
+    own, rows = identity(scene, setup, duration, snapshot_times), list[Row]()
+    made_by = metadata(own, code_version("simulate"))
+    asked: dict[str, Any] = {"duration": duration, "snapshot_times": snapshot_times}
     how = {"prelude": prelude and _prelude(prelude), "cores": cores, "progress": single, **asked}
     if minutes is not None:
         how["checkpoint"] = output.with_name(f"{output.name}.checkpoint")
         how["checkpoint_interval"] = 60.0 * minutes
     counted = tqdm(seeds, desc=scene.folder, unit="realisation", disable=single)
     with logging_redirect_tqdm(), counted as bar:
-        rows = [realised(scene, setup, seed, field_file, **how) for seed in bar]
-    write(batch_table(rows), output, metadata_of(setup.constants | asked))
+        for seed in bar:
+            run = realise(scene, setup, seed, **how)
+            rows.append(own | columns_of(run, scene, seed))
+    if field_file is not None:
+        source = {"source": f"springblock {made_by['code_version']}", "seed": str(first_seed)}
+        about = source | {"scene": str(scene), "identity": made_by["configuration"]}
+        write_fields(run.fields, field_file, **about, **setup.constants)
+    write(batch_table(rows), output, made_by)
     click.echo(_in_words(rows))
 
 
@@ -258,34 +227,10 @@ def _check_fields(
         raise ValueError(f"--fields and --output both name {output}; choose two files")
 
 
-def realised(
-    scene: Scene, setup: Setup, seed: int, field_file: Path | None = None, **options: Any
-) -> Row:
-    """Run one realisation, and write its fields if a file is given."""
-    try:
-        surface = surface_of(scene, seed, setup.material)
-        run = simulate(surface, setup, scene.direction, **options)
-    except SimulationError as error:
-        raise SimulationError(f"{scene.folder}, seed {seed}: {error}") from error
-    if field_file is not None:
-        made_by = {"source": f"springblock {code_version('simulate')}", "seed": str(seed)}
-        write_fields(run.fields, field_file, **made_by, scene=str(scene), **setup.constants)
-    return batch_row(scene, setup, seed, run)
-
-
 def batch_table(rows: list[Row]) -> pa.Table:
     """Return the table of a batch, with snapshots if the runs have any."""
     kept = SNAPSHOTS if len(rows[0].get("snapshot_times", ())) else []
     return rows_to_table(rows, pa.schema([*BATCH, *kept]))
-
-
-def metadata_of(configuration: dict[str, Any]) -> dict[str, str]:
-    """Return the metadata of a batch: code and configuration."""
-    return {
-        "code_version": code_version("simulate"),
-        "configuration": json.dumps(configuration, sort_keys=True),
-        "configuration_digest": configuration_digest(configuration),
-    }
 
 
 @click.command("compile")

@@ -13,8 +13,16 @@ from typing import Any, NamedTuple
 import click
 from tqdm import tqdm
 
-from springblock.cli.options import SURFACE, defaulted, given, scene_of, with_options
-from springblock.cli.simulate import SETUP, batch_table, loaded, metadata_of, realised, setup_of
+from springblock.cli.options import (
+    SURFACE,
+    code_version,
+    defaulted,
+    given,
+    scene_of,
+    with_options,
+)
+from springblock.cli.simulate import SETUP, batch_table, setup_of
+from springblock.io.identity import identity, metadata
 from springblock.io.parquet import load, origin_of, read, write
 from springblock.io.schemas import SUMMARY
 from springblock.model.direction import normalised
@@ -23,6 +31,7 @@ from springblock.model.scene import COLUMNS, Scene, Varied, in_order
 from springblock.plotting import sweep as plot
 from springblock.plotting.lines import axes, lines
 from springblock.plotting.style import save
+from springblock.simulation.scenes import columns_of, prelude_of, realise
 from springblock.simulation.setup import Setup
 
 _BATCH = 5  #: seeds of one job
@@ -45,9 +54,14 @@ class Job(NamedTuple):
         return self.output / "realisations" / self.scene.folder / name
 
     @property
+    def identity(self) -> dict[str, Any]:
+        """Return the identity of its realisations."""
+        return identity(self.scene, self.setup, self.duration)
+
+    @property
     def metadata(self) -> dict[str, str]:
         """Return the metadata of the file: code and configuration."""
-        return metadata_of(self.setup.constants | {"duration": self.duration})
+        return metadata(self.identity, code_version("simulate"))
 
     @property
     def is_done(self) -> bool:
@@ -60,11 +74,10 @@ class Job(NamedTuple):
 
     def run(self) -> int:
         """Simulate the seeds, and return their number."""
-        prelude = loaded(self.scene, self.setup)
-        rows = [
-            realised(self.scene, self.setup, seed, prelude=prelude, duration=self.duration)
-            for seed in self.seeds
-        ]
+        scene, rows, begun = self.scene, [], prelude_of(self.scene, self.setup)
+        for seed in self.seeds:
+            run = realise(scene, self.setup, seed, prelude=begun, duration=self.duration)
+            rows.append(self.identity | columns_of(run, scene, seed))
         write(batch_table(rows), self.file, self.metadata)
         return len(self.seeds)
 

@@ -9,14 +9,16 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from springblock.analysis.ensembles import OBSERVABLES, changes, ensembles, telling
+from springblock.analysis.means import changes_from_first, differences, in_words, means
 from springblock.analysis.statistics import Interval
 from springblock.cli.options import INPUT, OUTPUT, defaulted, print_columns
 from springblock.files import whole_file, write_text
-from springblock.io.parquet import load, origin_of
+from springblock.io.identity import RECORD, read_record, refuse_foreign
+from springblock.io.parquet import load, origin_of, refuse_mixed_code
 from springblock.io.rows import Row, limits
 from springblock.io.schemas import SUMMARY
+from springblock.provenance import configuration_digest
 from springblock.report.dictionary import columns, page
-from springblock.report.means import changes_over_ends, differences, in_words, means
 
 _PATH = click.Path(exists=True, path_type=Path)
 _SHOWN = 5  #: largest number of ensembles listed that only one side has
@@ -44,7 +46,7 @@ _OUTPUT = click.option(
     "--changes",
     "of_ends",
     is_flag=True,
-    help="Show the changes from the lowest to the highest value of each parameter instead.",
+    help="Show the changes from the first value of each parameter to the others instead.",
 )
 @_OUTPUT
 def table(
@@ -60,7 +62,7 @@ def table(
     seeds, without correction for the number of ensembles.
     """
     members = ensembles(_rows(paths), by)
-    rows = changes_over_ends(members, of) if of_ends else means(members, of, by)
+    rows = changes_from_first(members, of) if of_ends else means(members, of, by)
     if of_ends and not rows:
         raise ValueError("--changes: no parameter has two values")
     _report(rows, output)
@@ -82,7 +84,8 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
         raise ValueError(f"{first} and {second} share their realisations; give two apart")
     one, other = (ensembles(_rows([path])) for path in (first, second))
     differ, found = changes(one, other)
-    for name, (ours, theirs) in differ.items():
+    for name, values in differ.items():
+        ours, theirs = ("none" if value is None else value for value in values)
         click.echo(f"{name}: {ours} in {first}, {theirs} in {second}")
     if not found:
         raise ValueError(f"{first} and {second} have no ensemble in common")
@@ -100,18 +103,44 @@ def compare(first: Path, second: Path, of: tuple[str, ...], output: Path | None)
 
 
 def _rows(paths: Sequence[Path]) -> list[Row]:
-    """Return the summaries of all realisations in files and folders."""
-    files = [
-        file
-        for path in paths
-        for file in ([path] if path.is_file() else sorted(path.rglob("*.parquet")))
+    """Return the summaries of all realisations in files and folders, made by the same code."""
+    files = [file for path in paths for file in ([path] if path.is_file() else _files(path))]
+    tables = [(file, load(file, SUMMARY.names)) for file in dict.fromkeys(files)]
+    for file, table in tables:
+        refuse_foreign(file, table)
+    refuse_mixed_code(tables)
+    return [row for _, table in tables for row in table.to_pylist()]
+
+
+def _files(folder: Path) -> list[Path]:
+    """Return the tables of realisations in a folder: that of a study, of a sweep, or all."""
+    if (folder / RECORD).exists():
+        return _of_study(folder)
+    if (table := folder / "realisations.parquet").exists():
+        return [table]
+    every = [file for file in sorted(folder.rglob("*.parquet")) if not file.name.startswith(".")]
+    held = [file for file in every if {*SUMMARY.names} <= {*pq.read_schema(file).names}]
+    if not held:
+        raise ValueError(f"{folder}: no realisations found")
+    return held
+
+
+def _of_study(results: Path) -> list[Path]:
+    """Return the table of realisations of a study, or the batches that it has so far."""
+    table, record = results / "tables/realisations.parquet", read_record(results)
+    latest = configuration_digest(record["made"][-1]["configuration"])
+    if table.exists() and origin_of(load(table, [])).get("configuration_digest") == latest:
+        return [table]
+    batches = [
+        results / "realisations" / scene / f"batch-{i}.parquet"
+        for scene, each in record["ensembles"].items()
+        for i in each["batches"]
     ]
-    wanted = set(SUMMARY.names)
-    held = [file for file in files if file in paths or wanted <= {*pq.read_schema(file).names}]
-    rows = [row for file in held for row in load(file, SUMMARY.names).to_pylist()]
-    if not rows:
-        raise ValueError(f"{', '.join(map(str, paths))}: no realisations found")
-    return rows
+    there = [file for file in batches if file.exists()]
+    if not there:
+        raise ValueError(f"{results}: no realisations of its last configuration found")
+    click.echo(f"{results} is unfinished: {len(there)} of {len(batches)} batches", err=True)
+    return there
 
 
 def _report(rows: Sequence[Row], output: Path | None) -> None:

@@ -10,7 +10,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from springblock.files import BLANK, MENDING, read_sealed, write_sealed
-from springblock.io.schemas import SCENE, SETUP
+from springblock.io.identity import refuse_foreign
+from springblock.io.schemas import ASKED, SCENE, SETUP
 from springblock.model.material import expanded, law_units
 from springblock.model.scene import Scene
 
@@ -90,18 +91,22 @@ def read(paths: Iterable[Path], schema: pa.Schema, optional: pa.Schema = _NONE) 
     """Read the columns of `schema` from several files of one study, concatenated.
 
     Those of `optional` are read where a file has them, and null elsewhere. Files of different
-    constants or code, or with the same realisation, are a ValueError.
+    constants, times or code, with the same realisation, or in the place of others that their study
+    needs, are a ValueError.
     """
     tables = [(path, load(path, schema.names, optional.names)) for path in paths]
+    for path, table in tables:
+        refuse_foreign(path, table)
     refuse_mixture(tables)
-    _refuse_mixed_code(tables)
+    refuse_mixed_code(tables)
     _refuse_repetition(tables)
     known = pa.schema([*schema, *optional])
     cast = [table.cast(pa.schema(map(known.field, table.column_names))) for _, table in tables]
     return pa.concat_tables(cast, promote_options="default")
 
 
-def _refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+def refuse_mixed_code(tables: Iterable[tuple[Path, pa.Table]]) -> None:
+    """Refuse tables, given with their files, that were made by different code."""
     versions = ((origin_of(table).get("code_version", ""), path) for path, table in tables)
     known = {version.rpartition("+")[2]: path for version, path in versions}
     if len(known) > 1:
@@ -119,27 +124,30 @@ def _refuse_repetition(tables: Iterable[tuple[Path, pa.Table]]) -> None:
         if not set(keys) <= set(table.column_names):
             return
         for row in table.select(keys).to_pylist():
-            before = known.setdefault(tuple(row.values()), path)
-            if before is not path:
+            key = tuple(row.values())
+            if key in known:
                 scene = Scene.from_row(row)
                 raise ValueError(
-                    f"{before} and {path} both hold seed {row['seed']} of {scene}; {MENDING}"
+                    f"{known[key]} and {path} both hold seed {row['seed']} of {scene}; {MENDING}"
                 )
+            known[key] = path
 
 
 def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
-    """Refuse tables, given with their files, that were computed with different constants.
+    """Refuse tables, given with their files, that were computed with different constants or times.
 
-    Constants that a scene varies may differ.
+    Between scenes, times and the constants that a scene varies may differ.
     """
-    known: dict[str, tuple[Any, Path]] = {}
+    known: dict[tuple[Any, str], tuple[Any, Path]] = {}
     for path, table in tables:
-        for row in _constants(table):
-            own = {pair.partition("=")[0] for pair in row.pop("varied").split(", ")}
+        for row in _ensembles(table):
+            scene = tuple(row[name] for name in SCENE.names)
+            own = {pair.partition("=")[0] for pair in row["varied"].split(", ")} | {*ASKED.names}
             own |= law_units(row).keys() if "law" in own else set()
-            shared = {name: value for name, value in expanded(row).items() if name not in own}
-            for name, value in shared.items():
-                before, first = known.setdefault(name, (value, path))
+            asked = {name: row[name] for name in (*SETUP.names, *ASKED.names) if name in row}
+            for name, value in expanded(asked).items():
+                key = scene if name in own else None, name
+                before, first = known.setdefault(key, (value, path))
                 if value != before:
                     raise ValueError(
                         f"{name} is {before!r} in {first} and {value!r} in {path}; "
@@ -147,9 +155,9 @@ def refuse_mixture(tables: Iterable[tuple[Path, pa.Table]]) -> None:
                     )
 
 
-def _constants(table: pa.Table) -> list[dict[str, Any]]:
-    """Return each combination of constants in a table, with the names of varied ones."""
-    names = ["varied", *SETUP.names]
-    if not set(names) <= set(table.column_names):
+def _ensembles(table: pa.Table) -> list[dict[str, Any]]:
+    """Return scene, constants and times of each ensemble in a table."""
+    if not {*SCENE.names, *SETUP.names} <= set(table.column_names):
         return []
+    names = [*SCENE.names, *SETUP.names, *(n for n in ASKED.names if n in table.column_names)]
     return table.group_by(names, use_threads=False).aggregate([]).to_pylist()

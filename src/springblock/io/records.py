@@ -1,9 +1,10 @@
 """Stored runs, read from the files of `springblock simulate`."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from operator import attrgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -13,6 +14,8 @@ from springblock.io.schemas import BATCH, SCENE, SETUP, SNAPSHOTS
 from springblock.model.material import Material
 from springblock.model.scene import Scene
 from springblock.simulation.run import Run
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -82,3 +85,17 @@ def _record(row: pa.Table) -> Record:
         constants=row.select(SETUP.names).to_pylist()[0],
         **fields,
     )
+
+
+def by_scene(
+    items: Iterable[T], scene_of: Callable[[T], Scene] = attrgetter("scene")
+) -> dict[Scene, list[T]]:
+    """Realisations, or rows of tables, by scene, in order of first appearance.
+
+    Scenes on surfaces that are not of the paper's kind are left out.
+    """
+    found: dict[Scene, list[T]] = {}
+    for item in items:
+        if (scene := scene_of(item)).is_papers:
+            found.setdefault(scene, []).append(item)
+    return found

@@ -81,7 +81,10 @@ SETUP = pa.schema(
         column("distribution", pa.string(), "1", "distribution of the coefficients"),
         *numbers("m", correlation_length="ℓ in the normal variates' autocorrelation exp(-r²/ℓ²)"),
         column(
-            "law", pa.string(), "1", "law of friction; for a file its name, digest and constants"
+            "law",
+            pa.string(),
+            "1",
+            "law of friction; for a file its name, digest, and constants with units as JSON",
         ),
         column("slip_distance", pa.float64(), "m", "d_c of slip weakening; 0 for other laws"),
         column("speed_scale", pa.float64(), "m/s", "v_c of velocity weakening; 0 for other laws"),
@@ -89,6 +92,15 @@ SETUP = pa.schema(
         column("step", pa.float64(), "s", "integration step h"),
         column("sample_interval", pa.float64(), "s", "time between samples of the force"),
     ]
+)
+
+#: What was asked of a run besides, see `springblock.io.identity`.
+ASKED = pa.schema(
+    numbers(
+        "s",
+        duration="simulated time; 0: until after the force peak",
+        last_snapshot="time until which a run without duration lasts at least; 0 without one",
+    )
 )
 
 #: Possible axes of figures: columns that are numbers, and the direction.
@@ -100,6 +112,7 @@ SUMMARY = pa.schema(
     [
         *SCENE,
         *SETUP,
+        *ASKED,
         column("seed", pa.int64(), "1", "seed of the friction coefficients"),
         *numbers(
             "1",

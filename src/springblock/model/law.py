@@ -1,18 +1,25 @@
 """Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
 
+import ast
 import hashlib
 import inspect
+import json
 import math
 import re
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 #: Arguments that `friction` and `update` may have besides constants and state variables.
 _OF_FRICTION = ("mu_static", "mu_dynamic", "speed")
 _OF_UPDATE = ("speed", "step")
+#: Packages, besides the standard library, that a law may import, and functions that run other code.
+_IMPORTED, _RUNNERS = {"numba", "numpy", "scipy"}, {"exec", "eval", "__import__"}
 #: Speeds in m/s at which a law is evaluated before a run.
 _TRIED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
 
@@ -28,7 +35,9 @@ class LawFile:
     `mu_dynamic` (of the block) and `speed` (m/s) in `friction`, `speed` (mean of the step, m/s) and
     `step` (s) in `update`, and constants and state variables in both.
 
-    The name contains a digest of the file, so that a changed file is a different law.
+    The name contains a digest of the file and of the values of its global names, which it may have
+    read from other files: if one of them changes, it is a different law. Code comes from this file
+    alone, and from packages of `_IMPORTED` and the standard library.
     """
 
     name: str  #: name of the file and eight digits, as ageing-1a2b3c4d
@@ -54,9 +63,13 @@ class LawFile:
         except (OSError, UnicodeDecodeError) as error:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
-        digest = hashlib.sha256(source.encode()).hexdigest()[:8]
-        law = cls(f"{stem}-{digest}", file=file, source=source)
+        law = cls(stem, file=file, source=source)
+        law._check_code()
         law._check_definitions()
+        with np.printoptions(threshold=sys.maxsize):
+            read = repr({name: each for name, each in law._module.items() if _is_data(name, each)})
+        digest = hashlib.sha256(f"{source}{read}".encode()).hexdigest()[:8]
+        law = replace(law, name=f"{stem}-{digest}")
         units = {
             name: "" if unit == "1" else unit
             for name, (_, unit) in law._module.get("CONSTANTS", {}).items()
@@ -66,22 +79,18 @@ class LawFile:
     @classmethod
     def named(cls, text: str) -> "LawFile | None":
         """Return the law that a table describes, without its functions; see `described`."""
-        described = re.fullmatch(r"([\w.-]+-[0-9a-f]{8})(?: \((.*)\))?", text)
-        if not described:
+        name, _, constants = text.partition(" ")
+        if not re.fullmatch(r"[\w.-]+-[0-9a-f]{8}", name):
             return None
-        name, constants = described.groups(default="")
-        found = re.findall(r"(\w+) = (\S+?)(?: (\S+))?(?:, |$)", constants)
-        units = {key: unit for key, _, unit in found}
-        return cls(name, tuple((key, float(value)) for key, value, _ in found), units=units)
+        known = json.loads(constants or "{}")
+        given = tuple((key, value) for key, (value, _) in known.items())
+        return cls(name, given, units={key: unit for key, (_, unit) in known.items()})
 
     @property
     def described(self) -> str:
-        """Name and constants, as in tables and captions."""
-        constants = (
-            f"{name} = {value!r} {self.units[name]}".strip()
-            for name, value in self.constants.items()
-        )
-        return f"{self.name} ({', '.join(constants)})" if self.constants else self.name
+        """Name, and constants with their units as JSON: the law in a table."""
+        known = {name: (value, self.units[name]) for name, value in self.constants.items()}
+        return f"{self.name} {json.dumps(known)}" if known else self.name
 
     def vary(self, constants: Mapping[str, Any]) -> "LawFile":
         """Return the law with other values of its constants."""
@@ -141,6 +150,22 @@ class LawFile:
     def arguments(self, name: str) -> list[str]:
         """Names of the arguments of `friction` or `update`."""
         return list(inspect.signature(self._function(name)).parameters)
+
+    def _check_code(self) -> None:
+        """Refuse code from elsewhere, which the digest would not cover."""
+        try:
+            nodes = list(ast.walk(ast.parse(self.source)))
+        except (SyntaxError, ValueError) as error:
+            raise ValueError(f"{self.file} is not valid Python: {error}") from None
+        used = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
+        used += [node.module or "." for node in nodes if isinstance(node, ast.ImportFrom)]
+        used += [node.id for node in nodes if isinstance(node, ast.Name) and node.id in _RUNNERS]
+        for name in used:
+            if name.partition(".")[0] not in _IMPORTED | sys.stdlib_module_names - {"importlib"}:
+                raise ValueError(
+                    f"{self.file} uses {name}; a law may use the standard library and "
+                    f"{', '.join(sorted(_IMPORTED))}, and no other code than that of its file"
+                )
 
     def _check_definitions(self) -> None:
         """Refuse a file that does not define a law."""
@@ -208,6 +233,12 @@ class LawFile:
     def _with_constants(self) -> str:
         constants = ", ".join(f"{name} = {value}" for name, value in self.constants.items())
         return f" with {constants}" if constants else ""
+
+
+def _is_data(name: str, value: Any) -> bool:
+    """Return whether a global name has a value that a compiled function may use."""
+    plain = (bool, int, float, complex, str, tuple, list, dict, np.generic, np.ndarray)
+    return not name.startswith("__") and isinstance(value, plain)
 
 
 def _is_number(value: Any) -> bool:

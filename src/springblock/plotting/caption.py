@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from springblock.model.material import Material
+from springblock.model.material import Material, expanded, law_units
 from springblock.model.scene import LENGTHS, Scene
 
 #: By level, without pillars and with them.
@@ -82,12 +82,13 @@ def _own(scene: Scene) -> list[str]:
 
 def material_in_words(material: Material) -> str:
     """Name the constants that differ from the paper's."""
-    paper = dict(Material().items())
-    others = [
-        f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:g}"
-        for name, value in material.items()
-        if value != paper[name]
-    ]
+    paper, known = dict(Material().items()), dict(material.items())
+    units = law_units(known)
+    others = []
+    for name, value in expanded(known).items():
+        if value != paper.get(name):
+            shown = value if isinstance(value, str) else f"{value:g} {units.get(name, '')}"
+            others.append(f"{name} = {shown}".rstrip())
     rest = "constants not named are the paper's."
     return f"{_listed(others)}; {rest}" if others else rest.capitalize()
 

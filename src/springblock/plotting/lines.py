@@ -37,8 +37,8 @@ def lines(rows: Iterable[Row], over: str) -> Lines:
     A line is named by its mask and by what differs from other lines. Lines with
     one place are left out, unless all are such.
     """
-    rows = list(rows)
-    if over not in AXES and not all(over in law_units(row) for row in rows):
+    rows = [row for row in rows if over in AXES or over in law_units(row)]
+    if not rows:
         raise ValueError(f"unknown axis {over!r}; choose one of {', '.join(AXES)}")
     found: dict[Names, Places] = {}
     scenes = [Scene.from_row(row) for row in rows]

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from springblock.analysis.lowest import lowest
-from springblock.analysis.statistics import Interval, difference_interval, mean_interval
-from springblock.beyond.question import by_scene, is_even, number
+from springblock.analysis.statistics import Interval, difference_interval, mean_interval, number
+from springblock.beyond.question import is_even
 from springblock.claims.ranges import PLAIN, SCALED
+from springblock.io.records import by_scene
 from springblock.io.rows import Row, select
 from springblock.model.scene import Scene
 from springblock.plotting.style import MICRO

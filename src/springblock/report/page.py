@@ -12,13 +12,13 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from springblock.analysis.ensembles import constants, ensembles
+from springblock.analysis.means import UNITS, changes_from_first, in_words, means
 from springblock.claims import CLAIMS
 from springblock.claims.page import anchor, counted, decided, numbered_parts
 from springblock.io.parquet import load, origin_of
 from springblock.io.rows import Row, listed
 from springblock.model.material import Material
 from springblock.report import findings, markup, media
-from springblock.report.means import UNITS, changes_over_ends, in_words, means
 
 #: Parts of the page in their order, before further pages, and the titles of those without a page.
 ORDER = ("claims", "figures", "mechanism", "accuracy", "beyond", "glossary")
@@ -79,7 +79,7 @@ def _of_own(rows: Sequence[Row]) -> dict[str, Any]:
     """Return means and changes of ensembles, and common parameters other than the paper's."""
     members = ensembles(rows)
     paper = dict(Material().items())
-    changes = changes_over_ends(members, ["static_friction"])
+    changes = changes_from_first(members, ["static_friction"])
     return {
         "means": _spaced(means(members, ["static_friction", "t_max", "t_avg"])),
         "changes": _spaced(changes) if changes else (),

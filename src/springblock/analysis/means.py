@@ -5,16 +5,15 @@ from typing import Any
 
 import pyarrow as pa
 
-from springblock.analysis.ensembles import Change, Ensemble, extremes, mean, telling
-from springblock.analysis.statistics import Interval
-from springblock.beyond.question import number
+from springblock.analysis.ensembles import Change, Ensemble, from_first, mean, telling
+from springblock.analysis.statistics import Interval, number
 from springblock.io.rows import Row
-from springblock.io.schemas import SCENE, SETUP, said
+from springblock.io.schemas import ASKED, SCENE, SETUP, said
 
 #: Units of lengths and constants, by name.
 UNITS = {
     field.name: unit
-    for field in (*SCENE, *SETUP)
+    for field in (*SCENE, *SETUP, *ASKED)
     if (unit := said(field)[0]) != "1" and not pa.types.is_string(field.type)
 }
 
@@ -44,13 +43,13 @@ def differences(changed: Sequence[Change], of: Sequence[str]) -> list[Row]:
     ]
 
 
-def changes_over_ends(members: Sequence[Ensemble], of: Sequence[str]) -> list[Row]:
-    """Return a row for each change from the lowest to the highest value of a parameter."""
-    found = list(extremes(members))
+def changes_from_first(members: Sequence[Ensemble], of: Sequence[str]) -> list[Row]:
+    """Return a row for each change from the first value of a parameter to another one."""
+    found = list(from_first(members))
     rows = differences([change for *_, change in found], of)
     return [
-        {"from": f"{name} = {low} {UNITS.get(name, '')}".rstrip(), "to": high} | row
-        for (name, low, high, _), row in zip(found, rows, strict=True)
+        {"from": f"{name} = {first} {UNITS.get(name, '')}".rstrip(), "to": other} | row
+        for (name, first, other, _), row in zip(found, rows, strict=True)
     ]
 
 
