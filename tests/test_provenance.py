@@ -8,6 +8,7 @@ import pytest
 
 import springblock
 from springblock import provenance
+from springblock.cli import COMMANDS
 from springblock.provenance import configuration_digest
 
 ROOT = Path(springblock.__file__).parent
@@ -122,8 +123,8 @@ def closure(files):
     return found
 
 
-#: Neither reading, writing and configuration count, nor physics: it changes the realisations first.
-ELSEWHERE = {"io", "study", "model", "solver", "simulation"}
+#: The configuration reaches jobs as their parameters; physics changes the realisations first.
+ELSEWHERE = {"study", "model", "solver", "simulation"}
 
 
 @pytest.mark.parametrize("step", provenance.STEPS)
@@ -132,6 +133,61 @@ def test_the_digest_of_a_step_covers_all_that_it_imports(step):
     files = closure((ROOT / folders[-1]).rglob("*.py"))
     needed = {path.relative_to(ROOT).parts[0] for path in files if path.parent != ROOT}
     assert needed - ELSEWHERE <= {*folders}
+
+
+def jobs():
+    """Each command of the rules with the steps whose digests its jobs have."""
+    found = {"plot": {"plot"}, "figure": {"plot"}}  # by `params.command`
+    for file in sorted((ROOT.parents[1] / "workflow/rules").glob("*.smk")):
+        for rule in file.read_text().split("\n\n\n"):
+            command = re.search(r"springblock --code {params.code} (\w+)", rule)
+            if command:
+                steps = re.findall(r'code=code\("(\w+)"\)', rule)
+                found.setdefault(command[1], set()).update(steps)
+    found["make"] |= {"beyond", "mechanism"}  # by `use rule`
+    found["aggregate"].add("accuracy")  # only to warn
+    del found["compile"]  # whose file is empty
+    return found
+
+
+def used_by(function, module):
+    """Modules of the package that a function of a module uses, itself or by another function."""
+    imported, functions, found, left = {}, {}, set(), [function]
+    for node in module.body:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("springblock"):
+            imported |= {alias.asname or alias.name: node.module for alias in node.names}
+        if isinstance(node, ast.FunctionDef):
+            functions[node.name] = node
+    while left:
+        for node in ast.walk(functions.pop(left.pop())):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("springblock."):
+                found.add(node.module)
+            if isinstance(node, ast.Name):
+                found |= {imported[node.id]} if node.id in imported else set()
+                left += [node.id] if node.id in functions and node.id not in left else []
+    return {name.split(".")[1] for name in found if name.count(".")}
+
+
+@pytest.mark.parametrize(("command", "steps"), jobs().items(), ids=jobs())
+def test_what_a_job_computes_is_in_the_digest_of_its_step(command, steps):
+    """Neither the command line nor files, which only arrange, nor what the study asks for."""
+    place, function = COMMANDS[command].split(":")
+    module = ast.parse((ROOT / "cli" / f"{place.split('.')[-1]}.py").read_bytes())
+    covered = {folder for step in steps for folder in provenance.STEPS[step]}
+    arranging = {"cli", "files", "provenance", "model", "io"}
+    assert used_by(function, module) - arranging <= covered
+
+
+def test_the_command_line_computes_nothing():
+    """Numbers for the eye alone excepted: NumPy counts what a command says at its end."""
+    for file in sorted((ROOT / "cli").glob("*.py")):
+        used = {
+            node.names[0].name
+            for node in ast.walk(ast.parse(file.read_bytes()))
+            if isinstance(node, ast.Import)
+        }
+        assert "scipy" not in used
+        assert "numpy" not in used or file.stem in {"simulate", "mask"}, file
 
 
 def test_the_order_of_keys_does_not_change_a_configuration():

@@ -11,25 +11,27 @@ from pathlib import Path
 from typing import Any
 
 _ROOT = Path(__file__).parent
-_PHYSICS = ("model", "solver", "simulation")
+_PHYSICS = ("model", "solver", "simulation", "io")
 _PAGES = ("accuracy", "mechanism", "claims", "beyond")
 
-#: Folders of the package that determine the results of each step of the study. Reading, writing and
-#: the command line are not among them, since they do not change numbers.
+#: Folders of the package that determine the results of each step of the study. The command line is
+#: not among them, since it only arranges, nor are descriptions of columns and the study's folder.
 STEPS: dict[str, tuple[str, ...]] = {
     "compile": ("solver",),
     "mask": ("model",),
     "simulate": _PHYSICS,
-    "analyse": ("model", "analysis"),
+    "analyse": ("model", "io", "analysis"),
     "accuracy": (*_PHYSICS, "analysis", "accuracy"),
-    "claims": ("model", "analysis", "accuracy", "mechanism", "claims"),
-    "beyond": ("model", "analysis", "mechanism", "beyond"),
+    "claims": ("model", "io", "analysis", "accuracy", "mechanism", "claims"),
+    "beyond": ("model", "io", "analysis", "mechanism", "beyond"),
     "mechanism": (*_PHYSICS, "analysis", "mechanism"),
-    "plot": ("model", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
-    "report": ("model", "analysis", *_PAGES, "plotting", "report"),
+    "plot": ("model", "io", "analysis", "accuracy", "mechanism", "beyond", "plotting"),
+    "report": ("model", "io", "analysis", *_PAGES, "plotting", "report"),
 }
 #: Steps that write pages, on whose templates and data their results depend.
 _WRITING = {"claims", "beyond", "report"}
+#: Modules of descriptions alone.
+_DESCRIBING = {"schemas.py"}
 #: Folders whose docstrings are part of the results: the criteria of statements.
 _SAYING = {"claims"}
 
@@ -62,7 +64,7 @@ def configuration_digest(configuration: Mapping[str, Any]) -> str:
 def _of_folder(folder: str, templates: bool) -> str:
     texts = []
     for file in sorted((_ROOT / folder).rglob("*")):
-        if file.suffix == ".py":
+        if file.suffix == ".py" and file.name not in _DESCRIBING:
             texts += [file.name, *_skeleton(ast.parse(file.read_bytes()), folder in _SAYING)]
         elif templates and file.suffix in (".html", ".css", ".js", ".md", ".csv"):
             texts.append(file.read_text(encoding="utf-8"))

@@ -5,7 +5,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from springblock.analysis.correlation import Correlation
-from springblock.cli.realisations import _curve
+from springblock.analysis.correlations import _curve
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 
 

@@ -6,9 +6,20 @@ import numpy as np
 import pyarrow as pa
 
 from springblock.analysis.estimate import UNKNOWN
-from springblock.claims.rule import ENOUGH, Claim, Evidence, Finding, describe, verdict
+from springblock.claims.rule import (
+    ENOUGH,
+    Claim,
+    Evidence,
+    Finding,
+    RowsByScene,
+    describe,
+    verdict,
+)
+from springblock.claims.stress import elastic_forces
+from springblock.io.records import Record, by_scene
 from springblock.io.rows import Row
 from springblock.io.schemas import column, numbers, texts
+from springblock.model.scene import Scene
 
 SCHEMA = pa.schema(
     [
@@ -86,3 +97,22 @@ def _measured(finding: Finding, together: int) -> Row:
         "needed": finding.needed(together),
         "rests_on": finding.rests_on,
     }
+
+
+def gathered(records: Iterable[Record], **tables: Iterable[Row]) -> Evidence:
+    """Return the evidence of realisations and of rows of tables, by their names in `Evidence`.
+
+    Scenes with too few realisations are left out.
+    """
+    found = by_scene(records)
+    tested = {scene: runs for scene, runs in found.items() if len(runs) >= ENOUGH}
+    by_name: dict[str, RowsByScene] = {}
+    for name in ("correlation", "correlation_length"):
+        rows_of = by_scene(tables[name], Scene.from_row)
+        by_name[name] = {scene: rows for scene, rows in rows_of.items() if scene in tested}
+    stress = {
+        scene: elastic_forces(scene, runs[0].material)
+        for scene, runs in found.items()
+        if scene.level and not scene.varied and scene.direction in ("x", "y")
+    }
+    return Evidence(tested, **by_name, stress=stress, precision=list(tables["precision"]))
