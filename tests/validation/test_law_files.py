@@ -146,8 +146,15 @@ FRICTION = "def friction(mu_dynamic):\n    return mu_dynamic\n"
     ("text", "sentence"),
     [
         ("friction = 1\n", "must define the function friction"),
-        ("import nothing_of_this_name\n", "cannot be run: ModuleNotFoundError"),
-        ("def friction(:\n", "cannot be run: SyntaxError"),
+        (
+            "import helper\n" + FRICTION,
+            "law.py uses helper; a law may use the standard library and",
+        ),
+        ("from .helper import mu\n" + FRICTION, "law.py uses helper; a law may"),
+        ("from importlib import import_module\n" + FRICTION, "law.py uses importlib; a law may"),
+        ("exec('x = 1')\n" + FRICTION, "law.py uses exec; a law may"),
+        ("1 / 0\n" + FRICTION, "cannot be run: ZeroDivisionError"),
+        ("def friction(:\n", "law.py is not valid Python: "),
         ("def friction(mu):\n    return mu\n", "argument 'mu'; choose from mu_static, mu_dynamic"),
         ("CONSTANTS = {'a': 1.0}\n" + FRICTION, r"CONSTANTS\['a'\] must be \(number, unit\)"),
         ("CONSTANTS = {'speed': (1.0, '')}\n" + FRICTION, "the name 'speed' has two meanings"),
@@ -220,11 +227,44 @@ def test_a_table_keeps_the_law_with_its_constants():
     assert kept.constants == law.constants
     assert kept.units == law.units
     assert kept.described == law.described
-    assert LawFile.read(EXPONENTIAL).described.endswith(" (d_0 = 2e-08 m, floor = 0.3)")
+    described = LawFile.read(EXPONENTIAL).described
+    assert described.endswith('{"d_0": [2e-08, "m"], "floor": [0.3, ""]}')
     assert LawFile.read(AGEING) != law
     assert law.vary({"b_1": 0.03}).constants == {**law.constants, "b_1": 0.03}
     with pytest.raises(ValueError, match="not available, only its name"):
         Setup(Material(law=law.described))
+
+
+@pytest.mark.parametrize("unit", ["m s-1", "1, m", 'a"b', "", "µm (rms)"])
+def test_constants_keep_any_unit_in_a_table(tmp_path, unit):
+    """Two values of one are two ensembles wherever tables are read."""
+    file = tmp_path / "law.py"
+    file.write_text(f"CONSTANTS = {{'v_0': (1e-4, {unit!r}), 'd': (2e-8, 'm')}}\n{FRICTION}")
+    law = LawFile.read(file, v_0=1e-6)
+    kept = LawFile.named(law.described)
+    assert kept.constants == {"v_0": 1e-6, "d": 2e-8}
+    assert kept.units == {"v_0": unit, "d": "m"}
+
+
+@pytest.mark.parametrize("name", ["seed", "duration", "t_max", "n_p", "contact", "runs"])
+def test_a_constant_with_the_name_of_a_column_is_refused(tmp_path, springblock, name):
+    file = tmp_path / "law.py"
+    file.write_text(f"CONSTANTS = {{{name!r}: (1.0, '')}}\n{FRICTION}")
+    words = ("simulate", "--n-blocks", 4, "--law", file, "--output", tmp_path / "a.parquet")
+    assert f"{name!r} is a column of tables; rename it" in springblock(*words, refused=True)
+
+
+def test_a_law_is_another_one_when_a_file_that_it_reads_changes(tmp_path):
+    file, data = tmp_path / "law.py", tmp_path / "mu.txt"
+    file.write_text(
+        f"import numpy as np\nMU = np.loadtxt({str(data)!r})\n"
+        "def friction(mu_dynamic):\n    return mu_dynamic * MU[-1]\n"
+    )
+    names = []
+    for last in (1.0, 1.0, 1.5):
+        np.savetxt(data, [*np.ones(2000), last])
+        names.append(LawFile.read(file).name)
+    assert names[0] == names[1] != names[2]
 
 
 def test_a_study_may_vary_a_constant_of_its_law(tmp_path):
