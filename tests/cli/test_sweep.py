@@ -29,6 +29,19 @@ def swept(springblock, folder, *others, refused=False):
     return springblock("sweep", *SURFACE, *how, *others, "--output", folder, refused=refused)
 
 
+def test_all_its_runs_have_the_samples_of_the_fastest_slider_and_each_run_once(
+    springblock, tmp_path
+):
+    """Directions and values that are given twice count once."""
+    how = ("--vary", "slider_velocity=5e-3,5e-2,5e-2", "--direction", "x,0", "--seeds", 1)
+    springblock("sweep", "--n-blocks", 4, *how, "--output", tmp_path)
+    rows = pq.read_table(tmp_path / "realisations.parquet").to_pylist()
+    assert [(row["slider_velocity"], row["sample_interval"]) for row in rows] == [
+        (5e-3, 2e-8),
+        (5e-2, 2e-8),
+    ]
+
+
 def test_its_runs_are_those_of_single_commands_and_are_not_run_again(springblock, folder, tmp_path):
     """Seeds may be added: what is there stays."""
     table = pq.read_table(folder / "realisations.parquet")

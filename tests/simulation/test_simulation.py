@@ -35,6 +35,27 @@ def same(a: Realisation, b: Realisation, samples=None):
     return bits(a) == bits(b) and (samples is not None or a.energy == b.energy)
 
 
+@pytest.mark.parametrize("velocity", [1e-2, 5e-2])
+def test_samples_are_close_enough_for_static_friction_however_fast_the_slider(velocity):
+    """With 2e-7 s between samples it would be 3.6 % too low at the larger velocity."""
+    material = Material(slider_velocity=velocity)
+    surfaces = [drawn(PILLARS, seed, material) for seed in range(4)]
+    usual, every_step = Setup(material), Setup(material, sample_interval=STEP)
+    assert usual.interval == pytest.approx(max(STEP, 1e-7 * 1e-2 / velocity))
+    found, exact = (
+        np.mean([simulate(surface, setup).static_friction for surface in surfaces])
+        for setup in (usual, every_step)
+    )
+    assert exact * (1.0 - 2e-3) < found <= exact
+
+
+def test_samples_of_slow_sliders_are_those_of_the_paper():
+    for velocity in (5e-5, 5e-4, 5e-3):
+        assert Setup().vary({"slider_velocity": velocity}).interval == 2e-7
+    assert Setup(Material(mu_static=0.0)).interval == 2e-7  # it creeps from the start
+    assert Setup(Material(slider_velocity=5e-2), sample_interval=1e-6).interval == 1e-6
+
+
 # --- what a run answers
 
 

@@ -300,6 +300,11 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         ("figures.figure_7.n_p", 3, "figure_7.n_p is not valid: 3.*at least 6"),
         ("stepp", 1e-8, "the configuration: unknown key 'stepp'"),
         ("sample_interval", 2.5e-8, "sample_interval must be a multiple of step"),
+        (
+            "scenes.flat.material",
+            {"slider_velocity": [5e-4, 5e-2]},
+            r"scenes.flat: sample_interval = 2e-07 s is too long for .* 0.05 m/s.* at most 2.2e-08 s",
+        ),
     ],
 )
 def test_one_sentence_says_what_is_wrong(key, value, sentence):

@@ -29,7 +29,7 @@ from springblock.io.identity import identity, metadata
 from springblock.io.parquet import rows_to_table, write
 from springblock.io.rows import Row
 from springblock.io.schemas import BATCH, SNAPSHOTS
-from springblock.model.defaults import SAMPLE_INTERVAL, STEP
+from springblock.model.defaults import STEP
 from springblock.model.material import LAWS, Material
 from springblock.model.scene import Scene
 from springblock.model.surface import Surface
@@ -58,11 +58,10 @@ SETUP = [
         help="Time integrator.",
     ),
     defaulted("--step", type=float, default=STEP, help="Integration step, s."),
-    defaulted(
+    click.option(
         "--sample-interval",
         type=float,
-        default=SAMPLE_INTERVAL,
-        help="Time between samples of the force, s.",
+        help="Time between samples of the force, s; by default 2e-7, or less with fast sliders.",
     ),
 ]
 

@@ -142,9 +142,11 @@ def sweep(
         for varied, direction in product(vary, directions)
     ]
     parts = [range(first, min(first + _BATCH, seeds)) for first in range(0, seeds, _BATCH)]
+    setups = {scene: usual.vary(dict(scene.varied)) for scene in scenes}
+    interval = min(setup.interval for setup in setups.values())  # as in a study, one for all
     work = [
-        Job(scene, usual.vary(dict(scene.varied)), part, output, duration)
-        for scene, part in product(scenes, parts)
+        Job(scene, replace(setups[scene], sample_interval=interval), part, output, duration)
+        for scene, part in product(setups, parts)
     ]
     _run([job for job in work if not job.is_done], jobs)
     table = read([job.file for job in work], SUMMARY)

@@ -15,6 +15,9 @@ from springblock.model.numbers import check_real
 from springblock.solver.stability import IS_STABLE, is_stable, limit
 
 PAPER = Material()
+#: Least number of samples while a flat surface is loaded: with fewer, static friction, the largest
+#: force among them, is more than about 0.1 % too low (`docs/model.md`).
+_LEAST_SAMPLES = 60
 #: Largest number of steps times blocks, and the number that takes one core a year (leapfrog).
 _MOST_STEPS, _STEPS_PER_YEAR = 1e16, 7e15
 #: Largest number of samples, the limit of a cell of a table.
@@ -49,8 +52,9 @@ class Setup:
     integrator : "leapfrog" or "rk4"
     step : s
         Integration step h.
-    sample_interval : s
-        Time between samples of the force; a multiple of the step.
+    sample_interval : s, or None
+        Time between samples of the force; a multiple of the step. None: 2e-7 s, or as many steps as
+        fit into a 60th of the loading time if that is shorter, but at least one.
 
     Raises
     ------
@@ -61,7 +65,7 @@ class Setup:
     material: Material = PAPER
     integrator: str = INTEGRATOR
     step: float = STEP
-    sample_interval: float = SAMPLE_INTERVAL
+    sample_interval: float | None = None
 
     def __post_init__(self) -> None:
         check_type("material", self.material, Material)
@@ -93,12 +97,27 @@ class Setup:
     def constants(self) -> dict[str, Any]:
         """Constants of the material, integrator, step and sample interval, by name."""
         own = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {**dict(own.pop("material").items()), **own}
+        return {**dict(own.pop("material").items()), **own, "sample_interval": self.interval}
+
+    @property
+    def interval(self) -> float:
+        """Time between samples of the force, s, given or chosen."""
+        if self.sample_interval is not None:
+            return self.sample_interval
+        if self.longest_interval >= SAMPLE_INTERVAL:
+            return SAMPLE_INTERVAL
+        return self.step * max(1, math.floor(self.longest_interval / self.step))
+
+    @property
+    def longest_interval(self) -> float:
+        """Longest time between samples, s, at which static friction is about 0.1 % too low."""
+        loading = self.loading_time(np.ones((1, 1), bool), self.material.mu_static)
+        return loading / _LEAST_SAMPLES if loading else math.inf  # without thresholds no friction
 
     @property
     def every(self) -> int:
         """Steps per sample."""
-        return _whole_multiple("sample_interval", self.sample_interval, "step", self.step)
+        return _whole_multiple("sample_interval", self.interval, "step", self.step)
 
     def loading_time(self, contact: NDArray[np.bool_], threshold: float) -> float:
         """Time t = mu F_n/(K_s v), s, at which a block without neighbours would detach.
@@ -128,7 +147,7 @@ class Setup:
             If a time is not valid, or the run would take 1.4 years or more on one core, have more
             samples than a table can hold, or more snapshots than fit in memory.
         """
-        interval, intervals = self.sample_interval, math.inf
+        interval, intervals = self.interval, math.inf
         if duration is not None:
             check_real("duration", duration)
             intervals = duration / interval + 1e-6
@@ -160,7 +179,7 @@ class Setup:
 
     def _check_cost(self, blocks: int, reason: str, time: float) -> None:
         """Refuse a run over this time, s, that takes too many steps or samples."""
-        steps, samples = time / self.step, time / self.sample_interval
+        steps, samples = time / self.step, time / self.interval
         if not steps * blocks < _MOST_STEPS:
             raise ValueError(
                 f"step = {self.step!r} s is too short for a {reason} of {time:.4g} s: "
@@ -169,7 +188,7 @@ class Setup:
             )
         if samples > _MOST_SAMPLES:
             raise ValueError(
-                f"sample_interval = {self.sample_interval!r} s is too short for a {reason} of "
+                f"sample_interval = {self.interval!r} s is too short for a {reason} of "
                 f"{time:.4g} s: it gives {samples:.2g} samples, and a table holds {_MOST_SAMPLES}"
             )
 

@@ -167,7 +167,7 @@ def _result(motion: Motion, snapshots: list[Array], at_samples: list[int]) -> Re
         raise SimulationError(f"at t = {time[-1]:.4g} s the energy is {energy}")
     kept = np.array(snapshots).reshape(-1, 3, 2, n_y, n_x)
     fields = Fields(
-        time=setup.sample_interval * np.array(at_samples, float),
+        time=setup.interval * np.array(at_samples, float),
         displacement=kept[:, 0],
         velocity=kept[:, 1],
         stress=kept[:, 2],

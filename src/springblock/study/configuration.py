@@ -149,6 +149,12 @@ def _check_ensemble(ensemble: Ensemble, setup: Setup) -> None:
     scene, seeds, times = ensemble.scene, ensemble.seeds, ensemble.snapshot_times
     Surface(scene.contact, 1.0, 1.0, scene.is_periodic)  # refuses invalid ones
     own = setup.vary(dict(scene.varied))
+    if own.interval > max(own.longest_interval, own.step):
+        raise ValueError(
+            f"sample_interval = {own.interval!r} s is too long for slider_velocity = "
+            f"{own.material.slider_velocity!r} m/s, since static friction would be too low; choose "
+            f"at most {own.longest_interval:.2g} s"
+        )
     if scene.is_drawn:
         check_draws(scene.shape, own.material)
     elif len(seeds) > 1:
