@@ -104,7 +104,7 @@ class Setup:
         """Time between samples of the force, s, given or chosen."""
         if self.sample_interval is not None:
             return self.sample_interval
-        if SAMPLE_INTERVAL <= self.longest_interval:
+        if self.longest_interval >= SAMPLE_INTERVAL:
             return SAMPLE_INTERVAL
         return self.step * max(1, math.floor(self.longest_interval / self.step))
 
