@@ -93,6 +93,7 @@ class Problem:
 
     def __init__(self, surface: Surface, setup: Setup, direction: str | float) -> None:
         material, contact = setup.material, surface.contact
+        surface.check_material(material)
         self.contact, self.periodic = contact, surface.periodic
         self.m, self.l, self.gamma = material.mass, material.spacing, material.gamma
         self.k_int, self.k_s, self.h = material.k_int, material.k_s, setup.step

@@ -10,6 +10,7 @@ from specimens import drawn, flat, uniform
 from springblock import Material, Pattern, Realisation, Setup, SimulationError, Surface, simulate
 from springblock.model.defaults import STEP
 from springblock.simulation.run import first_minimum, percent
+from springblock.specification import follow
 
 PAPER = Material()
 N = 12
@@ -269,6 +270,37 @@ def pull(**changes):
     names = [field.name for field in fields(Setup) if field.name in changes]
     setup = Setup(**{name: changes.pop(name) for name in names})
     return simulate(**{"surface": surface, "setup": setup, "duration": 2e-6, **changes})
+
+
+CORRELATED = {"correlation_length": 3e-5}
+
+
+@pytest.mark.parametrize(
+    ("drawn_with", "constants", "sentence"),
+    [
+        ({}, {"mu_static": 0.5}, "mu_static = 1.0, but the setup has 0.5"),
+        ({}, {"mu_dynamic_std": 0.0}, "mu_dynamic_std = 0.05, but the setup has 0.0"),
+        ({}, {"distribution": "weibull"}, "distribution = 'normal', but the setup has 'weibull'"),
+        ({}, CORRELATED, "correlation_length = 0.0, but the setup has 3e-05"),
+        (CORRELATED, {**CORRELATED, "spacing": 2e-5}, "spacing = 1e-05, but the setup has 2e-05"),
+    ],
+)
+def test_a_surface_is_simulated_with_the_coefficients_it_was_drawn_with(
+    drawn_with, constants, sentence
+):
+    """Its arrays may be given to any material, which then has no effect on them."""
+    surface, setup = drawn(PILLARS, 1, Material(**drawn_with)), Setup(Material(**constants))
+    for run in (simulate, lambda *given: next(follow(*given))):
+        with pytest.raises(ValueError, match=f"^the surface was drawn with {sentence}; draw the"):
+            run(surface, setup)
+    given = Surface(surface.contact, surface.mu_static, surface.mu_dynamic)
+    assert simulate(given, setup, duration=2e-6).steps > 0
+
+
+def test_a_drawn_surface_takes_any_other_constant():
+    others = {"gamma": 0.0, "slider_velocity": 1e-3, "spacing": 2e-5, "law": "slip_weakening"}
+    other = Material(**others, slip_distance=1e-8)
+    assert simulate(drawn(PILLARS, seed=1), Setup(other), duration=2e-6).steps > 0
 
 
 @pytest.mark.parametrize("integrator", STABLE)

@@ -303,7 +303,7 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         (
             "scenes.flat.material",
             {"slider_velocity": [5e-4, 5e-2]},
-            r"scenes.flat: sample_interval = 2e-07 s is too long for .* 0.05 m/s.* at most 2.2e-08 s",
+            r"flat: sample_interval = 2e-07 s is too long for .* 0.05 m/s.* at most 2.2e-08 s",
         ),
     ],
 )

@@ -13,6 +13,7 @@ from springblock import (
     Setup,
     Surface,
     compute_prelude,
+    draw_friction,
     simulate,
     specification,
 )
@@ -65,7 +66,8 @@ def scattered(contact, material, periodic):
         "mu_static_std": 0.3 * material.mu_static,
         "mu_dynamic_std": min(0.2, 0.5 * material.mu_dynamic),
     }
-    return Surface.draw(contact, 1, replace(material, **wide), periodic)
+    mu = draw_friction(contact.shape, 1, replace(material, **wide), periodic)
+    return Surface(contact, *mu, periodic)
 
 
 class Kernel:

@@ -8,6 +8,7 @@ import numpy as np
 from springblock.analysis.statistics import Interval, difference_interval, mean_interval
 from springblock.io.rows import Row
 from springblock.io.schemas import ASKED, SCENE, SETUP
+from springblock.model.asperities import DRAWN
 from springblock.model.direction import degrees
 from springblock.model.material import LAWS, expanded
 
@@ -15,8 +16,7 @@ from springblock.model.material import LAWS, expanded
 OBSERVABLES = ("static_friction", "dynamic_friction", "t_max", "t_avg", "t_first")
 _SETUP = (*SCENE.names, *SETUP.names, *ASKED.names)
 #: Columns that determine, with the seed, the friction coefficients of a run.
-_THRESHOLDS = {"n_blocks", "n_rows", "edges", "distribution", "correlation_length"}
-_THRESHOLDS |= {name for name in _SETUP if name.startswith("mu_")}
+_THRESHOLDS = {"n_blocks", "n_rows", "edges", "mu_static_field", "mu_dynamic_field", *DRAWN}
 
 Names = Mapping[str, object]  #: scene, constants and times of an ensemble, by name
 

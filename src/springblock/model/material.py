@@ -50,7 +50,8 @@ class Material:
 
     The defaults are the paper's values. Spring constants and block mass follow from them: the
     lattice is equivalent to an isotropic sheet with Poisson's ratio 1/3 in plane stress (Absi &
-    Prager 1975, doi:10.1016/0045-7825(75)90013-2).
+    Prager 1975, doi:10.1016/0045-7825(75)90013-2). Coefficients are those that `Surface.draw` draws
+    with; a surface of given coefficients ignores them.
 
     Raises
     ------

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from springblock.model.asperities import draw_friction
+from springblock.model.asperities import DRAWN, draw_friction
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.model.pattern import MAX_BLOCKS
@@ -53,6 +53,7 @@ class Surface:
         self.mu_static = as_coefficients("mu_static", mu_static, mask)  #: (N_y, N_x), 0 elsewhere
         self.mu_dynamic = as_coefficients("mu_dynamic", mu_dynamic, mask)
         self.periodic = periodic
+        self.drawn_with: Material | None = None  #: None if the coefficients were given
 
     @classmethod
     def draw(
@@ -62,9 +63,25 @@ class Surface:
         material: Material | None = None,
         periodic: bool = False,
     ) -> "Surface":
-        """Return a surface with random coefficients, see `draw_friction`."""
+        """Return a surface with random coefficients, see `draw_friction`.
+
+        Simulations with other coefficients in their material are refused.
+        """
         mask = as_mask(contact)
-        return cls(mask, *draw_friction(mask.shape, seed, material, periodic), periodic)
+        surface = cls(mask, *draw_friction(mask.shape, seed, material, periodic), periodic)
+        surface.drawn_with = material or Material()
+        return surface
+
+    def check_material(self, material: Material) -> None:
+        """Refuse a material with which other coefficients would be drawn."""
+        drawn = self.drawn_with or material
+        for name in (*DRAWN, *(["spacing"] if drawn.correlation_length else [])):
+            was, now = getattr(drawn, name), getattr(material, name)
+            if was != now:
+                raise ValueError(
+                    f"the surface was drawn with {name} = {was!r}, but the setup has {now!r}; "
+                    "draw the surface with the material of the setup"
+                )
 
     @property
     def strongest(self) -> float:

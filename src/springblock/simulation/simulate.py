@@ -78,7 +78,8 @@ def simulate(
     Raises
     ------
     TypeError, ValueError
-        If an argument is not valid, or prelude or checkpoint belong to another run.
+        If an argument is not valid, the surface was drawn with other constants than those of the
+        setup, or prelude or checkpoint belong to another run.
     SimulationError
         If the length of a spring is below 1/2 or above 2 times its rest length, or NaN (the message
         gives time and block), if a law from a file returns a negative or non-finite coefficient,
@@ -86,6 +87,7 @@ def simulate(
     """
     check_type("surface", surface, Surface)
     check_type("setup", setup, Setup)
+    surface.check_material(setup.material)
     contact, strongest = surface.contact, surface.strongest
     end, at_samples = setup.plan(contact, strongest, duration, snapshot_times)
     latest = _LATEST * setup.loading_time(contact, strongest)
