@@ -12,7 +12,13 @@ if TYPE_CHECKING:
     from scipy.stats.distributions import rv_frozen
 
 #: Constants of the material on which a draw depends; with a correlation length also the spacing.
-DRAWN = ("mu_static", "mu_static_std", "mu_dynamic", "mu_dynamic_std", "distribution")
+DRAWN: tuple[str, ...] = (
+    "mu_static",
+    "mu_static_std",
+    "mu_dynamic",
+    "mu_dynamic_std",
+    "distribution",
+)
 DRAWN += ("correlation_length",)
 #: Margin, in correlation lengths, that is added to the surface before correlated normals are drawn
 #: on it with periodic edges. There exp(-r²/ℓ²) is 1e-7, so that opposite edges are uncorrelated.
