@@ -1,12 +1,14 @@
 """Laws of friction read from files: see `docs/howto.md`, "A law of your own"."""
 
+import ast
 import hashlib
 import inspect
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
 
@@ -101,9 +103,13 @@ class LawFile:
         """Run the file and return its definitions, by name."""
         module: dict[str, Any] = {}
         try:
-            exec(compile(self.source, str(self.file), "exec"), module)
-        except Exception as error:
-            raise ValueError(f"{self.file} cannot be run: {error!r}") from None
+            program = ast.parse(self.source)
+            if not (reason := _endless(program)):
+                exec(compile(program, str(self.file), "exec"), module)
+        except (Exception, SystemExit) as error:
+            reason = repr(error)
+        if reason:
+            raise ValueError(f"{self.file} cannot be run: {reason}")
         return module
 
     @cached_property
@@ -173,41 +179,64 @@ class LawFile:
                         f"{', '.join([*more, *own])}"
                     )
 
-    def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
-        """Refuse a law that fails with the mean coefficients at one of several speeds."""
+    def check(
+        self,
+        mu_static: float,
+        mu_dynamic: float,
+        step: float,
+        speeds: Sequence[float] = _TRIED,
+        state: Sequence[float] = (),
+    ) -> None:
+        """Refuse a law that fails at one of several speeds, in a state, or else the initial one."""
         if self.file is None:
             raise ValueError(f"the file of the law {self} is not available, only its name")
         known = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "step": step}
-        known |= self.constants | self.initial
-        for speed in _TRIED:
+        known |= self.constants | self.initial | dict(zip(self.initial, state, strict=False))
+        for speed in speeds:
             at = {**known, "speed": speed}
             mu = self._tried("friction", at)
             if not (_is_number(mu) and mu >= 0.0):
                 raise ValueError(
                     f"{self.file}: friction must return one number, finite and not negative, "
-                    f"not {mu!r} at {speed} m/s{self._with_constants}"
+                    f"not {mu!r}{self._at(at)}"
                 )
-            state = self._tried("update", at) if self.initial else ()
-            after = state if isinstance(state, tuple) else (state,)
+            new = self._tried("update", at) if self.initial else ()
+            after = new if isinstance(new, tuple) else (new,)
             if len(after) != len(self.initial) or not all(map(_is_number, after)):
                 raise ValueError(
                     f"{self.file}: update must return {len(self.initial)} finite numbers, "
-                    f"not {state!r} at {speed} m/s"
+                    f"not {new!r}{self._at(at)}"
                 )
 
     def _tried(self, name: str, known: Mapping[str, float]) -> Any:
         try:
             return self._function(name)(*(known[each] for each in self.arguments(name)))
-        except Exception as error:
-            raise ValueError(
-                f"{self.file}: {name} fails at {known['speed']} m/s{self._with_constants}: "
-                f"{error!r}"
-            ) from None
+        except (Exception, SystemExit) as error:
+            raise ValueError(f"{self.file}: {name} fails{self._at(known)}: {error!r}") from None
 
-    @property
-    def _with_constants(self) -> str:
-        constants = ", ".join(f"{name} = {value}" for name, value in self.constants.items())
-        return f" with {constants}" if constants else ""
+    def _at(self, known: Mapping[str, float]) -> str:
+        own = ", ".join(f"{name} = {known[name]}" for name in (*self.constants, *self.initial))
+        return f" at {known['speed']} m/s" + (f" with {own}" if own else "")
+
+
+def _endless(program: ast.Module) -> str | None:
+    """Return what may never end: a compiled function cannot be interrupted.
+
+    What a file does under a condition, as in `if __name__ == "__main__"`, is left to it.
+    """
+    calls: dict[str, set[str]] = {}
+    for part in program.body:
+        nodes = [] if isinstance(part, ast.If) else list(ast.walk(part))
+        if any(isinstance(node, ast.While) for node in nodes):
+            return "a while loop may never end; use `for`, `range` and `break`"
+        called = [node.func for node in nodes if isinstance(node, ast.Call)]
+        if isinstance(part, ast.FunctionDef):
+            calls[part.name] = {each.id for each in called if isinstance(each, ast.Name)}
+    try:
+        TopologicalSorter(calls).prepare()
+    except CycleError as error:
+        return f"{' calls '.join(error.args[1])}, which may never end"
+    return None
 
 
 def _is_number(value: Any) -> bool:
