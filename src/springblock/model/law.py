@@ -7,9 +7,10 @@ import json
 import math
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +65,6 @@ class LawFile:
             raise ValueError(f"{file} cannot be read: {error}") from None
         stem = re.sub(r"[^\w.-]", "_", file.stem)
         law = cls(stem, file=file, source=source)
-        law._check_code()
         law._check_definitions()
         with np.printoptions(threshold=sys.maxsize):
             read = repr({name: each for name, each in law._module.items() if _is_data(name, each)})
@@ -110,9 +110,13 @@ class LawFile:
         """Run the file and return its definitions, by name."""
         module: dict[str, Any] = {}
         try:
-            exec(compile(self.source, str(self.file), "exec"), module)
-        except Exception as error:
-            raise ValueError(f"{self.file} cannot be run: {error!r}") from None
+            program = ast.parse(self.source)
+            if not (reason := _foreign(program) or _endless(program)):
+                exec(compile(program, str(self.file), "exec"), module)
+        except (Exception, SystemExit) as error:
+            reason = repr(error)
+        if reason:
+            raise ValueError(f"{self.file} cannot be run: {reason}")
         return module
 
     @cached_property
@@ -151,22 +155,6 @@ class LawFile:
         """Names of the arguments of `friction` or `update`."""
         return list(inspect.signature(self._function(name)).parameters)
 
-    def _check_code(self) -> None:
-        """Refuse code from elsewhere, which the digest would not cover."""
-        try:
-            nodes = list(ast.walk(ast.parse(self.source)))
-        except (SyntaxError, ValueError) as error:
-            raise ValueError(f"{self.file} is not valid Python: {error}") from None
-        used = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
-        used += [node.module or "." for node in nodes if isinstance(node, ast.ImportFrom)]
-        used += [node.id for node in nodes if isinstance(node, ast.Name) and node.id in _RUNNERS]
-        for name in used:
-            if name.partition(".")[0] not in _IMPORTED | sys.stdlib_module_names - {"importlib"}:
-                raise ValueError(
-                    f"{self.file} uses {name}; a law may use the standard library and "
-                    f"{', '.join(sorted(_IMPORTED))}, and no other code than that of its file"
-                )
-
     def _check_definitions(self) -> None:
         """Refuse a file that does not define a law."""
         constants, state = (self._module.get(table, {}) for table in ("CONSTANTS", "STATE"))
@@ -198,41 +186,77 @@ class LawFile:
                         f"{', '.join([*more, *own])}"
                     )
 
-    def check(self, mu_static: float, mu_dynamic: float, step: float) -> None:
-        """Refuse a law that fails with the mean coefficients at one of several speeds."""
+    def check(
+        self,
+        mu_static: float,
+        mu_dynamic: float,
+        step: float,
+        speeds: Sequence[float] = _TRIED,
+        state: Sequence[float] = (),
+    ) -> None:
+        """Refuse a law that fails at one of several speeds, in a state, or else the initial one."""
         if self.file is None:
             raise ValueError(f"the file of the law {self} is not available, only its name")
         known = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "step": step}
-        known |= self.constants | self.initial
-        for speed in _TRIED:
+        known |= self.constants | self.initial | dict(zip(self.initial, state, strict=False))
+        for speed in speeds:
             at = {**known, "speed": speed}
             mu = self._tried("friction", at)
             if not (_is_number(mu) and mu >= 0.0):
                 raise ValueError(
                     f"{self.file}: friction must return one number, finite and not negative, "
-                    f"not {mu!r} at {speed} m/s{self._with_constants}"
+                    f"not {mu!r}{self._at(at)}"
                 )
-            state = self._tried("update", at) if self.initial else ()
-            after = state if isinstance(state, tuple) else (state,)
+            new = self._tried("update", at) if self.initial else ()
+            after = new if isinstance(new, tuple) else (new,)
             if len(after) != len(self.initial) or not all(map(_is_number, after)):
                 raise ValueError(
                     f"{self.file}: update must return {len(self.initial)} finite numbers, "
-                    f"not {state!r} at {speed} m/s"
+                    f"not {new!r}{self._at(at)}"
                 )
 
     def _tried(self, name: str, known: Mapping[str, float]) -> Any:
         try:
             return self._function(name)(*(known[each] for each in self.arguments(name)))
-        except Exception as error:
-            raise ValueError(
-                f"{self.file}: {name} fails at {known['speed']} m/s{self._with_constants}: "
-                f"{error!r}"
-            ) from None
+        except (Exception, SystemExit) as error:
+            raise ValueError(f"{self.file}: {name} fails{self._at(known)}: {error!r}") from None
 
-    @property
-    def _with_constants(self) -> str:
-        constants = ", ".join(f"{name} = {value}" for name, value in self.constants.items())
-        return f" with {constants}" if constants else ""
+    def _at(self, known: Mapping[str, float]) -> str:
+        own = ", ".join(f"{name} = {known[name]}" for name in (*self.constants, *self.initial))
+        return f" at {known['speed']} m/s" + (f" with {own}" if own else "")
+
+
+def _foreign(program: ast.Module) -> str | None:
+    """Return the use of code from elsewhere, which the digest of the file would not cover."""
+    nodes = list(ast.walk(program))
+    used = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
+    used += [node.module or "." for node in nodes if isinstance(node, ast.ImportFrom)]
+    used += [node.id for node in nodes if isinstance(node, ast.Name) and node.id in _RUNNERS]
+    for name in used:
+        if name.partition(".")[0] not in _IMPORTED | sys.stdlib_module_names - {"importlib"}:
+            packages = ", ".join(sorted(_IMPORTED))
+            return f"it uses {name}; import only the standard library and {packages}"
+    return None
+
+
+def _endless(program: ast.Module) -> str | None:
+    """Return what may never end: a compiled function cannot be interrupted.
+
+    What a file does under a condition, as in `if __name__ == "__main__"`, is left to it.
+    """
+    calls: dict[str, set[str]] = {}
+    for part in program.body:
+        nodes = [] if isinstance(part, ast.If) else list(ast.walk(part))
+        if any(isinstance(node, ast.While) for node in nodes):
+            return "a while loop may never end; use `for`, `range` and `break`"
+        called = [node.func for node in nodes if isinstance(node, ast.Call)]
+        if isinstance(part, ast.FunctionDef):
+            calls[part.name] = {each.id for each in called if isinstance(each, ast.Name)}
+    try:
+        TopologicalSorter(calls).prepare()
+    except CycleError as error:
+        return f"{' calls '.join(error.args[1])}, which may never end"
+    return None
 
 
 def _is_data(name: str, value: Any) -> bool:

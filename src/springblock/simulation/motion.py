@@ -1,5 +1,7 @@
 """Motion of a surface: the state of a run between two calls of the compiled time loop."""
 
+from typing import Any
+
 import numpy as np
 
 from springblock.model.direction import heading
@@ -59,10 +61,7 @@ class Motion:
         )
         now, law = (first + done) * self.setup.step, self.state.law
         if isinstance(law, FromFile) and law.failed[0] >= 0:
-            raise SimulationError(
-                f"before t = {now:.4g} s the law {self.setup.material.law} returned a friction "
-                "coefficient that is negative or not finite"
-            )
+            raise SimulationError(f"before t = {now:.4g} s: {self._failure(law)}")
         if row >= 0:
             raise SimulationError(
                 f"at t = {now:.4g} s a spring at block "
@@ -70,6 +69,19 @@ class Motion:
                 "to more than twice, or become NaN"
             )
         self.append(taken)
+
+    def _failure(self, law: FromFile) -> str:
+        """Return why a law from a file failed, as Python reports it."""
+        given: Any = self.setup.material.law
+        row, speed, *state = law.failed.tolist()
+        blocks = self.state.blocks
+        at = int(row) % blocks.static.size  # at a release any block
+        mu = (float(field.flat[at]) / law.load for field in (blocks.static, blocks.dynamic))
+        try:
+            given.check(*mu, self.setup.step, [speed], state)
+        except ValueError as error:
+            return str(error)
+        return f"{given.file} fails at {speed} m/s in the state {state}, but not in Python"
 
     def append(self, taken: Samples) -> None:
         """Append samples that lead to the current state."""

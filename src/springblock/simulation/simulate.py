@@ -82,8 +82,9 @@ def simulate(
         setup, or prelude or checkpoint belong to another run.
     SimulationError
         If the length of a spring is below 1/2 or above 2 times its rest length, or NaN (the message
-        gives time and block), if a law from a file returns a negative or non-finite coefficient,
-        if the energy is not finite, or if blocks do not detach in a run without duration.
+        gives time and block), if a law from a file raises, or returns a negative or non-finite
+        coefficient, if the energy is not finite, or if blocks do not detach in a run without
+        duration.
     """
     check_type("surface", surface, Surface)
     check_type("setup", setup, Setup)

@@ -11,7 +11,7 @@ from inspect import isfunction
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import NumbaError, cfunc, float64, int64, njit, void
+from numba import boolean, cfunc, float64, int64, njit
 from numpy.typing import NDArray
 
 from springblock.model.law import LawFile
@@ -33,9 +33,10 @@ class FromFile(NamedTuple):
     load: float  #: F_n, as the velocity that it adds in one step
     speed: float  #: l/h, m/s
     step: float  #: h, s
-    failed: NDArray[np.int64]  #: (1,) row of state whose mu was negative or not finite, or -1
-    friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu
-    update: Any  #: (constants, state, row, speed, step): the state in a row, after a step
+    failed: Array  #: (2 + variables,) of the first failure: row, or -1; speed, m/s; state
+    friction: Any  #: (constants, state, row, mu_static, mu_dynamic, speed) -> mu, -1 if it raises
+    #: (constants, state, row, speed, step) -> whether it stored a finite state, that after a step
+    update: Any
 
 
 def from_file(
@@ -53,7 +54,7 @@ def from_file(
         load=load,
         speed=speed,
         step=step,
-        failed=np.full(1, -1),
+        failed=np.full(2 + len(initial), -1.0),
         **_compiled(law),
     )
 
@@ -72,29 +73,48 @@ def _compiled(law: LawFile) -> dict[str, Any]:
         given = ", ".join(place.get(each, each) for each in law.arguments(name))
         return f"{name}({given})"
 
-    after = ", ".join(f"state[row, {i}]" for i in range(len(state)))
+    after = [f"after_{i}" for i in range(len(state))]
+    # an exception would not leave a C function
     lines = [
         "def friction_at(constants, state, row, mu_static, mu_dynamic, speed):",
-        f"    return {call('friction')}",
+        "    try:",
+        f"        return {call('friction')}",
+        "    except Exception:",
+        "        return -1.0",
         "def update_at(constants, state, row, speed, step):",
-        f"    {after} = {call('update')}" if state else "    pass",
+        "    try:",
+        f"        {', '.join(after)} = {call('update')}" if state else "        pass",
+        "    except Exception:",
+        "        return False",
+        *(f"    if not 0.0 * {each} == 0.0: return False" for each in after),  # infinite or NaN
+        *(f"    state[row, {i}] = {each}" for i, each in enumerate(after)),
+        "    return True",
     ]
     module = law.run()
     for name, part in module.items():
         if isfunction(part) and part.__globals__ is module:  # and not imported
-            module[name] = njit(part, error_model="numpy")
+            module[name] = njit(part, error_model="numpy", boundscheck=True)
     exec("\n".join(lines), module)
     friction = float64(*_ARRAYS, float64, float64, float64)
-    update = void(*_ARRAYS, float64, float64)
+    update = boolean(*_ARRAYS, float64, float64)
     try:
         return {
             "friction": cfunc(friction, error_model="numpy")(module["friction_at"]),
             "update": cfunc(update, error_model="numpy")(module["update_at"]),
         }
-    except NumbaError as error:
-        lines = [line.strip() for line in str(error).splitlines()]
+    except Exception as error:  # NumbaError, and errors of numba's own
+        lines = [line.strip() for line in [*str(error).splitlines(), repr(error)]]
         reason = next(line for line in lines if line and not line.startswith("Failed in"))
         raise ValueError(f"{law.file} cannot be compiled by numba: {reason}") from None
+
+
+@kernel
+def _fail(law, row, speed):
+    """Record a failure, unless there was one before: others may follow from it."""
+    if law.failed[0] < 0.0:
+        law.failed[0], law.failed[1] = row, speed
+        for i in range(law.state.shape[1]):
+            law.failed[2 + i] = law.state[row, i]
 
 
 @kernel
@@ -104,7 +124,7 @@ def _friction(law, row, speed, static, dynamic):
     at = np.int64(row)
     mu = law.friction(law.constants, law.state, at, mu_static, mu_dynamic, speed * law.speed)
     if not 0.0 <= mu < np.inf:
-        law.failed[0] = row
+        _fail(law, at, speed * law.speed)
     return law.load * mu
 
 
@@ -192,4 +212,6 @@ def store_state(law, b, row, moved, slides):
         law.state[b + len(law.state) // 2, i] = law.state[b, i]
         law.state[b, i] = law.state[np.int64(row) if slides else -1, i]
     if slides:
-        law.update(law.constants, law.state, np.int64(b), moved * law.speed, law.step)
+        at, speed = np.int64(b), moved * law.speed
+        if not law.update(law.constants, law.state, at, speed, law.step):
+            _fail(law, at, speed)
