@@ -1,13 +1,18 @@
 # Slip precursors and topological length scales at the onset of frictional sliding:
 # from a grid of surfaces to realisations, tables and figures.
 
+from pathlib import Path
+
 from snakemake.utils import min_version
 
 min_version("9.20")
 
 
 # `config` already holds the keys that the user gives, which override those of this file.
-configfile: "config/own.yaml" if config.get("study") == "own" else "config/config.yaml"
+DEFAULTS = "config/own.yaml" if config.get("study") == "own" else "config/config.yaml"
+if Path(DEFAULTS).exists():
+
+    configfile: DEFAULTS
 
 
 # Container of all rules with `--software-deployment-method apptainer`; container/springblock.def builds it.
@@ -25,25 +30,35 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
 
 
-onstart:
-    begin()
-
-
 rule all:
+    """Make everything that the configuration asks for."""
     default_target: True
     input:
-        rules.aggregate.output,
+        rules.simulate.input,
         rules.fields.input,
+        rules.aggregate.output,
+        CORRELATED,
         rules.correlations.input,
         rules.means.output if OWN else rules.claims.output,
         rules.figures.input,
+        FILMED,
         rules.report.output,
-        rules.accuracy.output if config["accuracy"] else [],
-        rules.mechanism.output if config["mechanism"] else [],
+        [rules.precision_table.input, rules.accuracy.input, rules.accuracy.output]
+        if config["accuracy"]
+        else [],
+        rules.production_table.input if config["production"] else [],
+        [PARTS, rules.mechanism.input, rules.mechanism.output] if config["mechanism"] else [],
         rules.beyond.output if GROUPS_BEYOND else [],
     localrule: True
     message:
         f"The study is complete; its tables and figures are in {RESULTS}"
+
+
+#: Files of the finished study.
+NEEDED = [str(file) for file in rules.all.input]
+#: Files that it may also have: for jobs that are yet to run, and of rules that run only if named.
+SPARE = [*PRELUDES, *CUTS_MADE, *PARTS, *map(str, workflow.concrete_files)]
+SPARE = [file for file in SPARE if Path(file).is_relative_to(RESULTS)]
 
 
 onerror:

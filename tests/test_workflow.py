@@ -4,14 +4,20 @@ import re
 import shutil
 import subprocess
 import zipfile
+from pathlib import Path
 
 import pyarrow.parquet as pq
+import pytest
 
 from springblock import Material
+from springblock.accuracy import conventions
+from springblock.io.identity import read_record
 from springblock.io.schemas import BATCH
+from springblock.mechanism.surfaces import TABLES
 from springblock.plotting import figures
 from springblock.solver.integrators import INTEGRATORS
 from springblock.study.archive import archive
+from springblock.study.audit import all_faults
 from studies import PAPER, ROOT, SCHEMA, TINY, Study
 
 WHOLE = {"configuration": ("config/config.yaml",)}
@@ -60,21 +66,50 @@ def test_the_configuration_offers_what_the_package_has():
     assert PAPER["material"] == dict(Material().items())
 
 
-def test_every_step_can_be_planned(study):
+#: Scenes of one's own, in another study than the paper's.
+OWN = {"flat": {"direction": ["x"], "seeds": 2, "snapshot_times": [1e-5]}}
+
+
+def rules(study, *options, **how):
+    """Names and descriptions of the rules that Snakemake lists."""
+    listed = study.run("--list", "--quiet", "host", *options, **how)
+    return dict(re.findall(r"^(\w+)(?: \((.+)\))?$", listed, re.MULTILINE))
+
+
+@pytest.mark.parametrize("kind", ["tiny", "own"])
+def test_every_rule_can_be_planned_by_its_name(study, tmp_path, kind):
+    """Rules with wildcards, too, such as `prelude`: all files of theirs."""
+    study = study.copied(tmp_path / "study")
+    if kind == "own":
+        study.write("tiny.yaml", {"study": "own", "results": "own", "n_blocks": 12, "scenes": OWN})
+    listed = rules(study)
+    assert all(listed.values())
+    jobs = study.planned("--forceall", "--", *listed)
+    assert jobs.keys() >= listed.keys()
+    assert jobs["prelude"] == {"tiny": 5, "own": 1}[kind]
+    assert jobs["compare_scene"] == 9
+    assert study.planned("--forceall", "--", "prelude").keys() == {"compile", "prelude"}
+
+
+def test_every_step_of_the_full_study_can_be_planned(study):
     """With config/full.yaml all that the package can do; surfaces are a user's own.
 
     docs/workflow.md lists the steps that are neither figures nor films.
     """
     elsewhere = ("--config", "results=elsewhere")
-    listed = study.run("--list-target-rules", *elsewhere, **FULL)
-    steps = set(re.findall(r"^\w+$", listed, re.MULTILINE))
+    steps = rules(study, *elsewhere, **FULL).keys()
     full = study.planned(*elsewhere, "--", *steps, **FULL).keys()
-    tables = {"compare_scene", "stability_table", "precision_table", "accuracy", "claims"}
     further = {"beyond", "production_table", "sweep_pressure", "sweep_scatter"}
-    assert {*steps, *tables, *further, *figures.FIGURES} - {"surfaces"} <= full
+    assert {*steps, *further, *figures.FIGURES} - {"surfaces"} <= full
     named = set(re.findall(r"`(\w+)`", (ROOT / "docs/workflow.md").read_text()))
     drawn = ("figure_", "supplement", "beyond_", "sweep_", "film_")
     assert {step for step in steps if not step.startswith(drawn)} <= named
+
+
+def test_a_dry_run_prints_one_table_of_jobs(study):
+    for options in ((), ("--quiet", "host", "-p")):
+        said = study.run("--dry-run", *options, "--config", "results=elsewhere", **WHOLE)
+        assert said.count("total ") == 1
 
 
 def test_a_figure_of_surfaces_that_are_missing_stops_itself_alone(study):
@@ -104,8 +139,62 @@ def test_a_printed_command_runs_by_hand(study):
     assert drawn.exists()
 
 
-def test_a_finished_study_has_nothing_to_do(study):
+def test_a_finished_study_has_nothing_to_do_and_no_fault(study, springblock):
     assert study.planned() == {}
+    assert "all files are there" in springblock("verify", study.results)
+
+
+#: Files of a finished study, with the jobs that follow if one is deleted. Preludes, masks and
+#: compiled code are made for jobs that are yet to run: without them, nothing is missing.
+DELETED = {
+    "realisations/n_blocks-12/level-0/direction-x/batch-1.parquet": {"simulate_batch", "report"},
+    "correlations/**/correlation.parquet": {"correlation", "correlations_table", "report"},
+    "tables/correlation_length.parquet": {"correlations_table", "report"},
+    "tables/claims.parquet": {"claims", "report"},
+    "figures/figure_1.pdf": {"figure_1", "report"},
+    "films/flat.mp4": {"film_flat", "report"},
+    "claims.md": {"claims", "report"},
+    "report.html": {"report"},
+    "preludes/n_blocks-12/level-0/direction-x.npz": set(),
+    "compiled": set(),
+}
+
+
+@pytest.mark.parametrize("pattern", DELETED)
+def test_a_deleted_file_is_made_again_if_the_study_needs_it(study, springblock, tmp_path, pattern):
+    study = study.copied(tmp_path / "study")
+    file = next(iter(study.results.glob(pattern)))
+    file.unlink()
+    jobs, wanted = study.planned(), DELETED[pattern]
+    assert jobs.keys() >= wanted
+    assert bool(jobs) == bool(wanted)
+    if not wanted:
+        springblock("verify", study.results)
+        return
+    found = {fault.file: fault.reason for fault in all_faults(study.results)}
+    assert found == {file: f"{file} is missing; `snakemake` makes it"}
+
+
+def test_the_record_names_all_parts_of_the_pages(study, tmp_path):
+    """Also where nothing is to be done: no job of `fields` runs here."""
+    study = study.copied(tmp_path / "study")
+    study.configure(accuracy=True, production=True, mechanism=True)
+    study.run("--", "fields")
+    files = read_record(study.results)["files"]
+    parts = {Path(file).parent.name for file in files}
+    assert {"accuracy", "mechanism", "tables", "figures", "films"} <= parts
+    assert {f"accuracy/production-{scene}.parquet" for scene in conventions.SCENES} <= {*files}
+    assert {f"mechanism/{part}.parquet" for each in TABLES.values() for part in each} <= {*files}
+    assert {"accuracy.md", "mechanism.md", "tables/stability.parquet"} <= {*files}
+
+
+def test_repair_compares_with_the_recorded_configuration(study, tmp_path):
+    """Another one, which was given by mistake, is not recorded."""
+    study = study.copied(tmp_path / "study")
+    before = (study.results / "study.json").read_bytes()
+    study.configure(material={"gamma": 4e3})
+    assert "no faults found" in study.run("--quiet", "host", "--", "repair")
+    assert (study.results / "study.json").read_bytes() == before
 
 
 def test_figures_and_pages_are_drawn_again_without_a_simulation(study, tmp_path):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 #: Advice for a file of a study that cannot be used.
-MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again"
+MENDING = "`snakemake repair` sets it aside, and the next `snakemake` makes it again if needed"
 
 _MARK = b"springblock-sha256:"
 #: Placeholder, in content to be sealed, for the digest of the whole content.

@@ -8,7 +8,9 @@ from studies import FEWER, Study
 @pytest.fixture(scope="session")
 def undisturbed(finished) -> Study:
     """A finished study on one core, which no test changes."""
-    return finished("undisturbed", ("--cores", "1"), ("aggregate", "correlations"), **FEWER)
+    return finished(
+        "undisturbed", ("--cores", "1"), ("simulate", "aggregate", "correlations"), **FEWER
+    )
 
 
 @pytest.fixture

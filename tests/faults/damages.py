@@ -1,11 +1,13 @@
 """What may become of a file."""
 
+import json
 import shutil
 from dataclasses import replace
 from zipfile import ZipFile
 
 import pyarrow as pa
 
+from springblock.io.identity import metadata
 from springblock.io.parquet import load, origin_of, write
 from springblock.simulation.prelude import Prelude
 
@@ -14,6 +16,7 @@ BATCH = f"realisations/{FLAT}/batch-0.parquet"
 OTHER = f"realisations/{PILLARS}/batch-0.parquet"
 PRELUDE = f"preludes/{FLAT}.npz"
 TABLE = "tables/realisations.parquet"
+CORRELATION = f"correlations/{PILLARS}/correlation.parquet"
 
 
 def truncated(file, results):
@@ -37,11 +40,32 @@ def replaced(file, results, by):
     shutil.copy(results / by, file)
 
 
-def of_other_material(file, results):
+def of_another(file, results, **names):
+    """Whole, but of runs of another identity."""
     table = load(file)
-    place = table.column_names.index("gamma")
-    other = pa.array([4e3] * len(table))
-    write(table.set_column(place, table.schema.field(place), other), file, origin_of(table))
+    origin = origin_of(table)
+    other = json.loads(origin["configuration"]) | names
+    for name in names.keys() & set(table.column_names):
+        place = table.column_names.index(name)
+        column = pa.array([names[name]] * len(table), table.schema.types[place])
+        table = table.set_column(place, table.schema.field(place), column)
+    write(table, file, origin | metadata(other, origin["code_version"]))
+
+
+def of_another_configuration(file, results):
+    """A table, or a prelude of other conditions."""
+    if file.suffix == ".npz":
+        begun = Prelude.read(file)
+        replace(begun, conditions=begun.conditions.replace("5000.0", "4000.0")).save(file)
+    else:
+        table = load(file)
+        write(table, file, origin_of(table) | {"configuration_digest": 16 * "0"})
+
+
+def added(file, results):
+    """A file that the study does not have."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(results / BATCH, file)
 
 
 def of_older_code(file, results):

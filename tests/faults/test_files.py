@@ -6,37 +6,59 @@ from functools import partial
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from faults.damages import (
     BATCH,
+    CORRELATION,
+    FLAT,
     OTHER,
     PRELUDE,
     TABLE,
+    added,
     flipped,
+    of_another,
+    of_another_configuration,
     of_older_code,
-    of_other_material,
     replaced,
     truncated,
 )
 from specimens import uniform
 from springblock import simulate, write_fields
+from springblock.cli import main
 from springblock.files import read_sealed
 from springblock.provenance import code_version
 from springblock.simulation.prelude import Prelude
+from springblock.study import record
 from springblock.study.audit import faults
 
+NEXT = BATCH.replace("batch-0", "batch-1")
 #: What is done to which file, and words of the sentence about it.
 FAULTS = {
     "truncated batch": (BATCH, truncated, "has no checksum"),
     "flipped bit in a batch": (BATCH, flipped, "its checksum does not match"),
     "batch of older code": (BATCH, of_older_code, "was made by different code"),
-    "batch of another material": (BATCH, of_other_material, "gamma is 4000.0 in"),
-    "batch of another scene": (BATCH, partial(replaced, by=OTHER), "level = 1, n_p = 6"),
+    "batch of another material": (BATCH, partial(of_another, gamma=4e3), "gamma is 4000.0 in"),
+    "batch of another duration": (BATCH, partial(of_another, duration=1e-5), "duration is 1e-05"),
+    "batch with snapshots": (BATCH, partial(of_another, snapshot_times=[1e-5]), "snapshot_times"),
+    "batch of other seeds": (BATCH, partial(replaced, by=NEXT), "must hold the seeds 0 to 1"),
+    "batch of another scene": (BATCH, partial(replaced, by=OTHER), "level is 1 in"),
     "truncated prelude": (PRELUDE, truncated, "is not a prelude, or damaged"),
     "flipped bit in a prelude": (PRELUDE, flipped, "is not a prelude, or damaged"),
     "table in place of a prelude": (PRELUDE, partial(replaced, by=TABLE), "is not a prelude"),
     "prelude of older code": (PRELUDE, of_older_code, "was made by different code"),
     "flipped bit in a table": (TABLE, flipped, "its checksum does not match"),
+}
+#: Files that are whole, each in a place where the configuration of the study needs none or another.
+FOREIGN = {
+    "table of another configuration": (TABLE, of_another_configuration),
+    "prelude of another material": (PRELUDE, of_another_configuration),
+    "correlations of other runs": (CORRELATION, of_another_configuration),
+    "batch of more seeds": (f"realisations/{FLAT}/batch-2.parquet", added),
+    "batch of an earlier scene": ("realisations/n_blocks-24/direction-x/batch-0.parquet", added),
+    "figure of an earlier sweep": ("figures/sweep_old.pdf", added),
+    "remainder of a killed job": (f"realisations/{FLAT}/.batch-0.parquet.{32 * 'a'}", added),
+    "remainder of a killed page": (f".report.html.{32 * '0'}", added),
 }
 #: Commands that read such a file, together with others of its study.
 READERS = {
@@ -47,6 +69,13 @@ READERS = {
     ),
     TABLE: ("figure", "stability", "{file}"),
 }
+
+
+def refused(*words):
+    """Lines of a command that fails."""
+    outcome = CliRunner().invoke(main, [str(word) for word in words])
+    assert outcome.exit_code == 1
+    return outcome.output.splitlines()
 
 
 @pytest.mark.parametrize("fault", FAULTS)
@@ -72,6 +101,53 @@ def test_a_bad_file_is_refused_by_name_and_set_aside(study, springblock, tmp_pat
     assert not list(faults(study.results))
 
 
+@pytest.mark.parametrize("fault", FOREIGN)
+def test_what_the_study_does_not_need_is_named_and_set_aside(study, springblock, fault):
+    place, damage = FOREIGN[fault]
+    file = study.results / place
+    damage(file, study.results)
+    (found,) = faults(study.results)
+    assert found.file == file
+    assert found.reason.startswith(f"{file} ")
+    content = file.read_bytes()
+    assert found.reason in springblock("repair", study.results).splitlines()
+    assert (study.results / "set-aside" / place).read_bytes() == content
+    assert not list(faults(study.results))
+
+
+@pytest.mark.parametrize("place", [f"realisations/{FLAT}/._batch-0.parquet", "notes.txt"])
+def test_notes_and_files_of_other_systems_are_left_alone(study, place):
+    (study.results / place).write_text("mine")
+    assert not list(faults(study.results))
+
+
+def test_a_missing_file_is_named(study):
+    """The study ran without its figures; each file has a sentence."""
+    (study.results / BATCH).unlink()
+    said = refused("verify", study.results)
+    assert f"{study.results / BATCH} is missing; `snakemake` makes it" in said
+    assert f"{study.results}/report.html is missing; `snakemake` makes it" in said
+
+
+def test_nothing_is_verified_where_there_is_no_study(springblock, tmp_path):
+    for folder in (tmp_path, "/etc"):
+        for command in ("verify", "repair"):
+            said = springblock(command, folder, refused=True)
+            assert said == (
+                f"Error: {folder} is not a folder of results of a study: it has no study.json"
+            )
+
+
+def test_tables_of_either_study_alone_are_named(study, tmp_path):
+    other = study.copied(tmp_path / "other")
+    (study.results / TABLE).unlink()
+    (other.results / "tables/correlation.parquet").unlink()
+    said = refused("verify", study.results, other.results)
+    assert f"{TABLE}: missing in the first" in said
+    assert "tables/correlation.parquet: missing in the second" in said
+    assert "tables/correlation_length.parquet: the same 2 rows, to the bit" in said
+
+
 def test_a_file_that_is_set_aside_again_replaces_no_other(study, springblock):
     aside = study.results / "set-aside" / TABLE
     for content in (b"once", b"twice", b"thrice"):
@@ -84,11 +160,11 @@ def test_a_file_that_is_set_aside_again_replaces_no_other(study, springblock):
 
 def test_files_are_compared_with_the_last_configuration_of_a_study(study):
     """A study that grew had another one before."""
-    record = study.results / "study.json"
-    made = json.loads(record.read_text())
+    file = study.results / "study.json"
+    made = json.loads(file.read_text())
     before = copy.deepcopy(made["made"][-1])
     before["configuration"]["material"]["gamma"] = 4e3
-    record.write_text(json.dumps(made | {"made": [before, *made["made"]]}))
+    file.write_text(json.dumps(made | {"made": [before, *made["made"]]}))
     assert not list(faults(study.results))
 
 
@@ -101,22 +177,29 @@ def test_every_file_of_numbers_is_checked(study):
     assert len({file.parent for file in files}) > 3
 
 
-def test_bad_fields_and_masks_are_found(tmp_path):
-    """Fields of other code or cut short; a mask that is not that of its name."""
+def test_bad_fields_and_masks_are_found(tmp_path, monkeypatch):
+    """Fields of other runs or code, or cut short; a mask that is not that of its name."""
+    monkeypatch.chdir(tmp_path)
     fields = simulate(uniform(2, 1.0, 0.6), duration=1e-6, snapshot_times=[1e-6]).fields
-    names = ("current", "older", "short")
+    names = ("current", "older", "short", "foreign")
     files = {name: tmp_path / f"fields/{name}.nc" for name in names}
     for name, file in files.items():
         version = "1.0.0+0123" if name == "older" else code_version("simulate")
-        write_fields(fields, file, source=f"springblock {version}")
+        identity = json.dumps({"duration": 2e-6 if name == "foreign" else 1e-6})
+        write_fields(fields, file, source=f"springblock {version}", identity=identity)
     truncated(files["short"], tmp_path)
     mask = tmp_path / "surfaces/islands-00000000.npy"
     mask.parent.mkdir()
     np.save(mask, np.arange(64).reshape(8, 8) % 3 > 0)
+    needed = [str(file.relative_to(tmp_path)) for file in (*files.values(), mask)]
+    ensembles = {name: {"identity": {"duration": 1e-6}} for name in names}
+    contents = {"ensembles": ensembles, "files": needed, "spare": []}
+    record.begin(tmp_path, {"realisations_per_job": 1}, contents)
     found = {fault.file: fault.reason for fault in faults(tmp_path)}
-    assert found.keys() == {files["older"], files["short"], mask}
+    assert found.keys() == {files["older"], files["short"], files["foreign"], mask}
     assert "was made by different code, springblock 1.0.0+0123" in found[files["older"]]
     assert "cut short" in found[files["short"]]
+    assert "was made with another configuration" in found[files["foreign"]]
     assert "not that of its name" in found[mask]
 
 

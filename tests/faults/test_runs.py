@@ -14,15 +14,14 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
-from faults.damages import BATCH, FLAT, PRELUDE, TABLE, flipped
+from faults.damages import BATCH, FLAT, PRELUDE, flipped
 from springblock.study.audit import faults
 from studies import FEWER, ROOT
 
 
 def without_realisations(study):
-    """Remove a batch of the flat surface and the table that has it."""
+    """Remove a batch of the flat surface."""
     (study.results / BATCH).unlink()
-    (study.results / TABLE).unlink()
 
 
 def until(condition, seconds=300.0):
@@ -84,6 +83,37 @@ def test_after_a_killed_job_and_a_killed_run_the_same_command_continues(study, u
     assert study.numbers() == undisturbed.numbers()
 
 
+def test_a_job_that_outlives_its_run_is_noticed_after_the_configuration_has_changed(study):
+    """It overwrites a batch of another duration that the next run has made."""
+    without_realisations(study)
+    run = study.start()
+    until(lambda: jobs(study))
+    outliving = jobs(study)
+    for job in outliving:
+        job.suspend()
+    run.kill()
+    subprocess.run(study.command("--unlock"), cwd=study, env=study.environment, check=True)
+    flat = FEWER["scenes"]["flat"] | {"duration": 1e-5}
+    study.configure(scenes=FEWER["scenes"] | {"flat": flat})
+    study.run()
+    numbers = study.numbers()
+    for job in outliving:
+        job.resume()
+    run.communicate()
+    until(lambda: not processes(study))
+    (found,) = faults(study.results)
+    sentence = f"duration is 2e-05 in {found.file}, but 1e-05 in the study"
+    assert found.file == study.results / BATCH
+    assert sentence in found.reason
+    assert f"duration is 2e-05 in results/{BATCH}, but 1e-05 in the study" in study.run(
+        refused=True
+    )
+    assert "1 file is set aside" in study.run("--quiet", "host", targets=("repair",))
+    study.run()
+    assert study.numbers() == numbers
+    assert not list(faults(study.results))
+
+
 def test_a_full_disk_stops_the_study_and_leaves_no_half_file(study):
     """Simulated: no file may grow beyond 2 kB, which no batch fits into."""
 
@@ -128,7 +158,6 @@ def test_results_that_cannot_be_written_stop_the_study(study):
 def test_a_bad_file_stops_the_study_until_it_is_set_aside(study, undisturbed):
     """In one sentence; then it is made again."""
     flipped(study.results / BATCH, study.results)
-    (study.results / TABLE).unlink()
     said = study.run(refused=True)
     assert re.search(rf"{BATCH} is damaged.*`snakemake repair`", said)
     assert "Traceback" not in said
@@ -146,6 +175,26 @@ def test_touch_does_not_accept_results_of_another_configuration(study):
     before = written(study.folder)
     assert {"prelude", "simulate_batch", "aggregate"} <= study.planned().keys()
     assert written(study.folder) == before
+
+
+@pytest.mark.parametrize("triggers", [("mtime",), ("mtime", "params"), ("code", "input")])
+def test_changes_are_seen_or_refused_where_snakemake_does_not_compare_them(study, triggers):
+    """As long as nothing has changed, triggers do not matter."""
+    options = ("--rerun-triggers", *triggers)
+    assert study.planned(*options) == {}
+    study.configure(material={"gamma": 4e3})
+    for dry in ((), ("--dry-run",)):
+        said = study.run(*options, *dry, refused=True)
+        assert "another configuration (material), and --rerun-triggers leaves such changes" in said
+    assert "simulate_batch" in study.planned()
+
+
+def test_a_run_without_metadata_is_not_changed_unseen(study):
+    without_realisations(study)
+    study.run("--drop-metadata")
+    assert study.planned() == {}
+    study.configure(material={"gamma": 4e3})
+    assert "metadata on them are missing" in study.run(refused=True)
 
 
 def test_without_memory_the_same_results_are_kept_and_those_of_other_code_refused(study):

@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from rocrate.rocrate import ROCrate
 
 from springblock.cli import main
+from springblock.study import record
 from springblock.study.archive import CRATE, archive
 from studies import ROOT
 
@@ -19,20 +20,28 @@ CODE = {
     "config/config.yaml": "n_blocks: 12\n",
 }
 RESULTS = ("tables/a.parquet", "figures/figure_1.png", "claims.md", "realisations/b.parquet")
+PRELUDES = ("preludes/a.npz", "surfaces/a.npy")
 ASIDE = ("logs/a.log", "benchmarks/a.tsv", "set-aside/tables/b.parquet", "tables/.a.parquet.123")
+#: Notes, former archives, and what a rule has made once, when it was named.
+ASIDE += ("notes.txt", "springblock-study.zip", "tables/former.zip", "tables/means.csv")
 
 
 @pytest.fixture
-def clone(tmp_path):
+def clone(tmp_path, monkeypatch):
     """A clone with results; contents do not matter."""
     folder = tmp_path / "study"
-    made = {f"results/{name}": name for name in (*RESULTS, *ASIDE)}
+    made = {f"results/{name}": name for name in (*RESULTS, *PRELUDES, *ASIDE)}
+    made["former.zip"] = "tracked by git"
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     for name, text in {**CODE, **made, "CITATION.cff": citation, "notes.txt": "mine"}.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
     subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
-    subprocess.run(["git", "add", *CODE, "CITATION.cff"], cwd=folder, check=True)
+    subprocess.run(["git", "add", *CODE, "CITATION.cff", "former.zip"], cwd=folder, check=True)
+    monkeypatch.chdir(folder)
+    spare = [*PRELUDES, "preludes/b.npz", "tables/means.csv"]
+    contents = {"ensembles": {}, "files": list(RESULTS), "spare": spare}
+    record.begin(folder / "results", {"realisations_per_job": 1}, contents)
     return folder
 
 
@@ -49,7 +58,8 @@ def test_it_holds_code_and_results_and_nothing_else(clone):
         names = file.namelist()
         assert file.testzip() is None
     assert len(names) == number
-    assert set(names) == {*CODE, "CITATION.cff", CRATE, *(f"results/{name}" for name in RESULTS)}
+    results = {f"results/{name}" for name in (*RESULTS, *PRELUDES, "study.json")}
+    assert set(names) == {*CODE, "CITATION.cff", CRATE, *results}
 
 
 def test_it_holds_an_untracked_configuration(clone):
@@ -60,7 +70,8 @@ def test_it_holds_an_untracked_configuration(clone):
 
 
 def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):
-    for name in RESULTS:  # unlike the code, of 2001
+    names = (*RESULTS, *PRELUDES, "study.json")
+    for name in names:  # unlike the code, of 2001
         os.utime(clone / "results" / name, (1e9, 1e9))
     output, _ = packed(clone)
     with zipfile.ZipFile(output) as file:
@@ -78,7 +89,7 @@ def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):
     assert run.type == "CreateAction"
     assert run["instrument"].id == "Snakefile"
     assert {each.id for each in run["object"]} == {"config/config.yaml", "environment.lock"}
-    assert {each.id for each in run["result"]} == {f"results/{name}" for name in RESULTS}
+    assert {each.id for each in run["result"]} == {f"results/{name}" for name in names}
     assert run["startTime"] == run["endTime"] == "2001-09-09T01:46:40+00:00"
     # what the profile Workflow Run Crate 0.5 and RO-Crate 1.1 require of the root
     root = crate.root_dataset
@@ -87,13 +98,44 @@ def test_the_crate_describes_every_file_and_the_run(clone, tmp_path):
     assert profiles == {"process", "workflow", "workflow-ro-crate"}
 
 
+@pytest.mark.parametrize("name", ["results/tables/a.parquet", "results/tables", "Snakefile"])
+def test_a_link_out_of_the_study_is_refused(clone, name):
+    """Of a file or a folder; the folder of results itself may be a link."""
+    moved = (clone / name).rename(clone.parent / "elsewhere")
+    (clone / name).symlink_to(moved)
+    sentence = rf"^{name}.* is a link to {moved}.*, outside of the study"
+    with pytest.raises(ValueError, match=sentence):
+        packed(clone)
+    (clone / name).unlink()
+    moved.rename(clone / name)
+    moved = (clone / "results").rename(clone.parent / "scratch")
+    (clone / "results").symlink_to(moved)
+    assert packed(clone)[1] > len(RESULTS)
+
+
+def test_results_outside_of_the_study_are_refused(clone):
+    elsewhere = clone.parent / "elsewhere"
+    with pytest.raises(ValueError, match=r"elsewhere is not in .*study, the folder of the study"):
+        archive(clone, elsewhere, clone / "config/config.yaml", clone / "a.zip")
+
+
 @pytest.mark.parametrize(
     ("missing", "sentence"),
-    [(".git", "is not a clone of the study"), ("results/tables", "run the study first")],
+    [
+        (".git", "is not a clone of the study"),
+        ("results/study.json", "results is not a folder of results of a study"),
+        ("results/claims.md", "results/claims.md is missing; `snakemake` makes it"),
+    ],
 )
-def test_an_unfinished_study_is_refused(clone, monkeypatch, missing, sentence):
+def test_an_unfinished_study_is_refused(clone, missing, sentence):
+    for name in ("tables/a.parquet", "realisations/b.parquet"):  # which are no tables
+        (clone / "results" / name).unlink()
+    needed = ["claims.md", "figures/figure_1.png"]
+    contents = {"ensembles": {}, "files": needed, "spare": list(PRELUDES)}
+    record.begin(clone / "results", {"realisations_per_job": 1}, contents)
+    for name in (*PRELUDES, "tables/former.zip", "tables/means.csv"):
+        (clone / "results" / name).unlink()
     (clone / missing).rename(clone.parent / "elsewhere")
-    monkeypatch.chdir(clone)
     outcome = CliRunner().invoke(main, ["archive", "results", "--output", "study.zip"])
     assert outcome.exit_code == 1
     assert sentence in outcome.output

@@ -4,6 +4,7 @@ from springblock.accuracy import conventions
 
 
 rule compare_scene:
+    """Measure errors of single runs and of ensembles."""
     input:
         rules.compile.output,
     output:
@@ -30,6 +31,7 @@ rule compare_scene:
 
 
 rule precision_table:
+    """Collect errors in one table."""
     input:
         expand(
             rules.compare_scene.output,
@@ -54,6 +56,7 @@ rule precision_table:
 
 
 use rule precision_table as production_table with:
+    """Collect errors with N = 120 in one table."""
     input:
         expand(rules.compare_scene.output, comparison="production", scene=conventions.SCENES),
     output:
@@ -67,6 +70,7 @@ use rule precision_table as production_table with:
 
 
 rule stability_table:
+    """Run stiff and extreme cases."""
     input:
         rules.compile.output,
     output:
@@ -87,6 +91,7 @@ rule stability_table:
 
 
 rule accuracy:
+    """Write the page on errors."""
     input:
         rules.precision_table.output,
         rules.stability_table.output,

@@ -7,6 +7,7 @@ GROUPS_CLAIMED += ["square", "ungrooved"]
 
 
 rule claims:
+    """Test the paper's statements."""
     input:
         batches=batches(ensembles(GROUPS_CLAIMED)),
         correlations=[
@@ -42,6 +43,7 @@ rule claims:
 
 
 use rule accuracy as beyond with:
+    """Answer questions beyond the paper."""
     input:
         batches(ensembles([*GROUPS_CLAIMED, *GROUPS_BEYOND])),
     output:

@@ -7,13 +7,17 @@ import shutil
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from itertools import chain
 from pathlib import Path
 from shlex import quote
 from types import SimpleNamespace
 
 import yaml
+from snakemake.common import NOTHING_TO_BE_DONE_MSG
 from snakemake.exceptions import WorkflowError
+from snakemake.settings.types import RerunTrigger
+from snakemake.utils import update_config
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from springblock.provenance import configuration_digest, digest
@@ -25,14 +29,26 @@ LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 with open(workflow.source_path("../schemas/config.schema.yaml")) as file:
     SCHEMA = yaml.load(file, LOADER)
 
-config = study.completed(config)
-RESULTS = str(Path(config.get("results", "")))  # without a slash at the end
-try:
+# Snakemake has not loaded the defaults for a module with `config`, or in another folder.
+if workflow.modifier.skip_configfile or not Path(DEFAULTS).exists():
+    with open(workflow.source_path(f"../../{DEFAULTS}")) as file:
+        given, config = config, yaml.load(file, LOADER)
+    update_config(config, given)
+
+
+@contextmanager
+def in_one_sentence():
+    """Report why a study cannot be run, without a traceback."""
+    try:
+        yield
+    except (OSError, TypeError, ValueError) as error:
+        raise WorkflowError(f"The study cannot be run: {error}.") from None
+
+
+with in_one_sentence():
+    config = study.completed(config)
     study.check(config, SCHEMA)
-    if workflow.is_main_process:
-        record.refuse_unknown(Path(RESULTS), config)
-except (TypeError, ValueError) as error:
-    raise WorkflowError(f"The study cannot be run: {error}.") from None
+RESULTS = str(Path(config["results"]))  # without a slash at the end
 
 BEGUN = time.time()
 OWN = study.is_own(config)
@@ -122,21 +138,30 @@ def minutes(wildcards, attempt):
     return attempt * cost.minutes(*work(wildcards))
 
 
-class Announced(logging.Handler):
-    """Adds up the expected times of the jobs of a dry run, and prints the sum at its end."""
+class Events(logging.Filter):
+    """Sees what Snakemake does, also as a module of another workflow, where `onstart` is not called."""
 
     def __init__(self):
         super().__init__()
-        self.times = []
+        self.times, self.tables = [], 0
 
-    def emit(self, record):
-        if getattr(record, "event", None) == LogEvent.JOB_INFO:
+    def filter(self, record):
+        """Return whether Snakemake shall print the record of an event."""
+        event = getattr(record, "event", None)
+        if event == LogEvent.WORKFLOW_STARTED:
+            start()
+        elif event == LogEvent.JOB_INFO and workflow.dryrun:
             self.times.append(expected(record.rule_name, SimpleNamespace(**record.wildcards)))
-
-    def close(self):
-        super().close()
-        if self.times and workflow.dryrun:
-            print(f"These jobs take {cost.in_words(self.times, workflow.cores)}.", file=sys.stderr)
+        elif event == LogEvent.RUN_INFO or record.msg == NOTHING_TO_BE_DONE_MSG:
+            self.tables += 1
+            if workflow.touch and event == LogEvent.RUN_INFO:
+                refuse("--touch does not compare them")
+            if not workflow.dryrun:
+                begin()
+            elif self.tables > 1:  # a dry run prints its table twice
+                said = cost.in_words(self.times, workflow.cores)
+                print(f"These jobs take {said}.", file=sys.stderr)
+        return self.tables < 2 or event != LogEvent.RUN_INFO
 
 
 def expected(name, wildcards):
@@ -147,16 +172,47 @@ def expected(name, wildcards):
 
 
 if workflow.is_main_process:
-    logging.getLogger("snakemake.logging").addHandler(Announced())
+    logging.getLogger("snakemake.logging").addFilter(Events())
+
+
+def start():
+    """Refuse results that may be of another configuration, and read targets; dry runs call this."""
+    compared = set(RerunTrigger.all()) <= set(workflow.rerun_triggers)
+    refuse("" if compared else "--rerun-triggers leaves such changes out")
+    targets = workflow.dag_settings.targets
+    workflow.dag_settings.targets = list(chain.from_iterable(map(meant, targets)))
+
+
+def refuse(unseen):
+    """Refuse results of other configurations, which Snakemake does not see for the reason given."""
+    with in_one_sentence():
+        record.refuse_unknown(Path(RESULTS), config, unseen)
+
+
+def meant(target):
+    """Targets that a target stands for: all files of a rule that has wildcards, as `prelude`."""
+    named = workflow.get_rule(target) if workflow.is_rule(target) else None
+    if named is None or not named.has_wildcards():
+        return [target]
+    return [file for file in {*NEEDED, *SPARE} if named.is_producer(file)] or [target]
 
 
 def begin():
-    """Record configuration and code before the first job; dry runs do not call this."""
+    """Record configuration, code and contents before the first job; dry runs do not call this."""
     refuse_orphans()
-    try:
-        record.begin(Path(RESULTS), config, touched=workflow.touch)
-    except (OSError, ValueError) as error:
-        raise WorkflowError(f"The study cannot be run: {error}.") from None
+    if workflow.dag_settings.targets == [rules.repair.rule.name]:  # compares with what is recorded
+        return
+    size = config["realisations_per_job"]
+    contents = {
+        "ensembles": {
+            name: record.needed(each, SETUPS[name], size) for name, each in ENSEMBLE.items()
+        },
+        "files": sorted(os.path.relpath(file, RESULTS) for file in NEEDED),
+        "spare": sorted(os.path.relpath(file, RESULTS) for file in {*SPARE} - {*NEEDED}),
+    }
+    with in_one_sentence():
+        remembers = workflow.execution_settings.keep_metadata
+        record.begin(Path(RESULTS), config, contents, remembers)
 
 
 def tell_errors():

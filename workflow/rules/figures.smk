@@ -3,6 +3,7 @@
 for figure in [*FIGURES, *SWEEPS]:
 
     rule:
+        """Draw this figure."""
         name:
             figure
         input:
@@ -31,6 +32,7 @@ for figure in [*FIGURES, *SWEEPS]:
 
 
 rule figures:
+    """Draw all figures."""
     input:
         expand(
             f"{RESULTS}/figures/{{name}}.{{kind}}", name=[*FIGURES, *SWEEPS], kind=["pdf", "png"]

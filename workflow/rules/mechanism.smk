@@ -5,6 +5,7 @@ from springblock.mechanism.surfaces import TABLES
 
 
 rule mechanism_part:
+    """Compare simpler models with the simulation."""
     input:
         rules.compile.output,
     output:
@@ -27,7 +28,12 @@ rule mechanism_part:
         "> {log:q} 2>&1"
 
 
+#: Tables of all parts.
+PARTS = expand(rules.mechanism_part.output, part=chain.from_iterable(TABLES.values()))
+
+
 use rule precision_table as mechanism_table with:
+    """Collect results of simpler models."""
     input:
         lambda here: expand(rules.mechanism_part.output, part=TABLES[here.table]),
     output:
@@ -45,6 +51,7 @@ use rule precision_table as mechanism_table with:
 
 
 use rule accuracy as mechanism with:
+    """Explain the lowest friction and two load peaks."""
     input:
         expand(rules.mechanism_table.output, table=TABLES),
     output:

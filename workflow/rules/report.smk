@@ -1,8 +1,14 @@
 # Films of the slip front, and the report: films, figures, pages and tables.
 
+#: Files of all films; the glossary beside this workflow.
+FILMED = [f"{RESULTS}/films/{surface}.mp4" for surface in FILMS]
+GLOSSARY = workflow.current_basedir.join("../../docs/glossary.md").get_path_or_uri(True)
+GLOSSARY = os.path.relpath(GLOSSARY)
+
 for surface, shown in FILMS.items():
 
     rule:
+        """Film the slip front on this surface."""
         name:
             f"film_{surface}"
         input:
@@ -25,6 +31,7 @@ for surface, shown in FILMS.items():
 
 
 rule report:
+    """Write the report: films, figures, pages and tables."""
     input:
         pictures=[file for file in rules.figures.input if file.endswith(".png")],
         claims=[] if OWN else rules.claims.output,
@@ -37,8 +44,8 @@ rule report:
         production=rules.production_table.output if config["production"] else [],
         mechanism=([rules.mechanism.output, rules.mechanism.input] if config["mechanism"] else []),
         beyond=rules.beyond.output if GROUPS_BEYOND else [],
-        glossary=[] if OWN else [file for file in ["docs/glossary.md"] if Path(file).exists()],
-        films=[f"{RESULTS}/films/{surface}.mp4" for surface in FILMS],
+        glossary=[] if OWN or not Path(GLOSSARY).exists() else GLOSSARY,
+        films=FILMED,
         runs=[batches([shown])[0] for shown in FILMS.values()],
     output:
         f"{RESULTS}/report.html",

@@ -17,9 +17,14 @@ LAWS = {str(getattr(setup.material.law, "file", setup.material.law)) for setup i
 #: Cuts of measured surfaces, by the name of the mask.
 MASKS = [ensemble.scene.mask for ensemble in ENSEMBLE.values() if ensemble.scene.mask]
 CUTS = {mask.name: mask.cut for mask in MASKS if mask.cut}
+CUTS_MADE = [f"{RESULTS}/surfaces/{name}.npy" for name in CUTS]
+#: Scenes whose fields are stored, and the files of all preludes.
+WITH_FIELDS = [name for name in ENSEMBLE if ENSEMBLE[name].snapshot_times]
+PRELUDES = [f"{RESULTS}/preludes/{name}.npz" for name in ENSEMBLE]
 
 
 rule compile:
+    """Compile the integrators and the laws of friction."""
     input:
         [law for law in LAWS if law.endswith(".py")],
     output:
@@ -41,32 +46,36 @@ rule compile:
         "springblock --code {params.code} compile {params.integrators} {params.laws} > {log:q} 2>&1"
 
 
-rule mask:
-    input:
-        topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
-    output:
-        f"{RESULTS}/surfaces/{{mask}}.npy",
-    log:
-        f"{RESULTS}/logs/surfaces/{{mask}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/surfaces/{{mask}}.tsv"
-    wildcard_constraints:
-        mask="|".join(map(re.escape, CUTS)),
-    resources:
-        mem_mb=800,
-        runtime=5,
-    params:
-        code=code("mask"),
-        cut=lambda wildcards: CUTS[wildcards.mask].arguments,
-    message:
-        "Cutting a measured surface: {wildcards.mask}"
-    shell:
-        "springblock --code {params.code} mask {input.topography:q} {params.cut} --output {output:q} "
-        "> {log:q} 2>&1"
+if CUTS:
+
+    rule mask:
+        """Cut contact masks from measured surfaces."""
+        input:
+            topography=lambda wildcards: str(CUTS[wildcards.mask].topography),
+        output:
+            f"{RESULTS}/surfaces/{{mask}}.npy",
+        log:
+            f"{RESULTS}/logs/surfaces/{{mask}}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/surfaces/{{mask}}.tsv"
+        wildcard_constraints:
+            mask="|".join(map(re.escape, CUTS)),
+        resources:
+            mem_mb=800,
+            runtime=5,
+        params:
+            code=code("mask"),
+            cut=lambda wildcards: CUTS[wildcards.mask].arguments,
+        message:
+            "Cutting a measured surface: {wildcards.mask}"
+        shell:
+            "springblock --code {params.code} mask {input.topography:q} {params.cut} --output {output:q} "
+            "> {log:q} 2>&1"
 
 
 # Preludes are not temp(): made again for more seeds, they would make finished batches run again.
 rule prelude:
+    """Load each scene up to its first detachment."""
     input:
         rules.compile.output,
         own_files,
@@ -93,6 +102,7 @@ rule prelude:
 
 
 rule simulate_batch:
+    """Simulate realisations, a batch in each job."""
     input:
         own_files,
         prelude=rules.prelude.output,
@@ -126,6 +136,7 @@ rule simulate_batch:
 
 
 rule simulate:
+    """Simulate all realisations."""
     input:
         batches(ENSEMBLE.values()),
     localrule: True
@@ -133,44 +144,49 @@ rule simulate:
         "All realisations are simulated"
 
 
-rule fields_of_scene:
-    input:
-        own_files,
-        prelude=rules.prelude.output,
-    output:
-        fields=f"{RESULTS}/fields/{{scene}}.nc",
-        run=temp(f"{RESULTS}/fields/{{scene}}.parquet"),
-    log:
-        f"{RESULTS}/logs/{{scene}}/fields.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/{{scene}}/fields.tsv"
-    resources:
-        mem_mb=memory,
-        runtime=minutes,
-    params:
-        code=code("simulate"),
-        scene=scene,
-        how=HOW,
-        duration=duration,
-        times=snapshots,
-        seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
-    message:
-        "Storing fields of {wildcards.scene}, seed {params.seed}"
-    shell:
-        "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
-        "--prelude {input.prelude:q} --first-seed {params.seed} {params.times} "
-        "--fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
+if WITH_FIELDS:
+
+    rule fields_of_scene:
+        """Store fields of one run of each scene with snapshot_times."""
+        input:
+            own_files,
+            prelude=rules.prelude.output,
+        output:
+            fields=f"{RESULTS}/fields/{{scene}}.nc",
+            run=temp(f"{RESULTS}/fields/{{scene}}.parquet"),
+        log:
+            f"{RESULTS}/logs/{{scene}}/fields.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/{{scene}}/fields.tsv"
+        resources:
+            mem_mb=memory,
+            runtime=minutes,
+        params:
+            code=code("simulate"),
+            scene=scene,
+            how=HOW,
+            duration=duration,
+            times=snapshots,
+            seed=lambda wildcards: ENSEMBLE[wildcards.scene].seeds[0],
+        message:
+            "Storing fields of {wildcards.scene}, seed {params.seed}"
+        shell:
+            "springblock --code {params.code} simulate {params.scene} {params.how} {params.duration} "
+            "--prelude {input.prelude:q} --first-seed {params.seed} {params.times} "
+            "--fields {output.fields:q} --output {output.run:q} > {log:q} 2>&1"
 
 
 rule fields:
+    """Store all fields."""
     input:
-        [f"{RESULTS}/fields/{name}.nc" for name in ENSEMBLE if ENSEMBLE[name].snapshot_times],
+        [f"{RESULTS}/fields/{name}.nc" for name in WITH_FIELDS],
     localrule: True
     message:
         "All fields are written"
 
 
 rule aggregate:
+    """Collect realisations in one table."""
     input:
         batches(ENSEMBLE.values()),
     output:
@@ -194,6 +210,7 @@ rule aggregate:
 
 
 rule means:
+    """Write means of ensembles with their intervals."""
     input:
         rules.aggregate.output,
     output:
@@ -214,6 +231,7 @@ rule means:
 
 
 rule repair:
+    """Set aside unusable files."""
     log:
         f"{RESULTS}/logs/repair.log",
     localrule: True

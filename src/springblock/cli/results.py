@@ -22,9 +22,10 @@ from springblock.study import audit
 def verify(results: Path | None, other: Path | None, physics: bool) -> None:
     """Check a folder of results, or compare two to the bit.
 
-    A folder is checked against its checksums and the current code. With OTHER, the tables
-    of two studies, or two files, are compared to the bit; `springblock compare` tests differences
-    of means. The exit status is 0 without a fault or difference, and 1 otherwise.
+    A folder is checked against the last configuration of its study, its checksums and the current
+    code. With OTHER, the tables of two studies, or two files, are compared to the bit; `springblock
+    compare` tests differences of means. The exit status is 0 without a fault or difference, and 1
+    otherwise.
     """
     if physics == (results is not None):
         raise click.UsageError("give either a folder or file of results, or --physics")
@@ -57,22 +58,23 @@ def _has_the_same_physics() -> bool:
 
 def _is_sound(results: Path, other: Path | None) -> bool:
     """Print the faults of a folder, and how its tables differ from those of another."""
-    found = [fault.reason for fault in audit.faults(results)]
-    complete = f"{results}: all files are complete, in their place and made by the current code"
+    found = [fault.reason for fault in audit.all_faults(results)]
+    complete = f"{results}: all files are there, complete, in their place and of the current code"
     click.echo("\n".join(found or [complete]))
     same = []
     if other is not None:
-        for file in sorted(results.glob("tables/*.parquet")):
-            name = file.relative_to(results)
-            same.append(_are_the_same(str(name), file, other / name))
+        files = (file for each in (results, other) for file in each.glob("tables/*.parquet"))
+        for name in sorted({f"tables/{file.name}" for file in files}):
+            same.append(_are_the_same(name, results / name, other / name))
     return not found and all(same)
 
 
 def _are_the_same(name: str, first: Path, second: Path) -> bool:
     """Print how two tables differ, and return whether they are equal to the bit."""
-    if not second.exists():
-        click.echo(f"{name}: missing in the second")
-        return False
+    for file, which in ((first, "first"), (second, "second")):
+        if not file.exists():
+            click.echo(f"{name}: missing in the {which}")
+            return False
     table = load(first)
     found = differences(table, load(second))
     same = f"the same {table.num_rows} rows, to the bit"
@@ -85,8 +87,8 @@ def _are_the_same(name: str, first: Path, second: Path) -> bool:
 def repair(results: Path) -> None:
     """Set aside the unusable files of a folder of results.
 
-    They are moved to the folder `set-aside` of RESULTS, and `snakemake` makes them again. Nothing
-    is deleted.
+    They are moved to the folder `set-aside` of RESULTS, and `snakemake` makes those again that the
+    study needs. Nothing is deleted.
     """
     found = list(audit.set_aside(results))
     for fault in found:
@@ -107,9 +109,15 @@ def repair(results: Path) -> None:
 def archive_study(results: Path, configuration: Path, output: Path) -> None:
     """Pack a study into one file, an RO-Crate.
 
-    It contains the code in this folder, the configuration and RESULTS.
+    It contains the code in this folder, the configuration and the files of the study in RESULTS,
+    in which `springblock verify` must find no fault.
     """
     from springblock.study.archive import archive  # needs the packages of the study
 
+    found = audit.all_faults(results)
+    for fault in found:
+        click.echo(fault.reason)
+    if found:
+        raise ValueError(f"{results} cannot be archived: {len(found)} of its files are at fault")
     number = archive(Path.cwd(), results.absolute(), configuration.absolute(), output)
     click.echo(f"{output} holds {number} files, {output.stat().st_size / 1e6:.1f} MB")

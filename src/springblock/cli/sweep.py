@@ -69,7 +69,8 @@ class Job(NamedTuple):
         if not self.file.exists():
             return False
         if not self.metadata.items() <= origin_of(load(self.file, [])).items():
-            raise ValueError(f"{self.file} has runs with other constants or code; remove it")
+            other = "runs with other constants or code"
+            raise ValueError(f"{self.file} has {other}; choose another folder")
         return True
 
     def run(self) -> int:

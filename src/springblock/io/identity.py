@@ -59,14 +59,17 @@ def read_record(results: Path) -> dict[str, Any]:
 
 @lru_cache(maxsize=4)
 def _read(file: Path, changed: int) -> dict[str, Any]:
-    """Read a record, once for each time at which it was changed."""
+    """Read a record, once for each time at which it was changed; older ones name no files."""
     try:
         record: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         _ = record["identity"], record["made"][-1]["configuration"]["realisations_per_job"]
-        _ = record["made"][-1]["code"]["simulate"], record["ensembles"].items()
+        _ = record["made"][-1]["code"]["simulate"], record.get("ensembles", {}).items()
     except (AttributeError, LookupError, TypeError, ValueError):
-        raise ValueError(f"{file} is damaged, or of another version") from None
-    return record
+        raise ValueError(
+            f"{file} is damaged; restore it from a copy, or choose another folder with the key "
+            "results"
+        ) from None
+    return {"ensembles": {}, "files": [], "spare": [], **record}
 
 
 def refuse_foreign(file: Path, table: pa.Table) -> None:

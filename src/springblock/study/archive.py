@@ -19,6 +19,8 @@ from rocrate.model.contextentity import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from springblock.files import whole_file
+from springblock.io.identity import RECORD
+from springblock.study.audit import needed
 
 CRATE = "ro-crate-metadata.json"
 _PROFILES = (
@@ -44,13 +46,17 @@ _TYPES = {
 def archive(study: Path, results: Path, configuration: Path, output: Path) -> int:
     """Pack code, configuration and results of a finished study; return the number of files.
 
-    `results` and `configuration` are in the folder `study`, a clone. Logs and other
-    untracked files of the study are omitted. Modification times are preserved, so that no result
-    appears to be out of date.
+    `results` and `configuration` are in the folder `study`, a clone. Packed are its tracked files
+    and those that its record names: no logs, notes or former archives. A link out of the study is a
+    ValueError. Modification times are preserved, so that no result appears to be out of date.
     """
+    for path in (results, configuration):
+        if not path.is_relative_to(study):
+            raise ValueError(f"{path} is not in {study}, the folder of the study")
     made = _results(study, results)
     used = configuration.relative_to(study).as_posix()
     files = sorted({*_code(study), used, *made})
+    _refuse_links(study, results, files)
     crate = _crate(study, files, made, used)
     with (
         whole_file(output) as partial,
@@ -63,21 +69,29 @@ def archive(study: Path, results: Path, configuration: Path, output: Path) -> in
 
 
 def _code(study: Path) -> list[str]:
-    """Return the tracked files of a clone."""
+    """Return the tracked files of a clone, without archives."""
     if not (study / ".git").exists():
         raise ValueError(f"{study} is not a clone of the study")
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=study, capture_output=True, check=True)
-    return [name for name in listed.stdout.decode().split("\0") if (study / name).is_file()]
+    names = listed.stdout.decode().split("\0")
+    return [name for name in names if (study / name).is_file() and not name.endswith(".zip")]
 
 
 def _results(study: Path, results: Path) -> list[str]:
-    """Return the results of the study, without logs and run times."""
-    aside = {"benchmarks", "logs", "set-aside"}
-    found = (file.relative_to(results) for file in sorted(results.rglob("*")) if file.is_file())
-    kept = [name for name in found if name.parts[0] not in aside and not name.name.startswith(".")]
-    if not any(name.parts[0] == "tables" for name in kept):
-        raise ValueError(f"{results} has no tables; run the study first")
-    return [(results / name).relative_to(study).as_posix() for name in kept]
+    """Return the files of a study, with the preludes and masks from which it can grow."""
+    record = needed(results)
+    kept = [name for name in record["spare"] if name.startswith(("preludes/", "surfaces/"))]
+    names = (results / name for name in (*record["files"], *kept, RECORD))
+    return [file.relative_to(study).as_posix() for file in names if file.exists()]
+
+
+def _refuse_links(study: Path, results: Path, files: list[str]) -> None:
+    """Refuse files outside of the study; the folder of results itself may be a link."""
+    places = study.resolve(), results.resolve()
+    for name in files:
+        target = (study / name).resolve()
+        if not any(target.is_relative_to(place) for place in places):
+            raise ValueError(f"{name} is a link to {target}, outside of the study; replace it")
 
 
 def _crate(study: Path, files: list[str], made: list[str], configuration: str) -> ROCrate:

@@ -1,38 +1,30 @@
-"""Check of a results folder: damaged, misplaced and outdated files."""
+"""Check of a results folder: missing, superfluous, damaged, foreign and outdated files."""
 
-from collections.abc import Iterator
+import json
+import re
+from collections.abc import Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from springblock.files import MENDING
 from springblock.io.fields import read_fields
+from springblock.io.identity import RECORD, read_record, refuse_foreign
 from springblock.io.parquet import load, origin_of
-from springblock.io.rows import Row
 from springblock.model.blockmap import BlockMap
-from springblock.model.material import Material, expanded
-from springblock.model.scene import Scene
-from springblock.provenance import code_version, same_code
+from springblock.provenance import code_version, configuration_digest, same_code
 from springblock.simulation.prelude import Prelude
-from springblock.simulation.setup import Setup
-from springblock.study.record import read
 
-#: Files that are checked, by the step that makes them.
-_MADE_BY = {
-    "simulate": (
-        "realisations/**/*.parquet",
-        "preludes/**/*.npz",
-        "fields/**/*.nc",
-        "tables/realisations.parquet",
-    ),
-    "mask": ("surfaces/*.npy",),
-    "analyse": ("correlations/**/*.parquet", "tables/correlation*.parquet"),
-    "accuracy": (
-        "accuracy/**/*.parquet",
-        *(f"tables/{name}.parquet" for name in ("work_precision", "production", "stability")),
-    ),
-    "mechanism": ("mechanism/*.parquet", "tables/mechanism*.parquet"),
-    "claims": ("tables/claims.parquet",),
-}
+#: Folders in which a study writes, and the steps that make their files.
+_FOLDERS = dict.fromkeys(("realisations", "preludes", "fields"), "simulate")
+_FOLDERS |= {"surfaces": "mask", "correlations": "analyse", "accuracy": "accuracy"}
+_FOLDERS |= {"mechanism": "mechanism", "tables": "", "figures": "", "films": ""}
+#: Steps that make tables, by the first word of their names.
+_TABLES = {"realisations": "simulate", "correlation": "analyse", "work": "accuracy"}
+_TABLES |= {"production": "accuracy", "stability": "accuracy"}
+_TABLES |= {"mechanism": "mechanism", "claims": "claims"}
+#: Name of a file that was being written when its job was killed, see `files.whole_file`.
+_PARTIAL = re.compile(r"\..+\.[0-9a-f]{32}")
 
 
 class Fault(NamedTuple):
@@ -42,15 +34,38 @@ class Fault(NamedTuple):
     reason: str
 
 
+def needed(results: Path) -> dict[str, Any]:
+    """Return the record of a results folder; without one, nothing can be checked."""
+    if not (results / RECORD).is_file():
+        raise ValueError(f"{results} is not a folder of results of a study: it has no {RECORD}")
+    record = read_record(results)
+    if not record["files"]:
+        raise ValueError(f"{results / RECORD} names no files yet; run `snakemake`, which adds them")
+    return record
+
+
+def all_faults(results: Path) -> list[Fault]:
+    """Return the faults of a results folder, and the files that it needs but does not have."""
+    absent = [results / name for name in needed(results)["files"] if not (results / name).exists()]
+    lost = [Fault(file, f"{file} is missing; `snakemake` makes it") for file in absent]
+    return [*lost, *faults(results)]
+
+
 def faults(results: Path) -> Iterator[Fault]:
-    """Yield the files that are damaged, misplaced, or made by different code."""
-    constants = _constants(results)
-    for step, patterns in _MADE_BY.items():
-        for file in sorted(file for pattern in patterns for file in results.glob(pattern)):
-            try:
-                _check(file, results, step, constants)
-            except (OSError, ValueError) as error:
-                yield Fault(file, str(error))
+    """Yield the files that are superfluous, damaged, or not those which the study needs."""
+    record = needed(results)
+    known = {*record["files"], *record["spare"]}
+    there = {results / name for name in known if (results / name).exists()}
+    for file in sorted({*there, *_files(results)}):
+        name = file.relative_to(results)
+        try:
+            if name.as_posix() not in known:
+                raise ValueError(
+                    f"{file} is not part of the study; `snakemake repair` sets it aside"
+                )
+            _check(file, name, record)
+        except (OSError, ValueError) as error:
+            yield Fault(file, str(error))
 
 
 def set_aside(results: Path) -> Iterator[Fault]:
@@ -64,43 +79,39 @@ def set_aside(results: Path) -> Iterator[Fault]:
         yield fault
 
 
-def _constants(results: Path) -> dict[str, Any]:
-    """Return the constants of the study from its record; none without a record."""
-    record = read(results)
-    if record is None:
-        return {}
-    last = record["made"][-1]["configuration"]
-    times = {key: last[key] for key in ("integrator", "step", "sample_interval")}
-    return Setup(Material().vary(last["material"]), **times).constants
+def _files(results: Path) -> Iterator[Path]:
+    """Yield the files in the folders of a study, and those that were never finished."""
+    for file in chain(results.glob(".*"), *((results / name).rglob("*") for name in _FOLDERS)):
+        if not file.is_dir() and (_PARTIAL.fullmatch(file.name) or not file.name.startswith(".")):
+            yield file
 
 
-def _check(file: Path, results: Path, step: str, constants: dict[str, Any]) -> None:
+def _check(file: Path, name: Path, record: Mapping[str, Any]) -> None:
     """Raise ValueError, with the reason, for a file that cannot be used."""
-    if step == "mask":
+    folder, last = name.parts[0], record["made"][-1]["configuration"]
+    step = _FOLDERS.get(folder) or _TABLES.get(name.stem.split("_")[0], "")
+    if file.suffix not in (".parquet", ".npz", ".nc", ".npy"):
+        return
+    place = name.parent if file.suffix == ".parquet" else name.with_suffix("")
+    ensemble = record["ensembles"].get(place.relative_to(folder).as_posix(), {})
+    wanted = configuration_digest(ensemble.get("identity", last))
+    if folder == "surfaces":
         BlockMap.mask(file)
         return
-    if file.suffix == ".npz":
-        version = Prelude.read(file).code_version
-    elif file.suffix == ".nc":
-        version = str(read_fields(file)[1].get("source", ""))
+    if folder == "preludes":
+        prelude, wanted = Prelude.read(file), ensemble["prelude"]
+        version = prelude.code_version
+        found = configuration_digest({"conditions": prelude.conditions})
+    elif folder == "fields":
+        attributes = read_fields(file)[1]
+        version = str(attributes.get("source", ""))
+        found = configuration_digest(json.loads(attributes.get("identity", "{}")))
     else:
         table = load(file)
+        refuse_foreign(file, table)
         version = origin_of(table).get("code_version", "")
-        if file.is_relative_to(results / "realisations"):
-            _check_batch(file, results, table.slice(0, 1).to_pylist()[0], constants)
+        found = origin_of(table).get("configuration_digest", wanted)
     if not same_code(version, code_version(step)):
         raise ValueError(f"{file} was made by different code, {version}; {MENDING}")
-
-
-def _check_batch(file: Path, results: Path, row: Row, constants: dict[str, Any]) -> None:
-    """Refuse realisations of a scene or a study other than that of their folder."""
-    scene = Scene.from_row(row)
-    if file.parent != results / "realisations" / scene.folder:
-        raise ValueError(f"{file} is misplaced, since it holds {scene}; {MENDING}")
-    found, varied = expanded(row), dict(scene.varied)
-    expected = (constants if "law" in varied else expanded(constants)) | varied
-    for name, value in expected.items():
-        if found[name] != (str(value) if name == "law" else value):
-            raise ValueError(
-                f"{name} is {found[name]!r} in {file}, but {value!r} in the study; {MENDING}"
-            )
+    if found != wanted:
+        raise ValueError(f"{file} was made with another configuration; {MENDING}")

@@ -1,8 +1,8 @@
-"""Record of the configurations and the code of a results folder, in one of its files.
+"""Record of what a results folder holds: its configurations, their code, and all files.
 
 Snakemake stores how each file was made in `.snakemake`, and makes it again after a change. Without
 that folder it has only time stamps, and would accept results of another configuration; the record
-prevents this.
+prevents this. With it, each file is checked against what the last configuration needs.
 """
 
 import json
@@ -12,24 +12,28 @@ from typing import Any
 from uuid import uuid4
 
 from springblock.files import write_text
-from springblock.provenance import STEPS, digest
+from springblock.io.identity import RECORD, identity, read_record
+from springblock.model.direction import heading
+from springblock.provenance import STEPS, configuration_digest, digest
+from springblock.simulation.setup import Setup
+from springblock.study.configuration import Ensemble
 
-RECORD = "study.json"
 #: Folder with an empty file for each results folder that belongs to this `.snakemake`, by identity.
 MEMORY = Path(".snakemake", "springblock")
 
 
-def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
+def refuse_unknown(results: Path, configuration: Mapping[str, Any], unseen: str = "") -> None:
     """Refuse results of unknown origin, which may be of another configuration or other code.
 
-    Writes nothing, so that dry runs may call it.
+    `unseen` is the reason why Snakemake does not see such changes, if it does not. Writes nothing,
+    so that dry runs may call it.
     """
-    record = read(results)
+    record = read_record(results) if (results / RECORD).exists() else None
     if record is None:
         if any((results / part).exists() for part in ("preludes", "realisations")):
             raise ValueError(
                 f"{results} holds results without {RECORD}, the record of their configuration; "
-                "remove them, or choose another folder with the key results"
+                "restore it from a copy, or choose another folder with the key results"
             )
         return
     before = record["made"][-1]["configuration"]
@@ -40,54 +44,54 @@ def refuse_unknown(results: Path, configuration: Mapping[str, Any]) -> None:
             "another folder with the key results"
         )
     if not (MEMORY / record["identity"]).exists():
-        _refuse_other(results, record, configuration, "Snakemake's metadata on them are missing")
-
-
-def begin(results: Path, configuration: Mapping[str, Any], touched: bool) -> None:
-    """Record configuration and code of a run before its first job.
-
-    `snakemake --touch`, which marks any results as up to date, may not change either.
-    """
-    record = read(results)
-    if touched and record is not None:
-        _refuse_other(results, record, configuration, "--touch does not compare them")
-    if record is None:
-        record = {"identity": uuid4().hex, "made": []}
-        MEMORY.mkdir(parents=True, exist_ok=True)
-        (MEMORY / record["identity"]).touch()
+        unseen = "Snakemake's metadata on them are missing"
     now = _now(configuration)
-    if now in record["made"]:
-        record["made"].remove(now)
-    record["made"].append(now)
-    write_text(results / RECORD, json.dumps(record, indent=1))
-
-
-def read(results: Path) -> dict[str, Any] | None:
-    """Return the record of a results folder, or None without one."""
-    try:
-        record: dict[str, Any] = json.loads((results / RECORD).read_text(encoding="utf-8"))
-        _ = record["identity"], record["made"][-1]["configuration"]["realisations_per_job"]
-    except FileNotFoundError:
-        return None
-    except (LookupError, TypeError, ValueError):
-        raise ValueError(f"{results / RECORD} is damaged; remove {results}") from None
-    return record
-
-
-def _refuse_other(
-    results: Path, record: Mapping[str, Any], configuration: Mapping[str, Any], reason: str
-) -> None:
-    """Raise ValueError unless all results are of this configuration and code."""
-    now = _now(configuration)
-    for made in record["made"]:
+    for made in record["made"] if unseen else []:
         for part in ("configuration", "code"):
             was, here = made[part], now[part]
             differs = [key for key in was | here if was.get(key, ...) != here.get(key, ...)]
             if differs:
                 raise ValueError(
                     f"{results} may hold results of another {part} ({', '.join(differs)}), and "
-                    f"{reason}; remove {results}, or choose another folder with the key results"
+                    f"{unseen}; choose another folder with the key results"
                 )
+
+
+def begin(
+    results: Path,
+    configuration: Mapping[str, Any],
+    contents: Mapping[str, Any],
+    remembers: bool = True,
+) -> None:
+    """Record configuration, code and contents of a study before the first job of a run.
+
+    `contents` has `ensembles`, by folder, as `needed` describes them; `files`, which the study has
+    when it is finished; and `spare`, files that it may also have.
+    `remembers` says whether Snakemake stores metadata on what it makes.
+    """
+    record = read_record(results) if (results / RECORD).exists() else None
+    if record is None:
+        record = {"identity": uuid4().hex, "made": []}
+        MEMORY.mkdir(parents=True, exist_ok=True)
+        (MEMORY / record["identity"]).touch()
+    if not remembers:
+        (MEMORY / record["identity"]).unlink(missing_ok=True)
+    now = _now(configuration)
+    made = [each for each in record["made"] if each != now]
+    write_text(results / RECORD, json.dumps({**record, "made": [*made, now], **contents}, indent=1))
+
+
+def needed(ensemble: Ensemble, setup: Setup, size: int) -> dict[str, Any]:
+    """Return the identity of runs, the digest of their prelude, and the seeds of each batch."""
+    from springblock.simulation.prelude import conditions  # loads numba
+
+    scene, times = ensemble.scene, ensemble.snapshot_times
+    loading = conditions(scene.contact, setup, heading(scene.direction), scene.is_periodic)
+    return {
+        "identity": identity(scene, setup, ensemble.duration, times),
+        "prelude": configuration_digest({"conditions": loading}),
+        "batches": {i: [seeds[0], seeds[-1]] for i, seeds in ensemble.batches(size).items()},
+    }
 
 
 def _now(configuration: Mapping[str, Any]) -> dict[str, Any]:

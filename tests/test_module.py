@@ -1,0 +1,92 @@
+"""The study as a module of another workflow, and run from another folder."""
+
+import re
+
+import numpy as np
+import pytest
+import yaml
+
+from springblock.io.identity import read_record
+from springblock.study.audit import all_faults
+from studies import ROOT, TINY, Study
+
+SNAKEFILE = """\
+configfile: "tiny.yaml"
+
+module springs:
+    snakefile: "{root}/Snakefile"
+    config: config
+
+use rule * from springs as springs_*
+"""
+#: Keys without which `study: own` has nothing to simulate.
+PARTIAL = {
+    "study": "own",
+    "results": "results/mine",
+    "material": {"slider_velocity": 5e-3},
+    "scenes": {"a": {"mask": "islands.npy", "direction": ["x"], "seeds": 2}},
+}
+
+
+def merged(defaults, given):
+    """Defaults with the keys that are given in their place, as Snakemake merges files."""
+    if not isinstance(given, dict) or not isinstance(defaults, dict):
+        return given
+    return defaults | {key: merged(defaults.get(key), value) for key, value in given.items()}
+
+
+FULL = merged(yaml.safe_load((ROOT / "config/own.yaml").read_text()), PARTIAL)
+
+
+@pytest.fixture
+def host(tmp_path):
+    """A workflow with the study as its module, and nothing else of it."""
+    (tmp_path / "Snakefile").write_text(SNAKEFILE.format(root=ROOT))
+    np.save(tmp_path / "islands.npy", np.indices((12, 12)).sum(axis=0) % 5 > 1)
+    return Study(tmp_path, ("--cores", "2"))
+
+
+@pytest.mark.parametrize("given", [PARTIAL, FULL], ids=["partial", "full"])
+def test_a_module_runs_once_and_then_has_nothing_to_do(host, given):
+    """A changed material makes all of it again; a dry run records nothing."""
+    host.write("tiny.yaml", given)
+    before = host.planned()
+    assert not (host / "results").exists()
+    assert before["springs_simulate_batch"] == 1
+    host.run()
+    results = host / "results/mine"
+    assert not all_faults(results)
+    assert read_record(results)["made"][-1]["configuration"] == FULL
+    assert "Nothing to be done" in host.run()
+    host.write("tiny.yaml", merged(given, {"material": {"gamma": 4e3}}))
+    assert host.planned().keys() == before.keys() - {"springs_compile"}
+    refused = host.run("--rerun-triggers", "mtime", refused=True)
+    assert "results/mine may hold results of another configuration (material)" in refused
+
+
+def test_a_module_is_refused_what_its_schema_does_not_know(host):
+    host.write("tiny.yaml", PARTIAL | {"gamma": 1.0})
+    assert "unknown key 'gamma'" in host.run("--dry-run", refused=True)
+
+
+def test_no_message_advises_to_remove_results():
+    files = [*(ROOT / "src").rglob("*.py"), *(ROOT / "workflow").rglob("*.smk")]
+    texts = {file: file.read_text() for file in files}
+    assert not [file for file, text in texts.items() if re.search(r"remove (\{results|them)", text)]
+
+
+@pytest.mark.parametrize("option", ["-s", "-d"])
+def test_a_study_in_another_folder_has_the_same_defaults_and_glossary(tmp_path, option):
+    """Snakemake itself looks for default configurations only in the folder in which it runs."""
+    here = Study(tmp_path)
+    here.write("tiny.yaml", {"scenes": TINY["scenes"], "figures": TINY["figures"]})
+    shown = ("--dry-run", "--quiet", "host", "-p", "--cores", "1")
+    if option == "-s":
+        said = here.run("-s", str(ROOT / "Snakefile"), *shown)
+    else:
+        configuration = (str(here / "tiny.yaml"),)
+        said = Study(ROOT).run("-d", str(tmp_path), *shown, configuration=configuration)
+    assert "--n-blocks 120" in said
+    (report,) = re.findall(r"^Shell command: (springblock .+ report .+)$", said, re.MULTILINE)
+    (glossary,) = re.findall(r"\S+glossary\.md", report)
+    assert (tmp_path / glossary).resolve() == ROOT / "docs/glossary.md"
