@@ -27,7 +27,7 @@ PAGES = {
 }
 
 LINKING = ["README.md", "CONTRIBUTING.md", "config/README.md"]
-LINKING += [f"docs/{file.name}" for file in sorted(ROOT.glob("docs/*.md"))]
+LINKING += [str(file.relative_to(ROOT)) for file in sorted(ROOT.glob("docs/**/*.md"))]
 
 
 def numberless(text):
@@ -53,9 +53,8 @@ def test_the_page_on_errors_is_what_the_code_writes():
 
 def test_the_page_on_statements_is_what_the_code_writes():
     text = claims_page(rows(CLAIMS, Evidence()))
-    measured = ("Of ", "|", "**", "<details>", "Data: ", "</details>", "Nothing has been changed")
+    measured = ("Of ", "|", "**", "<details>", "Data: ", "</details>")
     assert unmeasured(PAGES["claims"], measured) == unmeasured(text, measured)
-    assert "no reason is given" not in PAGES["claims"]
 
 
 def test_the_page_beyond_the_paper_is_what_the_code_writes():
@@ -143,10 +142,3 @@ def test_commands_that_pages_show_are_known_with_their_options():
             assert set(re.findall(r"(?<!\S)--[\w-]+", words)) <= known, name
             shown += 1
     assert shown > 20
-
-
-def test_a_summary_of_a_statement_is_read_at_a_glance():
-    summary = PAGES["claims"].partition("## The statements")[2].partition("\n## ")[0]
-    cells = [cell for line in summary.splitlines() for cell in line.split(" | ")[1:]]
-    assert len(cells) > 400
-    assert max(map(len, cells)) <= 160

@@ -1,7 +1,11 @@
 """The rule from intervals to verdicts, and what the table and the page make of it."""
 
+import csv
 import math
+import re
+from collections import Counter
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,8 +14,9 @@ from scipy.stats import t
 from springblock import Material, compute_prelude
 from springblock.analysis.estimate import Estimate, Proportion
 from springblock.analysis.statistics import mean_interval, proportion_interval, students_t
-from springblock.claims import CLAIMS, register
-from springblock.claims.page import _clearness, page
+from springblock.claims import CLAIMS
+from springblock.claims import page as pages
+from springblock.claims.page import CHANGED, _clearness, page
 from springblock.claims.rule import Claim, Evidence, Finding, boundary, verdict
 from springblock.claims.stress import elastic_forces
 from springblock.claims.table import SCHEMA, rows
@@ -19,6 +24,8 @@ from springblock.io.parquet import rows_to_table
 from springblock.model.scene import Scene
 
 INF = float("inf")
+ROOT = Path(__file__).parents[2]
+REGISTER = ROOT / "docs/registration"
 
 
 def finding(low, high, claimed=(0.0, INF), n=10**6, **case):
@@ -228,43 +235,43 @@ def test_the_page_holds_the_deciding_numbers(claims, expected):
     assert expected in page(rows(claims, Evidence()))
 
 
-def test_what_was_changed_since_the_register_is_listed_with_its_reason(monkeypatch):
-    common = {"form": "general", "verdict": "reproduced", "verdict_1_0_0": "depends on"}
-    common |= {"claimed_high": "inf", "case": "n_p = 0"}
-    names = {"It grows": "0.5", "It is gone": "0.0"}
-    before = [{"claim": name, "claimed_low": low, **common} for name, low in names.items()]
-    monkeypatch.setattr(register, "registered", lambda _: before)
-    monkeypatch.setattr(register, "reasons", lambda: {"It grows": "0.5 was a slip"})
+def test_a_test_is_marked_as_registered_or_as_changed_with_its_reason(monkeypatch):
+    monkeypatch.setattr(pages, "CHANGED", {"It grows": "0.5 was a slip"})
     text = page(rows(SOME, Evidence()))
-    assert "| It grows | range | 0.5 was a slip |" in text
-    assert "It is gone" not in text  # not everything needs to be simulated
-    assert "**reproduced** | reproduced | reproduced | depends on |" in text
-    before[0]["claimed_low"] = "0.0"
-    grows = rows(SOME[:1], Evidence())
-    assert "| It grows | test | 0.5 was a slip |" in register.changes(grows)
-    before[0]["case"] = "n_p = 6"
-    assert "| It grows | cases | 0.5 was a slip |" in register.changes(grows)
-    monkeypatch.setattr(register, "reasons", dict)
-    assert "| It grows | cases | no reason is given |" in register.changes(grows)
-    before[0]["case"] = "n_p = 0"
-    assert register.changes(grows) == "Nothing has been changed since."
+    assert "**reproduced** | changed |" in text
+    assert "Changed after registration: 0.5 was a slip." in text
+    assert text.count("Registered before its data.") == len(SOME) - 1
 
 
-def test_verdicts_nearer_to_the_paper_and_farther_from_it_are_counted(monkeypatch):
-    confirmed = ["not reproduced", "not settled", "reproduced", "reproduced", "not tested"]
-    now = ["reproduced in part", "reproduced", "reproduced", "not settled", "reproduced"]
-    before = {str(i): {"confirmed": verdict} for i, verdict in enumerate(confirmed)}
-    monkeypatch.setattr(register, "verdicts", lambda: before)
-    table = [{"claim": str(i), "verdict": verdict} for i, verdict in enumerate(now)]
-    assert register.moved([*table, {"claim": "new", "verdict": "reproduced"}]) == (2, 1)
+def registered(name):
+    with (REGISTER / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def test_every_statement_is_as_registered():
     """One that is new, or in another form, has a reason, and reasons have a statement."""
-    forms = {name: row["form"] for name, row in register.verdicts().items()}
+    forms = {row["claim"]: row["form"] for row in registered("register.csv")}
     others = {claim.name for claim in CLAIMS if claim.form != forms.get(claim.name)}
-    assert others <= set(register.reasons()) <= {claim.name for claim in CLAIMS}
+    assert others <= set(CHANGED) <= {claim.name for claim in CLAIMS}
     assert set(forms) <= {claim.name for claim in CLAIMS}
+
+
+@pytest.mark.parametrize("place", ["README.md", "docs/claims.md", "docs/registration/README.md"])
+def test_pages_count_the_verdicts_of_the_registered_tests(place):
+    found = Counter(row["verdict"] for row in registered("confirmed.csv"))
+    text = " ".join((ROOT / place).read_text(encoding="utf-8").split())
+    said = re.search(r"gave,?[^.]* \d+ reproduced[^.]* not settled\.", text)
+    names = ("reproduced", "reproduced in part", "not reproduced", "not settled")
+    numbers = [int(number) for number in re.findall(r"(\d+) (?:reproduced|in part|not)", said[0])]
+    assert numbers == [found[name] for name in names]
+
+
+def test_the_readme_counts_registered_and_changed_tests():
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    number, changed = len(registered("confirmed.csv")), len(CHANGED)
+    assert f"The tests of {number} statements were registered" in text
+    assert f"Of these tests, {changed - len(CLAIMS) + number} were later changed" in text
+    assert f"on these {changed} statements are not confirmatory" in text
 
 
 def test_forces_across_grooves_are_those_of_the_turned_surface():

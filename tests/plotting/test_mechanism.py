@@ -16,20 +16,7 @@ TABLE = pd.DataFrame(
         for seed in (-1, 0, 1)
     ]
 )
-BUDGET = pd.DataFrame(
-    [
-        {"direction": direction, "model": model, "seed": seed, "time": 1e-6 * time}
-        | {"edge": 0.1 * time, "core": 0.2 * time, "free": 0.01 * seed}
-        for direction in "xy"
-        for model in ("simulation", "overshooting")
-        for seed in (-1, 0, 1)
-        for time in (1.0, 2.0)
-    ]
-)
-DRAWINGS = {
-    "mechanism_friction": lambda: drawing("mechanism_friction")(TABLE),
-    "mechanism_budget": lambda: drawing("mechanism_budget")(BUDGET),
-}
+DRAWINGS = {"mechanism_friction": lambda: drawing("mechanism_friction")(TABLE)}
 
 
 def test_each_model_is_drawn_with_its_mean_by_size():
@@ -51,12 +38,3 @@ def test_edges_bear_more_than_the_inside_which_the_slider_pulls_alone():
     assert stress[0].min() > inside.max()
     assert stress[:, 0].min() > inside.max()
     assert stress.mean() == pytest.approx(1.0, rel=1e-3)  # other pillars lie nearer to the middle
-
-
-def test_edges_core_and_blocks_without_contact_add_up_to_friction():
-    for ax in DRAWINGS["mechanism_budget"]().axes:
-        for lines in (ax.lines[::2], ax.lines[1::2]):  # of each model
-            both, edges, core = (line.get_ydata() for line in lines)
-            assert lines[0].get_xdata() == pytest.approx([1.0, 2.0])
-            assert both == pytest.approx(np.add(edges, core))
-            assert edges == pytest.approx([0.1, 0.2])

@@ -1,4 +1,4 @@
-"""Nothing that the study writes from given data changes unnoticed.
+"""No number, command or plan that the study derives from given data changes unnoticed.
 
 The data are those made up for other tests; no simulation is involved, so that the numbers do not
 depend on the processor (but for stiff cases, which are simulated for their closed forms).
@@ -11,7 +11,6 @@ import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
-from html import unescape
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -25,8 +24,6 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 from scipy.io import netcdf_file
 
 import precision
@@ -43,22 +40,17 @@ from springblock.accuracy.stability import all_cases
 from springblock.beyond.page import QUESTIONS
 from springblock.beyond.page import page as questions
 from springblock.claims import CLAIMS
-from springblock.claims.page import page as statements
-from springblock.claims.table import SCHEMA
 from springblock.claims.table import rows as judged
 from springblock.cli import main
 from springblock.cli.simulate import batch_table
 from springblock.io.fields import write_fields
-from springblock.io.parquet import rows_to_table, write
+from springblock.io.parquet import write
 from springblock.io.records import Record
 from springblock.io.rows import Row
 from springblock.io.schemas import SUMMARY
 from springblock.mechanism.page import page as mechanism
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.scene import Scene
-from springblock.plotting.figures import FIGURES
-from springblock.report.findings import findings as findings_of
-from springblock.report.page import page as report
 from springblock.simulation.fields import Fields
 from springblock.study import configuration as study
 from studies import ROOT, TINY, Study
@@ -84,11 +76,15 @@ def written(table: pd.DataFrame) -> str:
     return table.to_csv(index=False, float_format="%.9g")
 
 
-def claims() -> str:
-    """What the page says of each statement, without the paper's words, and its summary."""
-    page = statements(evidence()[1])
-    kept = [line for line in page.splitlines() if re.match(r"#|\*\*|\||<|Data", line)]
-    return "\n".join(kept) + "\n"
+def pages() -> str:
+    """Numbers in the rows of tables on pages; their words may change."""
+    lines = [
+        f"{name},{' '.join(NUMBER.findall(line))}"
+        for name, page in PAGES.items()
+        for line in page().splitlines()
+        if line.startswith("|") and NUMBER.search(line)
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def beyond() -> str:
@@ -212,8 +208,7 @@ def fields() -> str:
 
 
 def reasons() -> str:
-    parts = (chapter.rows(), chapter.variants(), chapter.peaks(), chapter.budget())
-    return mechanism(*map(pd.DataFrame, parts))
+    return mechanism(pd.DataFrame(chapter.rows()), pd.DataFrame(chapter.variants()))
 
 
 def plans() -> str:
@@ -321,65 +316,6 @@ def printed(words: list[str]) -> Iterator[str]:
     yield CliRunner().invoke(main, words).output
 
 
-def reported() -> str:
-    """Words and addresses of the report on all made-up data, and of one on own scenes."""
-    records, claims = evidence()
-    few = [run for run in records if run.seed < 3]
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        pages = {"mechanism": reasons(), "claims": statements(claims), "accuracy": accuracy()}
-        for page, text in pages.items():
-            (folder / f"{page}.md").write_text(text, encoding="utf-8")
-        for figure, declared in FIGURES.items():
-            info = PngInfo()
-            info.add_text("Description", f"{declared.caption} Its sample.")
-            Image.new("RGB", (40, 20)).save(folder / f"{figure}.png", pnginfo=info)
-        table = folder / "realisations.parquet"
-        write(rows_to_table(claims, SCHEMA), folder / "claims.parquet", ORIGIN)
-        write(rows_to_table(list(map(summary, few)), SUMMARY), table, ORIGIN)
-        files = sorted(folder.iterdir())
-        whole, own = report(files, {}), report([table], {}, own=True)
-    return "\n\n".join([readable(whole), found_otherwise(few), readable(own)]) + "\n"
-
-
-def found_otherwise(few: list[Record]) -> str:
-    """Findings where small pillars slide as easily, lengths fall and no order is significant."""
-    weak = paper.changed(few, paper.PILLARS[:1], lambda run: {"force": 0.772 * run.force})
-    data = paper.evidence(weak)
-    lengths = {
-        scene: [
-            row | {name: row[name] - 0.05 * row["n_p"] for name in ("l_c", "ci_low", "ci_high")}
-            for row in rows
-        ]
-        for scene, rows in data.correlation_length.items()
-    }
-    rows = judged(CLAIMS, replace(data, correlation_length=lengths))
-    tables = {"realisations": list(map(summary, weak)), "claims": rows}
-    return yaml.safe_dump(
-        plain(findings_of(tables)), sort_keys=False, width=200, allow_unicode=True
-    )
-
-
-def plain(value: Any) -> Any:
-    """Return a value as YAML writes it: tuples as lists, numbers of NumPy as those of Python."""
-    if isinstance(value, dict):
-        return {plain(key): plain(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(inner) for inner in value]
-    return value.item() if isinstance(value, np.generic) else value
-
-
-def readable(html: str) -> str:
-    """Text and the targets of links, without what other recordings hold."""
-    body = re.sub(r"<(style|script)\b.*?</\1>", "", html, flags=re.DOTALL)
-    body = re.sub(r'"data:[^"]*"', '"data"', body)
-    body = re.sub(r'<section id="(claims|mechanism|accuracy)".*?</section>', "", body, flags=re.S)
-    body = re.sub(r'<a [^>]*?href="([^"]*)"[^>]*>', r"[\1] ", body)
-    text = unescape(re.sub(r"<[^>]*>", " ", body))
-    lines = (" ".join(line.split()) for line in text.splitlines())
-    return "\n".join(filter(None, lines))
-
-
 def jobs() -> str:
     """The commands of all jobs of a tiny study."""
     with tempfile.TemporaryDirectory() as name:
@@ -449,20 +385,17 @@ def shown(ax: Axes) -> Iterator[tuple[str, np.ndarray]]:
         yield "images", np.reshape(image.get_extent(), (2, 2))
 
 
+PAGES = {"accuracy": accuracy, "beyond": beyond, "mechanism": reasons}
 TEXTS: dict[str, Callable[[], str]] = {
     "accuracy.csv": errors_measured,
-    "accuracy.md": accuracy,
-    "beyond.md": beyond,
     "cases.csv": cases,
     "claims.csv": findings,
-    "claims.md": claims,
     "commands.txt": commands,
     "fields.txt": fields,
     "figures.csv": figures,
     "jobs.txt": jobs,
-    "mechanism.md": reasons,
+    "pages.csv": pages,
     "plans.txt": plans,
-    "report.txt": reported,
 }
 
 

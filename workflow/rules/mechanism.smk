@@ -1,5 +1,4 @@
-# Why friction depends on the size of pillars, and when it has two load peaks: simpler models beside
-# the simulation.
+# Why friction depends on the size of pillars: simpler models beside the simulation.
 
 from springblock.mechanism.surfaces import TABLES
 
@@ -17,7 +16,7 @@ rule mechanism_part:
     wildcard_constraints:
         part="|".join(chain.from_iterable(TABLES.values())),
     resources:
-        mem_mb=1800,
+        mem_mb=500,
         runtime=15,
     params:
         code=code("mechanism"),
@@ -64,4 +63,4 @@ use rule accuracy as mechanism with:
         code=code("report"),
         page="mechanism",
     message:
-        "Explaining the lowest friction and two load peaks"
+        "Explaining the lowest friction"

@@ -65,8 +65,7 @@ def answers(ensembles: Ensembles) -> Iterator[str]:
         f"than across them** on {more} of {len(found)} surfaces{small}, and less prominent on "
         f"{less or 'none'}. For sliding along the grooves, its prominence is largest "
         f"with pawls of {most.n_p2} and grooves of {most.n_s2} blocks {place}: "
-        f"{number(along[most], ' %')} of the largest force{rank} (`docs/mechanism.md` has more "
-        "surfaces)."
+        f"{number(along[most], ' %')} of the largest force{rank}."
     )
     pairs = [(on, off) for on in found if on.n_p and (off := on._replace(n_p=0)) in found]
     if pairs:

@@ -6,12 +6,19 @@ criterion: where the paper compares in words ("similar", "uniform", "the same"),
 tolerance.
 """
 
+from pathlib import Path
+
 from springblock.claims import flat, grooves, load_peaks, pillars, sides, stress
-from springblock.claims.register import table_in
 from springblock.claims.rule import Claim
 
 _CHAPTERS = stress, flat, pillars, sides, grooves, load_peaks
 _TESTS = {name: test for chapter in _CHAPTERS for name, test in vars(chapter).items()}
+
+
+def table_in(name: str) -> list[list[str]]:
+    """Return the rows of a file of this folder that is a table in Markdown."""
+    _, _, *lines = Path(__file__).with_name(name).read_text(encoding="utf-8").splitlines()
+    return [line.strip("| ").split(" | ") for line in lines]
 
 
 def _statement(words: str, test: str) -> str:

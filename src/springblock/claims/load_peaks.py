@@ -183,10 +183,7 @@ def slips_again(peaks: Peaks) -> float:
 def stressed_between_peaks(peaks: Peaks) -> float:
     """Test: between the load peaks the surface bears more than if all blocks slid. After the second
     peak the force falls below this value in every run. Only the force on the whole surface is
-    tested, not that on its parts. With pawls of 8, in five runs with other seeds, the edges bear
-    0.50 F_n per block when the core bears most, at about the second peak (`docs/mechanism.md`):
-    less than sliding blocks, which bear 0.6 F_n. If “whole” meant all parts up to this time, the
-    statement would fail.
+    tested, not that on its parts.
     """
     run = peaks.run
     return (peaks.lowest - run.material.mu_dynamic * run.normal_force) / run.normal_force

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from springblock.claims import register
+from springblock.claims import table_in
 from springblock.claims.rule import capitalised, phrase
 from springblock.io.rows import Row, listed, markdown_table
 
@@ -29,6 +29,8 @@ Part = tuple[int, list[Row]]  #: a statement's number, and its rows
 
 #: The rule, the intervals, and the statements that are not tested.
 _PAGE = Path(__file__).with_name("page.md")
+#: Why the test of a statement is not the one that was registered; statements by name.
+CHANGED = dict(table_in("reasons.md"))
 
 
 def page(table: Sequence[Row]) -> str:
@@ -39,8 +41,6 @@ def page(table: Sequence[Row]) -> str:
         total=len(numbered),
         tally=listed([first.replace(" ", " are ", 1), *others]),
         summary="\n\n".join(_contents(numbered)),
-        changes=register.changes(table),
-        moved=register.moved(table),
         sections="\n\n".join(_section(*part) for part in numbered),
     )
 
@@ -59,22 +59,19 @@ def numbered_parts(table: Sequence[Row]) -> list[Part]:
 
 def _contents(numbered: Sequence[Part]) -> list[str]:
     """Tables of statements and verdicts, section by section."""
-    earlier, parts = register.verdicts(), []
-    header = ["statement", "form", "verdict", "registered test", "first seeds", "former rules"]
-    header += ["deciding finding", "claimed"]
+    parts = []
+    header = ["statement", "form", "verdict", "test", "deciding finding", "claimed"]
     for section, group in groupby(numbered, key=lambda part: part[1][0]["section"]):
         lines = []
         for number, part in group:
             first, heading = part[0], f"{number}. {part[0]['claim']}"
-            before = earlier.get(first["claim"], {})
             link, verdict = f"[{heading}](#{anchor(heading)})", f"**{first['verdict']}**"
-            names = ("confirmed", "verdict", "verdict_1_0_0")
-            old = [before.get(name, "") or "–" for name in names]
+            mark = "changed" if first["claim"] in CHANGED else "registered"
             found = _deciding(part)
             said, claimed = _missing(first), "–"
             if found:
                 said, claimed = f"{_in_words(found, part)}.", _range(found)
-            lines.append([link, first["form"], verdict, *old, said, claimed])
+            lines.append([link, first["form"], verdict, mark, said, claimed])
         parts += [f"### Section {section}: {_SECTIONS[section]}", markdown_table(header, lines)]
     return parts
 
@@ -160,6 +157,8 @@ def _section(number: int, part: Sequence[Row]) -> str:
     quoted, tested, criterion = first["statement"].partition(" Test: ")
     lines = [f"## {number}. {first['claim']}", f"{quoted} (section {first['section']})"]
     lines += [f"Test: {criterion}"] if tested else []
+    why = CHANGED.get(first["claim"])
+    lines.append(f"Changed after registration: {why}." if why else "Registered before its data.")
     lines.append(
         f"**{first['verdict'].capitalize()}** ({first['form']} statement). {decided(part)}"
     )

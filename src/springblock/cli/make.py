@@ -47,7 +47,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
       collect            one table, from tables of equal columns made by the same code
       accuracy           page on errors, from the tables work_precision, stability,
                          realisations and, if there is one, production
-      mechanism          page on friction and load peaks, from its tables
+      mechanism          page on static friction, from its tables
       beyond             page on questions beyond the paper, from batches
     """
     wanted, least, most = INPUTS[name]
@@ -64,7 +64,7 @@ def make(name: str, inputs: tuple[Path, ...], configuration: str | None, output:
 def _measure(name: str, output: Path) -> None:
     """Write a table that does not depend on the configuration."""
     from springblock.accuracy import production, stability, work_precision
-    from springblock.mechanism.tables import measure
+    from springblock.mechanism.tables import FRICTION, measure
 
     kind, _, scene = name.partition("-")
     step, schema = "accuracy", work_precision.SCHEMA
@@ -73,8 +73,7 @@ def _measure(name: str, output: Path) -> None:
     elif kind == "production":
         schema, rows = production.SCHEMA, list(production.production_rows(scene))
     elif kind == "mechanism":
-        step, (schema, found) = "mechanism", measure(scene)
-        rows = list(found)
+        step, schema, rows = "mechanism", FRICTION, list(measure(scene))
     else:
         rows = list(work_precision.ROWS[kind](scene))
     write(rows_to_table(rows, schema), output, {"code_version": code_version(step)})

@@ -26,14 +26,12 @@ SPRINGS = {(0, 1): 1.0, (1, 0): 1.0, (1, 1): 0.5, (1, -1): 0.5}
 class Layer:
     """Elasticity of a layer, pulled along x, reduced to its k blocks in contact.
 
-    `contact` is (N_y, N_x); edges are free or periodic. Vectors have the x components of all
-    blocks, then the y components.
+    `contact` is (N_y, N_x), with free edges. Vectors have the x components of all blocks, then the
+    y components.
     """
 
-    def __init__(
-        self, contact: NDArray[np.bool_], material: Material, periodic: bool = False
-    ) -> None:
-        whole = lattice_stiffness(contact.shape, material, periodic)
+    def __init__(self, contact: NDArray[np.bool_], material: Material) -> None:
+        whole = lattice_stiffness(contact.shape, material)
         bound = np.tile(contact.ravel(), 2)
         load = material.k_s * np.repeat([1.0, 0.0], contact.size)
         self._held, self._load_held = whole[bound][:, bound], load[bound]
@@ -68,9 +66,7 @@ class Layer:
         return splu(self._free)
 
 
-def lattice_stiffness(
-    shape: tuple[int, int], material: Material, periodic: bool = False
-) -> csc_array:
+def lattice_stiffness(shape: tuple[int, int], material: Material) -> csc_array:
     """Return K, (2 N_y N_x, 2 N_y N_x), N/m: x components row by row, then y components.
 
     A spring along the unit vector n between blocks i and j adds k n nᵀ (u_j - u_i) to the force
@@ -82,8 +78,8 @@ def lattice_stiffness(
     for (up, right), share in SPRINGS.items():
         along = np.array([right, up]) / np.hypot(right, up)
         inside = (y + up < shape[0]) & (x + right >= 0) & (x + right < shape[1])
-        one = blocks[inside | periodic]
-        other = np.roll(blocks, (-up, -right), axis=(0, 1))[inside | periodic]
+        one = blocks[inside]
+        other = np.roll(blocks, (-up, -right), axis=(0, 1))[inside]
         # (springs, 2 N_y N_x): the elongation of each spring
         rows = np.tile(np.arange(one.size), 4)
         columns = np.concatenate([other, other + blocks.size, one, one + blocks.size])

@@ -18,7 +18,6 @@ sliding blocks acts along x.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from springblock.mechanism.elasticity import Layer
 from springblock.model.numbers import Array
@@ -94,13 +93,8 @@ def quasi_static(layer: Layer, static: Array, dynamic: Array) -> Curve:
     return Curve(*np.array(found).T)
 
 
-def overshooting(
-    layer: Layer, static: Array, dynamic: Array, of: NDArray[np.bool_] | None = None
-) -> Curve:
-    """Let blocks slip and stick again, until each has detached once.
-
-    The force is that on the blocks `of`, (k,) bool, by default on all.
-    """
+def overshooting(layer: Layer, static: Array, dynamic: Array) -> Curve:
+    """Let blocks slip and stick again, until each has detached once."""
     strength, k = np.maximum(static, dynamic), len(static)
     left = np.minimum(2.0 * dynamic - strength, (1.0 - _LEAST_DROP) * strength)
     pairs = layer.stiffness.reshape(2, k, 2, k)[:, range(k), :, range(k)]
@@ -113,7 +107,7 @@ def overshooting(
         block = int(np.argmin(reached))
         force += (reached[block] - s) * pull
         s = reached[block]
-        found.append((s, force[0].sum() if of is None else force[0, of].sum()))
+        found.append((s, force[0].sum()))
         overload = np.inf
         while overload > 1.0 + _SLACK:
             slipped[block] = True

@@ -181,19 +181,6 @@ FIGURES: dict[str, Declaration] = {
         marks=f"""e) Exact values. f) Symbols: means; bars:
         {INTERVALS.replace("realisations", "seeds")}.""",
     ),
-    "mechanism_budget": Declaration(
-        title="Share of the load on edges and core",
-        module="mechanism",
-        caption="""Force over the normal force against time, on all blocks, on the edges (contact
-        blocks beside one out of contact) and on the core (the other contact blocks), for pawls of 8
-        blocks between grooves of 2 on a pillar of 58 (N = 120), sliding a) along the grooves and b)
-        across them; 5 seeds.""",
-        draws="tables",
-        tables=("mechanism_budget",),
-        marks=f"""Lines: means; bands: {INTERVALS.replace("realisations", "seeds")}. Solid: full
-        model; dashed: blocks that overshoot and stick again, until each has detached once; there,
-        time is the slider's displacement over its velocity.""",
-    ),
     "beyond_lattice": Declaration(
         title="Lattice or layer",
         module="beyond",

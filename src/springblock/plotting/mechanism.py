@@ -1,23 +1,21 @@
-"""Figures of the mechanism: stress before slip, friction by model, and the share of the load."""
+"""Figure of the mechanism: stress before slip, and friction by model."""
 
 from collections.abc import Sequence
-from itertools import product
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from springblock.analysis.statistics import mean_interval
 from springblock.mechanism.elasticity import Layer
 from springblock.mechanism.page import NAMES
 from springblock.mechanism.surfaces import TABLES
 from springblock.model.material import Material
 from springblock.model.numbers import Array
 from springblock.plotting import style
-from springblock.plotting.curves import FRICTION, draw_band, draw_means, name_places
+from springblock.plotting.curves import FRICTION, draw_means, name_places
 from springblock.plotting.maps import draw_map
-from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, MICRO, VERMILION, Look, color_bar
+from springblock.plotting.style import BLACK, BLUE, GREEN, GREY, VERMILION, Look, color_bar
 
 _SHOWN = (3, 6, 10, 20)  #: n_p of the pillars whose stress is mapped
 _COLORS = "cividis"
@@ -27,8 +25,6 @@ _LOOKS: dict[str, Look] = {
     "overshooting": {"color": VERMILION, "marker": "D", "linestyle": "--"},
     "simulation": {"color": BLACK, "marker": "o"},
 }
-_LINES = {"simulation": "-", "overshooting": "--"}
-_BEARERS = {"both": ("all", BLACK), "edge": ("edges", VERMILION), "core": ("core", BLUE)}
 
 
 def mechanism_friction(table: pd.DataFrame) -> Figure:
@@ -47,25 +43,6 @@ def mechanism_friction(table: pd.DataFrame) -> Figure:
     for ax in (uneven, friction):
         name_places(ax, table["n_p"])
         ax.set_xlabel("size of pillars $n_p$ (blocks)")
-    return picture
-
-
-def mechanism_budget(table: pd.DataFrame) -> Figure:
-    """Draw the force on all blocks, edges and core against time, a) along and b) across."""
-    picture, axes = style.panels(style.DOUBLE, 75.0, "ab", sharex=True, sharey=True)
-    whole = table.assign(both=table["edge"] + table["core"] + table["free"])
-    for ax, direction in zip(axes, "xy", strict=True):
-        here = whole[whole["direction"] == direction]
-        for (name, (label, color)), (model, line) in product(_BEARERS.items(), _LINES.items()):
-            runs = here[here["model"] == model]
-            curves = runs.pivot(index="seed", columns="time", values=name).dropna(axis=1)
-            look: Look = {"linestyle": line, "label": f"{label}, {NAMES[model]}"}
-            shown = mean_interval(curves.to_numpy())
-            draw_band(ax, MICRO * curves.columns.to_numpy(), shown, color, **look)
-        ax.set_xlabel("time (µs)")
-        ax.set_title({"x": "along the grooves", "y": "across the grooves"}[direction], loc="right")
-    axes[0].set(ylabel="force over normal force", ylim=(0.0, None))
-    style.legend_above(picture, axes[0], ncols=3)
     return picture
 
 

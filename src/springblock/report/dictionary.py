@@ -59,8 +59,6 @@ def page() -> str:
             "a seed on a flat surface, or on pillars with other gaps or constants",
             mechanism.FRICTION,
         ),
-        "mechanism_peaks": ("a seed on one surface with grooves", mechanism.PEAKS),
-        "mechanism_budget": ("a time in one run of one model", mechanism.BUDGET),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
     sections = []

@@ -146,15 +146,7 @@ def _peaks(tables: Tables) -> dict[str, Any]:
         "along": [(size, _quoted(row)) for size, row in ordered],
         "others": [(name, _quoted(row)) for name, row in others.items()],
         "is_open": not alone or alone[0]["verdict"] == "not settled",
-        "alone": _without_pillars(tables, ordered[0][0]),
     }
-
-
-def _without_pillars(tables: Tables, width: int) -> str:
-    """Return the fall of the force along grooves of 2 blocks that cut a flat surface into pawls."""
-    rows = select(tables.get("mechanism_peaks", []), n_p=0, n_p2=width, n_s2=2, varied="")
-    falls = [row["measured"] for row in rows if row["direction"] == "x"]
-    return number(mean_interval(np.array(falls) / 100.0)) if falls else ""
 
 
 def _tested(tables: Tables, claim: str) -> list[Row]:

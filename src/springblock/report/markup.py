@@ -1,7 +1,7 @@
 """Text, pages in Markdown and tables, as HTML or ready for it."""
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -28,12 +28,11 @@ _MANY = 20  #: chapters from which on the numbered ones are folded
 
 
 class Page(NamedTuple):
-    """A page as HTML, with its title, and what opens it and each of its chapters."""
+    """A page as HTML, with its title and what opens it."""
 
     title: str
     body: Markup = Markup()
     opening: Sequence[Markup] = ()
-    answers: Mapping[str, Markup] = {}  #: first paragraph of each chapter, by its heading
 
 
 def typeset(text: str) -> Markup:
@@ -80,8 +79,7 @@ def rendered(name: str, markdown: str, pages: Collection[str] = ()) -> Page:
         if len(chapters) > _MANY and chapter[1].content[:1].isdigit():
             heading, rest = _FOLDED.format(heading), rest + _END
         body += heading + rest
-    answers = {part[1].content: html(next(_blocks(part[3:]), [])) for part in chapters}
-    return Page(title, body, [html(block) for block in _blocks(opening)], answers)
+    return Page(title, body, [html(block) for block in _blocks(opening)])
 
 
 def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
@@ -96,8 +94,7 @@ def _blocks(tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
 
 def _formula(found: re.Match[str]) -> str:
     """Write a formula of one line in plain characters."""
-    text = re.sub(r"\\sqrt\{(.*?)\}", r"√(\1)", found[1])
-    return text.replace(r"\mu", "μ").replace(r"\pi", "π").replace("*", r"\*").strip()
+    return found[1].replace(r"\mu", "μ").replace("*", r"\*").strip()
 
 
 def _mark(name: str, tokens: Sequence[Token], pages: Collection[str]) -> None:

@@ -105,11 +105,10 @@ def _of_study(
     placed = {MODEL, *(name for finding in found for name in SHOWN[finding])}
     claims = rows.get("claims", [])
     mechanism = pages.get("mechanism", markup.Page(""))
-    peaks = [text for heading, text in mechanism.answers.items() if "two load peaks" in heading]
     return {
         "findings": found,
         "SHOWN": SHOWN,
-        "reasons": {"friction": mechanism.opening[:-1], "peaks": peaks},
+        "reasons": {"friction": mechanism.opening},
         "model": figures.get(MODEL),
         "statements": statements(claims),
         "counted": counted(numbered_parts(claims)),
