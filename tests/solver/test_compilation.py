@@ -14,12 +14,74 @@ from springblock.solver import compilation
 from springblock.solver.compilation import _cache_folder, _digest, _OneCompiler
 
 
-def test_each_kind_of_processor_compiles_once(tmp_path):
-    """And has a folder of its own."""
-    unlike = ({}, {"NUMBA_CPU_NAME": "generic"}) * 2
-    found = [run_kernels(tmp_path / "cache", **processor) for processor in unlike]
-    assert found == [(["0", "0"], [COMPILING], 0)] * 2 + [(["1", "1"], [], 0)] * 2
-    assert len(list(tmp_path.glob("cache/springblock/*/lock"))) == 2  # see `_OneCompiler`
+def test_each_kind_of_processor_and_each_setting_compiles_once(tmp_path):
+    """And has a folder of its own. The number of threads does not count."""
+    unlike = ({"NUMBA_OPT": "0"}, {}, {"NUMBA_CPU_NAME": "generic"}) * 2
+    found = [
+        run_kernels(tmp_path / "cache", NUMBA_NUM_THREADS=str(1 + i // 3), **setting)
+        for i, setting in enumerate(unlike)
+    ]
+    assert found == [(["0", "0"], [COMPILING], 0)] * 3 + [(["1", "1"], [], 0)] * 3
+    assert len(list(tmp_path.glob("cache/springblock/*/lock"))) == 3  # see `_OneCompiler`
+
+
+def flipped(file, at):
+    content = bytearray(file.read_bytes())
+    content[int(at * (len(content) - 1))] ^= 4
+    file.write_bytes(content)
+
+
+DAMAGES = {
+    "empty": lambda file: file.write_bytes(b""),
+    "text": lambda file: file.write_text("text"),
+    "truncated": lambda file: file.write_bytes(file.read_bytes()[:-100]),
+    "missing": lambda file: file.unlink(),
+    "flipped first bit": lambda file: flipped(file, 0.0),
+    "flipped bit": lambda file: flipped(file, 0.3),
+    "flipped bit in the checksum": lambda file: flipped(file, 1.0),
+}
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    """A folder with the machine code of both kernels."""
+    cache = tmp_path_factory.mktemp("warm") / "cache"
+    assert run_kernels(cache)[0] == ["0", "0"]
+    return cache
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_damaged_machine_code_is_compiled_again(warm, damage):
+    """The index of one kernel, the code of the other; both are whole afterwards."""
+    (index,), (code,) = warm.rglob("*doubled*.nbi"), warm.rglob("*summed*.nbc")
+    for file in (index, code):
+        DAMAGES[damage](file)
+    assert run_kernels(warm) == (["0", "0"], [COMPILING], 0)
+    assert run_kernels(warm) == (["1", "1"], [], 0)
+
+
+def test_a_full_disk_stops_no_run(tmp_path):
+    full = "import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))\n"
+    hits, said, code = run_kernels(tmp_path / "cache", full)
+    assert (hits, said[:1], code) == (["0", "0"], [COMPILING], 0)
+    assert said[1].startswith(f"machine code cannot be cached in {tmp_path}")
+    assert said[1].endswith("File too large")
+    assert len(said) == 2
+
+
+@pytest.mark.parametrize("by_link", [False, True])
+def test_a_folder_is_refused_if_others_can_replace_one_above_it(tmp_path, monkeypatch, by_link):
+    open_to_all = tmp_path / "open"
+    (open_to_all / "own").mkdir(parents=True)
+    (tmp_path / "link").symlink_to(open_to_all / "own")
+    given = tmp_path / "link" if by_link else open_to_all / "own"
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(given))
+    for mode in (0o777, 0o775):
+        open_to_all.chmod(mode)
+        with pytest.raises(PermissionError, match=f"others can write to {open_to_all}$"):
+            _cache_folder()
+    open_to_all.chmod(0o1777)  # as /tmp
+    assert _cache_folder().is_relative_to(open_to_all / "own")
 
 
 @pytest.mark.parametrize("mode", [0o777, 0o770])

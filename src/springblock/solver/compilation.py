@@ -1,9 +1,10 @@
 """Compilation of the kernels by numba, and the cache of their machine code.
 
 Machine code is cached in `springblock/<digest>` in `$NUMBA_CACHE_DIR`, or else in the user's cache
-folder; the digest covers the sources of the solver, the release of numba and the processor. An
-import of this module leaves numba's settings unchanged. But if it declares the first function of a
-process, the vector width chosen in `_processor_features` holds for all functions of that process.
+folder; the digest covers the sources of the solver, numba's release and settings, and the
+processor. Files are loaded only if their checksums match. Where nothing can be cached, each process
+compiles. An import of this module leaves numba's settings unchanged. But if it declares the first
+function of a process, the vector width chosen in `_processor_features` holds for all its functions.
 """
 
 import contextlib
@@ -11,6 +12,7 @@ import fcntl
 import hashlib
 import logging
 import os
+import stat
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -58,24 +60,38 @@ with _setting("CPU_FEATURES", _FEATURES):
     njit(lambda: None)
 
 
+#: Settings that differ between processes, or nodes, which may share their machine code.
+_WITHOUT_EFFECT = {"CACHE_DIR", "NUMBA_DEFAULT_NUM_THREADS", "NUMBA_NUM_THREADS"}
+
+
 def _digest() -> str:
-    """Return the digest of sources, numba's release and processor; 16 hexadecimal digits."""
+    """Return the digest of sources, numba's release and settings, and processor; 16 digits."""
     name = numba.config.CPU_NAME or llvmlite.binding.get_host_cpu_name()
-    content = hashlib.sha256(repr((numba.__version__, name, _FEATURES)).encode())
+    known = sorted(vars(numba.config).items())
+    settings = [each for each in known if each[0].isupper() and each[0] not in _WITHOUT_EFFECT]
+    content = hashlib.sha256(repr((numba.__version__, name, _FEATURES, settings)).encode())
     for file in sorted(Path(__file__).parent.glob("*.py")):
         content.update(file.name.encode() + file.read_bytes())
     return content.hexdigest()[:16]
 
 
 def _cache_folder() -> Path:
-    """Return the folder for machine code, to which only this user can write: numba executes it."""
+    """Return the folder for machine code, to which only this user can write: numba executes it.
+
+    As for the keys of ssh, this includes all folders above, but for those like /tmp from which only
+    owners can remove files. The owner of / is root, or stands for root in a container.
+    """
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
-    shared = Path(home or Path.home() / ".cache") / "springblock"
-    for folder in (shared, shared / _digest()):
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        status = folder.stat()
-        if status.st_uid != os.getuid() or status.st_mode & 0o022:
-            raise PermissionError(f"others can write to {folder}")
+    folder = Path(home or Path.home() / ".cache").absolute() / "springblock" / _digest()
+    for each in (*reversed(folder.parents), folder):
+        each.mkdir(mode=0o700, exist_ok=True)
+    folder = folder.resolve()
+    for each in (folder, *folder.parents):
+        status, is_own = each.stat(), each in (folder, folder.parent)
+        owners = {os.getuid()} if is_own else {os.getuid(), Path("/").stat().st_uid, 0}
+        is_open = status.st_mode & 0o022 and (is_own or not status.st_mode & stat.S_ISVTX)
+        if status.st_uid not in owners or is_open:
+            raise PermissionError(f"others can write to {each}")
     if not os.access(folder, os.W_OK):
         raise PermissionError(f"{folder} is read-only")
     return folder
@@ -89,17 +105,16 @@ except (OSError, RuntimeError) as error:
     _COMPILING = f"compiling for this process alone, some 15 s, because nothing is cached: {error}"
 
 
-@cache
-def _say_compiling() -> None:
-    _LOG.warning(_COMPILING)
+_warn_once = cache(_LOG.warning)
 
 
 try:  # internals, which numba may move or change without notice
+    from numba.core.caching import FunctionCache, IndexDataCacheFile
     from numba.core.compiler import Compiler
     from numba.core.cpu import CPUTargetOptions
     from numba.core.event import Listener, register
 except ImportError:
-    Compiler = Listener = CPUTargetOptions = object
+    Compiler = CPUTargetOptions = FunctionCache = IndexDataCacheFile = Listener = object
 
 #: Whether numba has these internals. Without them kernels are slower and may differ in last bits.
 HAS_PRIVATE_PARTS = hasattr(CPUTargetOptions, "_nrt")
@@ -113,7 +128,7 @@ class _Restrict(Compiler):  # type: ignore[misc]
     """
 
     def define_pipelines(self):
-        _say_compiling()
+        _warn_once(_COMPILING)
         self.state.flags.noalias = True
         return super().define_pipelines()
 
@@ -130,14 +145,56 @@ class _OneCompiler(Listener):  # type: ignore[misc]
     def on_start(self, event):
         self._depth += 1
         if self._depth == 1:
-            self._lock = os.open(self._file, os.O_RDWR | os.O_CREAT, 0o600)
-            with contextlib.suppress(OSError):  # a file system without locks
+            with contextlib.suppress(OSError):  # a full disk, or a file system without locks
+                self._lock = os.open(self._file, os.O_RDWR | os.O_CREAT, 0o600)
                 fcntl.flock(self._lock, fcntl.LOCK_EX)
 
     def on_end(self, event):
         self._depth -= 1
-        if self._depth == 0:
+        if self._depth == 0 and self._lock >= 0:
             os.close(self._lock)
+            self._lock = -1
+
+
+class _SealedFiles(IndexDataCacheFile):  # type: ignore[misc]
+    """Files of machine code that end with a checksum; those that are damaged count as missing."""
+
+    def _load_index(self):
+        return super()._load_index() if _is_whole(self._index_path) else {}
+
+    def _load_data(self, name):
+        if not _is_whole(self._data_path(name)):
+            raise FileNotFoundError(name)
+        return super()._load_data(name)
+
+    @contextlib.contextmanager
+    def _open_for_write(self, filepath):
+        with super()._open_for_write(filepath) as file:
+            yield file
+            file.flush()
+            file.write(hashlib.sha256(Path(file.name).read_bytes()).digest())
+
+
+def _is_whole(file: str) -> bool:
+    try:
+        content = Path(file).read_bytes()
+    except OSError:
+        return False
+    return hashlib.sha256(content[:-32]).digest() == content[-32:]
+
+
+class _Cache(FunctionCache):  # type: ignore[misc]
+    """Cache of a function in sealed files; without space for them, each process compiles."""
+
+    def __init__(self, function):
+        super().__init__(function)
+        self._cache_file.__class__ = _SealedFiles
+
+    def save_overload(self, *compiled):
+        try:
+            super().save_overload(*compiled)
+        except OSError as error:
+            _warn_once(f"machine code cannot be cached in {FOLDER}: {error}")
 
 
 if FOLDER and HAS_PRIVATE_PARTS:
@@ -149,8 +206,12 @@ def cached_njit(function: Callable[..., Any], **options: Any) -> Any:
 
     The folder of a function is fixed when the function is declared.
     """
-    with _setting("CACHE_DIR", str(FOLDER)):
-        return njit(cache=FOLDER is not None, **options)(function)
+    compiled = njit(**options)(function)
+    if FOLDER and HAS_PRIVATE_PARTS:
+        # numba refuses a folder in which it cannot make a file
+        with _setting("CACHE_DIR", str(FOLDER)), contextlib.suppress(RuntimeError):
+            compiled._cache = _Cache(function)
+    return compiled
 
 
 #: Fused multiply-adds are allowed, but nothing that would drop a NaN or reorder a sum.
