@@ -103,6 +103,17 @@ def test_a_refused_study_runs_and_writes_nothing(tmp_path):
     assert {*tmp_path.iterdir()} - before <= {tmp_path / ".snakemake"}
 
 
+def test_an_unforeseen_error_in_a_configuration_is_one_sentence(tmp_path):
+    study = Study.begun(tmp_path)
+    study.edit(
+        "study/texts.py", "def check_texts(", "def check_texts(*_): {}['x']\n\n\ndef unused("
+    )
+    said = study.run("-n", refused=True)
+    assert "The study cannot be run: " in said
+    assert "KeyError('x'); SPRINGBLOCK_TRACEBACK=1 shows where this happened." in said
+    assert "Traceback" not in said
+
+
 def png(width, height):
     """A small file whose header promises a large image."""
     file = io.BytesIO()

@@ -8,6 +8,8 @@ import pytest
 
 from springblock.analysis.comparison import differences
 from springblock.io.parquet import write
+from springblock.mechanism.surfaces import TABLES as PARTS
+from springblock.plotting.figures import FIGURES
 
 CONFIGURATION = ("--configuration", "0123")
 PAGE = ("--output", "{here}/a", "--page", "{here}/a.md")
@@ -33,6 +35,40 @@ def test_what_is_no_table_is_refused(springblock, batch, tmp_path, words):
     words = [word.format(file=text, here=tmp_path, batch=batch(0, 2)) for word in words]
     assert "Parquet" in springblock(*words, refused=True)
     assert list(tmp_path.iterdir()) == [text]
+
+
+TABLES = [(name, each.tables) for name, each in FIGURES.items() if each.draws == "tables"]
+CLAIMED = ("correlation", "correlation-length", "work-precision")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(("figure", name, "{file}", "--output", "{here}/a.png") for name, _ in TABLES),
+        *(("claims", "{batch}", f"--{name}", "{file}", *CONFIGURATION, *PAGE) for name in CLAIMED),
+        ("make", "accuracy", *["{file}"] * 3, "--output", "{here}/a.md"),
+        ("make", "mechanism", *["{file}"] * len(PARTS), "--output", "{here}/a.md"),
+        ("plot", "{file}", "--output", "{here}/a.png"),
+        ("animate", "{file}", "--output", "{here}/a.gif"),
+        ("table", "{file}"),
+        ("compare", "{batch}", "{file}"),
+        ("aggregate", "{file}", *CONFIGURATION, "--output", "{here}/a"),
+    ],
+    ids=" ".join,
+)
+def test_a_table_of_another_kind_is_refused_by_name(springblock, batch, tmp_path, words):
+    write(pa.table({"a": [1.0]}), tmp_path / "table", {"code_version": "1.0.0+0123"})
+    words = [w.format(file=tmp_path / "table", here=tmp_path, batch=batch(0, 2)) for w in words]
+    said = springblock(*words, refused=True)
+    assert said.startswith(f"Error: {tmp_path / 'table'} lacks the column ")
+    assert not list(tmp_path.glob("a*"))
+
+
+@pytest.mark.parametrize(("name", "tables"), TABLES)
+def test_a_figure_takes_its_tables_alone(springblock, batch, tmp_path, name, tables):
+    files = [batch(0, 2)] * (len(tables) + 1)
+    said = springblock("figure", name, *files, "--output", tmp_path / "a.png", refused=True)
+    assert said == f"Error: {len(files)} files given; give {', '.join(tables)}"
 
 
 def changed(file, to, **columns):

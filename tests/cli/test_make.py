@@ -13,7 +13,14 @@ from springblock.accuracy.stability.cases import Case, Outcome
 from springblock.accuracy.work_precision import rows_of
 from springblock.io.parquet import write
 from springblock.io.rows import select
+from springblock.mechanism.surfaces import TABLES
 from springblock.model.defaults import STEP
+from springblock.report.dictionary import kinds
+
+
+def as_table(name, rows):
+    """Rows as the table of this name; columns that they lack hold nothing."""
+    return pa.Table.from_pylist(rows, pa.schema([(f.name, f.type) for f in kinds()[name][1]]))
 
 
 def test_too_few_or_too_many_inputs_are_refused(springblock, tmp_path):
@@ -48,8 +55,8 @@ def test_models_on_small_pillars_become_a_table(springblock, tmp_path, monkeypat
 def test_the_tables_of_the_mechanism_become_a_page(springblock, tmp_path):
     parts = (chapter.rows(), chapter.variants())
     files = [tmp_path / str(number) for number in range(len(parts))]
-    for file, found in zip(files, parts, strict=True):
-        write(pa.Table.from_pylist(found), file, {})
+    for name, file, found in zip(TABLES, files, parts, strict=True):
+        write(as_table(name, found), file, {})
     springblock("make", "mechanism", *files, "--output", tmp_path / "page")
     text = " ".join((tmp_path / "page").read_text().split())
     assert "20 (or 6)" in text
@@ -67,9 +74,9 @@ def page(springblock, batch, tmp_path):
 
     def written(*tables, precision=precision_rows()):  # noqa: B008
         stability = [{"family": "size", "expected": "agrees", "outcome": "agrees"}] * 3
-        for name, rows in {"precision": precision, "stability": stability}.items():
-            write(pa.Table.from_pylist(rows), tmp_path / name, {})
-        files = (tmp_path / "precision", tmp_path / "stability", batch(0, 0), *tables)
+        for name, rows in {"work_precision": precision, "stability": stability}.items():
+            write(as_table(name, rows), tmp_path / name, {})
+        files = (tmp_path / "work_precision", tmp_path / "stability", batch(0, 0), *tables)
         springblock("make", "accuracy", *files, "--output", tmp_path / "page.md")
         return (tmp_path / "page.md").read_text(encoding="utf-8")
 
@@ -77,7 +84,7 @@ def page(springblock, batch, tmp_path):
 
 
 def test_with_errors_at_full_size_the_page_gives_each_value_both_errors(page, tmp_path):
-    write(pa.Table.from_pylist(production_rows()), tmp_path / "production", {})
+    write(as_table("production", production_rows()), tmp_path / "production", {})
     text = page(tmp_path / "production")
     # t(29) = 2.045 times 10/30^0.5; 1.4 times a bias of 2/16
     assert "| decay length |  | 80.0 ± 3.7 ± 0.2 (blocks) |  |" in text
@@ -97,7 +104,7 @@ def test_the_page_begins_with_the_largest_errors(page, tmp_path):
     (worst,) = select(rows, scene="grooved", quantity="t_max", step=STEP)
     worst["ci_high"] *= 3.0
     worst["deviation"] *= 2.0
-    write(pa.Table.from_pylist(rows), tmp_path / "production", {})
+    write(as_table("production", rows), tmp_path / "production", {})
     opening = " ".join(page(tmp_path / "production").split("Written by")[0].split())
     largest = "0.44 % (static friction), 1.14 % (t_max), 0.44 % (t_avg), 0.44 % (decay length)"
     errors = "4.47 % (static friction), 8.94 % (t_max), 4.47 % (t_avg), 2.58 % (decay length)"

@@ -137,6 +137,28 @@ def test_other_files_are_refused(stopped, tmp_path):
             pull(checkpoint=file)
 
 
+@pytest.mark.parametrize(
+    "edit",
+    [
+        lambda arrays: arrays.pop("field_3"),
+        lambda arrays: arrays.pop("digest"),
+        lambda arrays: arrays.update(more=np.ones(3)),
+        lambda arrays: arrays.update(field_3=np.ones(1)),
+        lambda arrays: arrays.update(force_x=arrays["force_x"][:-1]),
+        lambda arrays: arrays["field_0"].__imul__(1.5),
+        lambda arrays: arrays.update(belongs=np.array("[]")),
+    ],
+)
+def test_an_edited_file_is_refused(stopped, edit):
+    file = stopped()
+    with np.load(file) as kept:
+        arrays = dict(kept)
+    edit(arrays)
+    np.savez(file, **arrays)
+    with pytest.raises(ValueError, match=r"run.npz is not a checkpoint, or damaged"):
+        pull(checkpoint=file)
+
+
 def test_it_is_written_once_per_interval(monkeypatch, tmp_path):
     kept = Checkpoint(tmp_path / "run.npz", 100.0, {}, written=1000.0)
     for now, due in ((1099.0, False), (1101.0, True)):

@@ -62,6 +62,12 @@ def test_it_holds_code_and_results_and_nothing_else(clone):
     assert set(names) == {*CODE, "CITATION.cff", CRATE, *results}
 
 
+def test_what_git_says_is_told(clone):
+    (clone / ".git/HEAD").unlink()
+    with pytest.raises(ValueError, match=r"study: git fails: fatal: not a git repository"):
+        packed(clone)
+
+
 def test_it_holds_an_untracked_configuration(clone):
     (clone / "mine.yaml").write_text("n_blocks: 24\n", encoding="utf-8")
     output, _ = packed(clone, "mine.yaml")

@@ -314,6 +314,11 @@ def test_a_scene_of_two_groups_keeps_the_fields_that_either_asks_for():
         ("n_blocks", 24.0, "n_blocks is not valid: 24.0 is not of type 'integer' .N, blocks"),
         ("scenes.flat.seeds", 10**9, "flat.seeds is not valid: 1000000000 is greater than"),
         ("figures.figure_7.n_p", 3, "figure_7.n_p is not valid: 3.*at least 6"),
+        (
+            "scenes.angles.material",
+            {"gamma": [1.0 + i for i in range(1000)], "pressure": [1.0 + i for i in range(1000)]},
+            r"scenes.angles: \d{7} scenes are too many; choose up to 20000",
+        ),
         ("stepp", 1e-8, "the configuration: unknown key 'stepp'"),
         ("sample_interval", 2.5e-8, "sample_interval must be a multiple of step"),
         (

@@ -20,6 +20,7 @@ from snakemake.settings.types import RerunTrigger
 from snakemake.utils import update_config
 from snakemake_interface_logger_plugins.common import LogEvent
 
+from springblock.cli import sentence
 from springblock.provenance import configuration_digest, digest
 from springblock.study import configuration as study
 from springblock.study import cost, record
@@ -41,8 +42,8 @@ def in_one_sentence():
     """Report why a study cannot be run, without a traceback."""
     try:
         yield
-    except (OSError, TypeError, ValueError) as error:
-        raise WorkflowError(f"The study cannot be run: {error}.") from None
+    except Exception as error:
+        raise WorkflowError(f"The study cannot be run: {sentence(error)}.") from None
 
 
 with in_one_sentence():

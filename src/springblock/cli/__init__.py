@@ -3,9 +3,14 @@
 import atexit
 import gc
 import os
+import signal
+import sys
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from pkgutil import resolve_name
+from textwrap import shorten
 
 import click
 
@@ -34,15 +39,39 @@ COMMANDS = {
 }
 
 
+_PACKAGE = str(Path(__file__).parents[1])  #: its own errors need no explanation
+
+
 @contextmanager
 def one_sentence() -> Iterator[None]:
-    """Report errors of the input in one sentence, without a traceback."""
+    """Report errors in one sentence."""
     try:
         yield
-    except click.exceptions.Exit:  # a RuntimeError, after --help
+    except (click.ClickException, click.exceptions.Exit):
         raise
-    except (OSError, TypeError, ValueError, RuntimeError) as error:
-        raise click.ClickException(str(error)) from error
+    except BrokenPipeError:  # nobody reads the output: end as other programs do
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise click.exceptions.Exit(128 + signal.SIGPIPE) from None
+    except Exception as error:
+        raise click.ClickException(sentence(error)) from error
+
+
+def sentence(error: Exception) -> str:
+    """Return the message of an error, with its type and the command if a library raised it.
+
+    With SPRINGBLOCK_TRACEBACK in the environment, print the traceback.
+    """
+    if os.environ.get("SPRINGBLOCK_TRACEBACK"):
+        traceback.print_exception(error)
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    is_raised = last.filename.startswith(_PACKAGE) and str(last.line).startswith("raise")
+    is_own = isinstance(error, OSError) or type(error).__module__.startswith("springblock")
+    if is_raised or is_own:
+        return str(error)
+    command = shorten(" ".join(sys.argv[1:]), 300)
+    if isinstance(error, MemoryError):
+        return f"{command}: there is not enough memory. {error}"
+    return f"{command}: {error!r}; SPRINGBLOCK_TRACEBACK=1 shows where this happened"
 
 
 class _LazyGroup(click.Group):
@@ -65,6 +94,8 @@ class _LazyGroup(click.Group):
         gc.set_threshold(100_000)  # imports leave no garbage,
         atexit.register(gc.freeze)  # so that a last collection at exit would be idle
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # idle threads would spin
+        os.environ["MPLBACKEND"] = "agg"  # that of a notebook's kernel may be unknown here
+        os.environ.pop("NUMBA_DISABLE_JIT", None)  # kernels have parts that are only compiled
         command: click.Command = resolve_name(COMMANDS[cmd_name])
         return command
 

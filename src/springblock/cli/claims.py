@@ -10,15 +10,15 @@ import click
 from springblock.claims import CLAIMS
 from springblock.claims.page import page
 from springblock.claims.table import SCHEMA, gathered, rows
-from springblock.cli.options import INPUT, OUTPUT, code_version
+from springblock.cli.options import INPUT, OUTPUT, code_version, load_as
 from springblock.files import write_text
 from springblock.io.parquet import load, refuse_mixture, rows_to_table, write
 from springblock.io.records import read_records
 from springblock.io.rows import Row
 
 
-def _rows(tables: Iterable[Path]) -> list[Row]:
-    return list(chain.from_iterable(load(table).to_pylist() for table in tables))
+def _rows(name: str, tables: Iterable[Path]) -> list[Row]:
+    return list(chain.from_iterable(load_as(name, table).to_pylist() for table in tables))
 
 
 _files = partial(click.option, type=INPUT, multiple=True)
@@ -49,9 +49,9 @@ def claims(
     refuse_mixture((file, load(file)) for file in (batches[0], *correlation, *correlation_length))
     evidence = gathered(
         read_records(batches, snapshots=True),
-        correlation=_rows(correlation),
-        correlation_length=_rows(correlation_length),
-        precision=_rows(work_precision),
+        correlation=_rows("correlation", correlation),
+        correlation_length=_rows("correlation_length", correlation_length),
+        precision=_rows("work_precision", work_precision),
     )
     table = rows(CLAIMS, evidence)
     origin = {"code_version": code_version("claims"), "configuration_digest": configuration}

@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
-from springblock.cli.options import INPUT, OUTPUT, scene_options, with_options
-from springblock.io.parquet import load, read, refuse_mixture
+from springblock.cli.options import INPUT, OUTPUT, load_as, scene_options, with_options
+from springblock.io.parquet import read, refuse_mixture
 from springblock.io.records import Record, read_records
 from springblock.io.schemas import CORRELATION, CORRELATION_LENGTH
 from springblock.plotting import drawing
@@ -42,6 +42,13 @@ def _realisations(declared: Declaration, batches: Paths) -> list[Any]:
     return list(scenes.values())
 
 
+def _tables(declared: Declaration, tables: Paths) -> list[Any]:
+    if len(tables) > len(declared.tables):
+        raise ValueError(f"{len(tables)} files given; give {', '.join(declared.tables)}")
+    named = zip(declared.tables, tables, strict=False)
+    return [load_as(name, table).to_pandas() for name, table in named]
+
+
 def _correlations(declared: Declaration, correlation: Path, lengths: Paths) -> list[Any]:
     tables = read([correlation], CORRELATION), read(lengths, CORRELATION_LENGTH)
     refuse_mixture(zip((correlation, lengths[0]), tables, strict=True))
@@ -54,7 +61,7 @@ _many = partial(_one, nargs=-1, required=True)
 _DATA: dict[str, tuple[list[Callable[..., Any]], Callable[..., list[Any]]]] = {
     "nothing": ([], lambda declared: []),
     "pattern": ([scene_options], lambda declared, scene: [scene.pattern]),
-    "tables": ([_many("tables")], lambda declared, tables: [load(t).to_pandas() for t in tables]),
+    "tables": ([_many("tables")], _tables),
     "realisations": ([_many("batches")], _realisations),
     "correlations": ([_one("correlation"), _many("lengths")], _correlations),
 }

@@ -6,7 +6,7 @@ from pkgutil import resolve_name
 import click
 
 from springblock.accuracy.conventions import COMPARISONS, SCENES
-from springblock.cli.options import INPUT, OUTPUT, code_version
+from springblock.cli.options import INPUT, OUTPUT, code_version, load_as
 from springblock.files import write_text
 from springblock.io.parquet import load, origin_of, read, rows_to_table, write
 from springblock.io.records import by_scene, read_records
@@ -15,15 +15,12 @@ from springblock.mechanism.surfaces import TABLES
 MEASURED = ["stability"]
 MEASURED += [f"{kind}-{scene}" for kind in (*COMPARISONS, "production") for scene in SCENES]
 MEASURED += [f"mechanism-{part}" for parts in TABLES.values() for part in parts]
+_ACCURACY = ("work_precision", "stability", "realisations", "production")
 #: Inputs of each name: description, smallest and largest number.
 INPUTS = {
     **dict.fromkeys(MEASURED, ("no inputs", 0, 0)),
     "collect": ("tables of equal columns", 1, None),
-    "accuracy": (
-        "the tables work_precision, stability, realisations and, if any, production",
-        3,
-        4,
-    ),
+    "accuracy": (f"the tables {', '.join(_ACCURACY)}, the last one if there is one", 3, 4),
     "mechanism": (f"the tables {', '.join(TABLES)}", len(TABLES), len(TABLES)),
     "beyond": ("batches of realisations", 1, None),
 }
@@ -93,7 +90,8 @@ def _page(name: str, files: tuple[Path, ...]) -> str:
     page = resolve_name(f"springblock.{name}.page:page")
     if name == "beyond":
         return page(by_scene(read_records(files)))
-    tables = [load(file) for file in files]
+    kinds = _ACCURACY if name == "accuracy" else TABLES
+    tables = [load_as(kind, file) for kind, file in zip(kinds, files, strict=False)]
     if name == "mechanism":
         return page(*(table.to_pandas() for table in tables))
     return page(*(table.to_pylist() for table in tables))

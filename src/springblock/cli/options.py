@@ -149,3 +149,11 @@ def code_version(step: str) -> str:
     context = click.get_current_context(silent=True)
     given = context.find_root().params.get("code") if context else None
     return f"{version('springblock')}+{given}" if given else provenance.code_version(step)
+
+
+def load_as(name: str, file: Path) -> Any:
+    """Read a table that must have the columns of its name."""
+    from springblock.io.parquet import load
+    from springblock.report.dictionary import kinds  # loads numba
+
+    return load(file, kinds()[name][1].names)

@@ -1,12 +1,14 @@
 """springblock sweep: ensembles for several constants and directions, without Snakemake."""
 
+import os
 import signal
 import sys
+import threading
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from functools import partial
 from itertools import product
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, parent_process
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -189,13 +191,20 @@ def _run(work: list[Job], jobs: int) -> None:
 
 
 def _end_when_terminated() -> None:
-    """Let a worker remove its temporary files when it is terminated."""
+    """Let a worker remove its temporary files when it is terminated, and end with its parent."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
 
     def end(*_: object) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would disturb the first
         sys.exit()
 
     signal.signal(signal.SIGTERM, end)
+
+
+def _end_with_parent() -> None:
+    if parent := parent_process():
+        parent.join()
+        os._exit(1)
 
 
 def _run_one(job: Job) -> int:

@@ -7,7 +7,7 @@ import json
 import math
 import re
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
@@ -186,20 +186,13 @@ class LawFile:
                         f"{', '.join([*more, *own])}"
                     )
 
-    def check(
-        self,
-        mu_static: float,
-        mu_dynamic: float,
-        step: float,
-        speeds: Sequence[float] = _TRIED,
-        state: Sequence[float] = (),
-    ) -> None:
-        """Refuse a law that fails at one of several speeds, in a state, or else the initial one."""
+    def check(self, mu_static: float, mu_dynamic: float, step: float, *where: float) -> None:
+        """Refuse a law that fails at one of several speeds, or `where`: a speed and a state."""
         if self.file is None:
             raise ValueError(f"the file of the law {self} is not available, only its name")
         known = {"mu_static": mu_static, "mu_dynamic": mu_dynamic, "step": step}
-        known |= self.constants | self.initial | dict(zip(self.initial, state, strict=False))
-        for speed in speeds:
+        known |= self.constants | self.initial | dict(zip(self.initial, where[1:], strict=False))
+        for speed in where[:1] or _TRIED:
             at = {**known, "speed": speed}
             mu = self._tried("friction", at)
             if not (_is_number(mu) and mu >= 0.0):

@@ -1,5 +1,7 @@
 """What the tables of a study hold: every column with its unit and its meaning."""
 
+from functools import cache
+
 import pyarrow as pa
 
 from springblock.io.rows import markdown_table
@@ -40,13 +42,14 @@ _COMMON = pa.schema([*SCENE, *SETUP])
 _BATCHES = "realisations/SCENE/batch-NUMBER"  #: file of the batches
 
 
-def page() -> str:
-    """Write the dictionary of all tables, in Markdown."""
+@cache
+def kinds() -> dict[str, tuple[str, pa.Schema]]:
+    """Return what a row is and the columns, by name of the table."""
     from springblock.accuracy import production, stability, work_precision
     from springblock.claims import table as claims
     from springblock.mechanism import tables as mechanism
 
-    kinds = {
+    return {
         "batches": ("a realisation, with its curves and maps", pa.schema([*BATCH, *SNAPSHOTS])),
         "realisations": ("a realisation", SUMMARY),
         "correlation": ("a distance along a kind of side", CORRELATION),
@@ -61,8 +64,12 @@ def page() -> str:
         ),
         "stability": ("a stiff or extreme case", stability.SCHEMA),
     }
+
+
+def page() -> str:
+    """Write the dictionary of all tables, in Markdown."""
     sections = []
-    for name, (row, schema) in kinds.items():
+    for name, (row, schema) in kinds().items():
         file = _BATCHES if name == "batches" else f"tables/{name}"
         sections.append(_section(name, file, row, schema))
     return _PAGE.format(common=_table(_COMMON), sections="\n\n".join(sections))

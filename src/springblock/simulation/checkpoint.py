@@ -53,11 +53,12 @@ class Checkpoint:
     def save(self, motion: Motion, snapshots: Sequence[Array]) -> None:
         """Write the state of a run between two samples, whole or not at all."""
         arrays: dict[str, Any] = {
-            "belongs": json.dumps(self.belongs),
+            "belongs": np.array(json.dumps(self.belongs)),
             "snapshots": np.array(snapshots),
             **motion.recorded()._asdict(),
             **{f"field_{i}": values for i, values in enumerate(_fields(motion.state))},
         }
+        arrays["digest"] = _digest(arrays)
         with whole_file(self.path) as partial, partial.open("wb") as file:
             np.savez(file, **arrays)
         self.written = monotonic()
@@ -71,6 +72,8 @@ class Checkpoint:
             return []
         try:
             kept = read_arrays(self.path)
+            if kept.pop("digest") != _digest(kept):
+                raise ValueError
             belongs = json.loads(str(kept["belongs"]))
         except (KeyError, ValueError):
             raise ValueError(
@@ -86,6 +89,14 @@ class Checkpoint:
         taken = Samples(*(kept[name] for name in Samples._fields))
         motion.samples, motion.record = len(taken.force_x) - 1, [taken]
         return list(kept["snapshots"])
+
+
+def _digest(arrays: dict[str, NDArray[Any]]) -> str:
+    """Return the digest of arrays: an edited file may still be a valid one of its type."""
+    content = hashlib.sha256()
+    for name, values in sorted(arrays.items()):
+        content.update(f"{name} {values.dtype} {values.shape}".encode() + values.tobytes())
+    return content.hexdigest()
 
 
 def _fields(state: State) -> list[NDArray[Any]]:

@@ -73,15 +73,15 @@ class Motion:
     def _failure(self, law: FromFile) -> str:
         """Return why a law from a file failed, as Python reports it."""
         given: Any = self.setup.material.law
-        row, speed, *state = law.failed.tolist()
+        row, *where = law.failed.tolist()
         blocks = self.state.blocks
         at = int(row) % blocks.static.size  # at a release any block
         mu = (float(field.flat[at]) / law.load for field in (blocks.static, blocks.dynamic))
         try:
-            given.check(*mu, self.setup.step, [speed], state)
+            given.check(*mu, self.setup.step, *where)
         except ValueError as error:
             return str(error)
-        return f"{given.file} fails at {speed} m/s in the state {state}, but not in Python"
+        return f"{given.file} fails at {where[0]} m/s, but not in Python"
 
     def append(self, taken: Samples) -> None:
         """Append samples that lead to the current state."""

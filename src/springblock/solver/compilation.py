@@ -60,15 +60,12 @@ with _setting("CPU_FEATURES", _FEATURES):
     njit(lambda: None)
 
 
-#: Settings that differ between processes, or nodes, which may share their machine code.
-_WITHOUT_EFFECT = {"CACHE_DIR", "NUMBA_DEFAULT_NUM_THREADS", "NUMBA_NUM_THREADS"}
-
-
 def _digest() -> str:
     """Return the digest of sources, numba's release and settings, and processor; 16 digits."""
     name = numba.config.CPU_NAME or llvmlite.binding.get_host_cpu_name()
-    known = sorted(vars(numba.config).items())
-    settings = [each for each in known if each[0].isupper() and each[0] not in _WITHOUT_EFFECT]
+    of_place = ("CACHE_DIR", "NUMBA_DEFAULT_NUM_THREADS", "NUMBA_NUM_THREADS")
+    known = vars(numba.config).items()
+    settings = sorted((key, value) for key, value in known if key.isupper() and key not in of_place)
     content = hashlib.sha256(repr((numba.__version__, name, _FEATURES, settings)).encode())
     for file in sorted(Path(__file__).parent.glob("*.py")):
         content.update(file.name.encode() + file.read_bytes())

@@ -72,7 +72,9 @@ def _code(study: Path) -> list[str]:
     """Return the tracked files of a clone, without archives."""
     if not (study / ".git").exists():
         raise ValueError(f"{study} is not a clone of the study")
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=study, capture_output=True, check=True)
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=study, capture_output=True)
+    if listed.returncode:
+        raise ValueError(f"{study}: git fails: {listed.stderr.decode().partition(chr(10))[0]}")
     names = listed.stdout.decode().split("\0")
     return [name for name in names if (study / name).is_file() and not name.endswith(".zip")]
 

@@ -1,5 +1,6 @@
 """Configuration of a study: checks, and expansion into scenes and batches of seeds."""
 
+import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -29,6 +30,8 @@ _LEVELS = {"flat": 0, "pillars": 1, "grooves": 2}
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator, type_checker=jsonschema.Draft4Validator.TYPE_CHECKER
 )
+#: Largest number of scenes: a minute until the first job.
+_MOST_SCENES = 20_000
 #: Least number of realisations for the interval of a correlation.
 _CORRELATED = 3
 
@@ -209,8 +212,9 @@ def ensembles(configuration: Configuration) -> dict[str, list[Ensemble]]:
     masks: dict[str, BlockMap] = {}
     for group, grids in configuration["scenes"].items():
         with _named(f"scenes.{group}"):
-            parts = grids if isinstance(grids, list) else [grids or {}]
-            groups[group] = [each for grid in parts for each in _expand(configuration, grid)]
+            groups[group] = [
+                each for grid in _listed(grids) for each in _expand(configuration, grid)
+            ]
             for each in groups[group]:
                 _refuse_other_name(each.scene.mask, masks)
                 known = largest.get(each.scene, each)
@@ -259,9 +263,13 @@ def for_figures(
     }
 
 
-def _expand(configuration: Configuration, grid: Mapping[str, Any]) -> Iterator[Ensemble]:
+def _expand(configuration: Configuration, grid: Mapping[str, Any] | None) -> Iterator[Ensemble]:
     if not grid:
         return
+    axes = {**grid, **grid.get("material", {})}  # seeds go with n_p, and snapshots with each scene
+    counts = [len(_listed(axes[key])) for key in axes.keys() - {"seeds", "snapshot_times"}]
+    if (number := math.prod(counts)) > _MOST_SCENES:
+        raise ValueError(f"{number} scenes are too many; choose up to {_MOST_SCENES} in a grid")
     first, duration = configuration["first_seed"], grid.get("duration")
     kept = tuple(grid.get("snapshot_times", ()))
     n_p, n_s, *deeper = (grid.get(key, [0]) for key in LENGTHS)  # a flat surface has none
